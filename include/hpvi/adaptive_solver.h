@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_adaptive_solver_h
+#define hpvi_adaptive_solver_h
+
+#include <hpvi/energies.h>
+#include <hpvi/mprgp.h>
+#include <hpvi/numerical_failure.h>
+#include <hpvi/residual_estimator.h>
+#include <hpvi/solution.h>
+
+#include <functional>
+#include <memory>
+
+namespace hpvi
+{
+/** Seconds spent in each stage of one step. */
+struct StageTimes
+{
+  double setup = 0;     ///< unknowns, constraints, contact space
+  double assemble = 0;  ///< A, f, B
+  double factor = 0;    ///< analysis, factorisation, reduction to the contact boundary
+  double qp = 0;        ///< the quadratic program
+  double recover = 0;   ///< u from the multiplier, energies
+  double estimate = 0;  ///< residual indicator
+  double decide = 0;    ///< smoothness, marking: the decision that led to this step
+  double refine = 0;    ///< bisection that led to this step
+
+  double total() const
+  {
+    return setup + assemble + factor + qp + recover + estimate + decide + refine;
+  }
+};
+
+/** Everything known after one SOLVE, ESTIMATE; references live until the next step begins. */
+template <int dim>
+struct Step
+{
+  unsigned int number; ///< from 1
+  const Solution<dim> &solution;
+  const ErrorEstimate &estimate;
+  Energies energies;
+  QpReport qp;                 ///< all zero without multipliers
+  double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
+  double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
+  StageTimes times;
+  double seconds = 0; ///< since the start of the run, output excluded
+};
+
+/**
+ * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene. Owns the stages; prints
+ * nothing and writes no file: each finished step goes to a callback.
+ */
+template <int dim>
+class AdaptiveSolver
+{
+public:
+  explicit AdaptiveSolver(const Scene<dim> &scene);
+  ~AdaptiveSolver();
+
+  /** Runs until a limit of the scene is reached. Throws NumericalFailure. */
+  void run(const std::function<void(const Step<dim> &)> &finished_step);
+
+private:
+  struct Stages;
+  std::unique_ptr<Stages> stages;
+};
+} // namespace hpvi
+
+#endif

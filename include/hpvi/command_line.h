@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_command_line_h
+#define hpvi_command_line_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** What the user asked for. */
+struct CommandLine
+{
+  std::string scene_file;       ///< empty: none named
+  std::string output_directory; ///< empty: output/<scene>
+  /** `--set "Section/Entry=value"` in the order given: path of the entry, value. */
+  std::vector<std::pair<std::string, std::string>> overrides;
+  bool validate = false;
+  bool print_parameters = false;
+  bool help = false;
+  bool version = false;
+};
+
+/**
+ * Read the arguments of main(). Throws InputError with one line where they make no sense, in
+ * particular where a scene is needed and none is named.
+ */
+CommandLine parse(int argc, const char *const argv[]);
+
+/** The text of `--help`. */
+std::string usage();
+} // namespace hpvi
+
+#endif

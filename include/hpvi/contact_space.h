@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_contact_space_h
+#define hpvi_contact_space_h
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/lac/vector.h>
+#include <hpvi/displacement_space.h>
+#include <hpvi/quadratic_program.h>
+
+#include <map>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * One face of the contact boundary. Its multiplier unknowns are the values of lambda_N at the
+ * p - 1 Gauss points, in the order of the face's own reference coordinate.
+ */
+template <int dim>
+struct ContactFace
+{
+  typename dealii::DoFHandler<dim>::active_cell_iterator cell;
+  unsigned int face_no;
+  unsigned int degree;                ///< p_K of the cell
+  const BoundaryCondition<dim> *condition;
+  dealii::Tensor<1, dim> normal;      ///< outer unit normal n
+  dealii::Tensor<1, dim> tangent;     ///< t = (-n_y, n_x)
+  unsigned int first_multiplier;      ///< index of the first unknown
+  unsigned int n_multipliers;         ///< p - 1, or 0 where g vanishes on the whole face
+
+  /** Friction bound g(x), zero where the boundary names none. */
+  double friction_bound(const dealii::Point<dim> &x) const;
+
+  /** The point at reference coordinate s in [0,1], from vertex 0 of the face to vertex 1. */
+  dealii::Point<dim> point(double s) const;
+
+  double length() const; ///< of the straight edge
+};
+
+/**
+ * The multiplier space W_N of (3.58): on each contact face where g does not vanish the polynomials
+ * of degree p - 2, discontinuous from face to face, Lagrange basis at the p - 1 Gauss points; with
+ * the discrete set (3.68), |z_i| <= 1.
+ */
+template <int dim>
+class ContactSpace
+{
+public:
+  ContactSpace(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space);
+
+  /** Faces along the boundary: one contact boundary after the other, each sorted by position. */
+  const std::vector<ContactFace<dim>> &faces() const;
+
+  unsigned int n_multipliers() const;
+
+  /** -1 <= z_i <= 1. */
+  FeasibleSet feasible_set() const;
+
+  /**
+   * Values of the multiplier's Lagrange basis on @p face at reference coordinates @p s in [0,1].
+   */
+  std::vector<double> basis_values(const ContactFace<dim> &face, double s) const;
+
+  /** lambda_N on @p face at s in [0,1]; zero on a face without multipliers. Dimensionless. */
+  double value(const ContactFace<dim> &face, const dealii::Vector<double> &lambda, double s) const;
+
+private:
+  void number_multipliers();
+
+  std::vector<ContactFace<dim>> contact_faces;
+  std::map<unsigned int, dealii::FE_DGQArbitraryNodes<dim - 1>> elements; ///< by p - 1
+  unsigned int n_unknowns = 0;
+};
+} // namespace hpvi
+
+#endif

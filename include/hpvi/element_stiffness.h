@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_element_stiffness_h
+#define hpvi_element_stiffness_h
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/scene.h>
+#include <hpvi/shape_tables.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * The stiffness matrix of one element in deal.II's local numbering, split into unknowns b on its
+ * boundary and i in its interior, and its static condensation.
+ */
+struct ElementStiffness
+{
+  dealii::FullMatrix<double> K;         ///< a(v_j, v_i), n x n
+  dealii::FullMatrix<double> condensed; ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
+  dealii::FullMatrix<double> extension; ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
+  dealii::LAPACKFullMatrix<double> K_ii; ///< factored; empty unless loads act in the interior
+};
+
+/**
+ * Element matrices by congruence class. In two dimensions a(.,.) does not change when a cell is
+ * moved or scaled, so an adaptive mesh has a handful of different element matrices. A class is
+ * kept as long as a system uses it.
+ */
+template <int dim>
+class ElementStiffnesses
+{
+public:
+  ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+
+  std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree);
+
+private:
+  using Key = std::vector<long>;
+  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
+  std::shared_ptr<ElementStiffness> condense(dealii::FullMatrix<double> &&K,
+                                             unsigned int n_boundary) const;
+
+  const Material material;
+  const bool interior_loads;
+  const ShapeTables<dim> &tables;
+  std::map<Key, std::weak_ptr<const ElementStiffness>> known;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_refinement_strategy_h
+#define hpvi_refinement_strategy_h
+
+#include <hpvi/legendre_smoothness.h>
+#include <hpvi/residual_estimator.h>
+
+#include <functional>
+#include <vector>
+
+namespace hpvi
+{
+/** What to do with each cell, by active cell index. */
+struct Refinement
+{
+  std::vector<bool> bisect;
+  Degrees degrees; ///< after raising p; children of bisected cells inherit it
+
+  bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
+};
+
+/**
+ * MARK of the methods of Chapter 5:
+ *
+ * | method | rule |
+ * |---|---|
+ * | hup | bisect every cell |
+ * | hap | bisect where `eta_K > hap_threshold * mean(eta_K)` |
+ * | pu | raise p everywhere |
+ * | hpa1 | by falling eta_K: bisect the first fraction, raise p on the next |
+ * | hpa2 | the fraction with the largest eta_K: raise p where `b > hpa2_decay`, else bisect |
+ *
+ * Fractions of n cells are rounded up; cells of equal eta_K come in the order of their index. A
+ * cell of maximum degree is bisected where its p would rise, except by pu, which then has nothing
+ * left to do.
+ */
+Refinement mark(const Adaptivity &adaptivity,
+                const Degrees &degrees,
+                const ErrorEstimate &estimate,
+                const std::function<double(unsigned int cell)> &decay_rate);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_scene_h
+#define hpvi_scene_h
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Bad input: what() is one line with file, entry, value and remedy. The program ends with exit
+ * status 1.
+ */
+class InputError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** Which plane problem Section 2.1.3 of the thesis reduces Hooke's law to. */
+enum class PlaneModel
+{
+  stress,
+  strain
+};
+
+/** Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). */
+struct Material
+{
+  double young;      ///< Young's modulus E > 0, a stress
+  double poisson;    ///< Poisson's ratio nu in (-1, 1/2), dimensionless
+  PlaneModel plane;  ///< used in two dimensions only
+
+  /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
+  double mu() const;
+
+  /**
+   * First Lame parameter `E nu/((1+nu)(1-2nu))`; plane stress replaces it by
+   * `2 lambda mu/(lambda + 2 mu)`. @p dim selects whether the plane model applies.
+   */
+  double lambda(int dim) const;
+};
+
+enum class Shape
+{
+  box,
+  quadrilateral
+};
+
+/** The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, then graded. */
+template <int dim>
+struct Geometry
+{
+  Shape shape;
+  /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
+  std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell> corners;
+  std::array<unsigned int, dim> subdivisions;
+  /** Cells that touch one of these points are bisected @p grading_levels times. */
+  std::vector<dealii::Point<dim>> graded_towards;
+  unsigned int grading_levels;
+};
+
+/** Everything that a scene says about one named part of the boundary. */
+template <int dim>
+struct BoundaryCondition
+{
+  using Expression = std::shared_ptr<const dealii::Function<dim>>;
+
+  std::string name;                        ///< left, right, bottom, top, front, back
+  dealii::types::boundary_id id;           ///< deal.II's number: the index into Scene::boundaries
+  std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
+  std::array<Expression, dim> traction;     ///< components of G [stress]; null: zero
+  bool bilateral_contact;                   ///< u_n = 0
+  Expression friction_bound;                ///< Tresca's g(x) >= 0 [stress]; null: no friction
+
+  bool has_displacement() const; ///< is any component prescribed?
+  bool has_traction() const;     ///< is any component given?
+};
+
+/** The methods of Chapter 5. */
+enum class Method
+{
+  hup2,
+  hup3,
+  hup4,
+  hap2,
+  hap3,
+  hap4,
+  pu,
+  hpa1,
+  hpa2
+};
+
+/** How the decay rate of (4.81) is read from the coefficients; doc/chapter5.md compares the two. */
+enum class SmoothnessReading
+{
+  plain, ///< one fit of ln|c_ij| per component, b the smaller slope
+  joint  ///< one fit of ln(sqrt((2i+1)(2j+1)) |(c^1_ij, c^2_ij)|)
+};
+
+/** The rule of Section 4.3 and Chapter 5 with its numbers. */
+struct Adaptivity
+{
+  Method method;
+  SmoothnessReading reading;
+  unsigned int start_degree;   ///< p >= 2 at the contact boundary
+  unsigned int maximum_degree; ///< cells of this degree are bisected where p would rise
+  double hap_threshold;        ///< hap: bisect where eta_K > threshold * mean(eta_K)
+  double hpa1_bisected;        ///< hpa1: fraction of elements bisected
+  double hpa1_raised;          ///< hpa1: fraction of elements, next in order, whose p is raised
+  double hpa2_marked;          ///< hpa2: fraction of elements refined
+  double hpa2_decay;           ///< hpa2: raise p where b > this, else bisect
+  unsigned int maximum_steps;
+  unsigned int maximum_unknowns; ///< no step is started after one with more dofs_free
+};
+
+/** How the quadratic program is solved. */
+struct SolverSettings
+{
+  double qp_tolerance;                     ///< |g^P| <= tolerance * max(|d|, |S z_0|)
+  unsigned int qp_maximum_multiplications; ///< more products with S than this: exit status 2
+  bool diagonal_scaling;
+  bool condition_number; ///< report cond(S), raw and scaled: costs an eigenvalue computation
+};
+
+/** Which files are written besides the tables. */
+struct OutputSettings
+{
+  bool vtu;
+  bool mesh_picture;
+  bool contact;
+};
+
+/**
+ * A checked, immutable description of one problem, read from a parameter file. Later stages take
+ * it by const reference and never see the parameter file itself.
+ */
+template <int dim>
+struct Scene
+{
+  using Expression = typename BoundaryCondition<dim>::Expression;
+
+  std::string file;  ///< as the user named it, for messages
+  std::string name;  ///< file name without directory and suffix
+  std::string title; ///< one line for humans
+  std::string length_unit;
+  std::string stress_unit;
+
+  Geometry<dim> geometry;
+  Material material;
+  std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
+  std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
+  Adaptivity adaptivity;
+  SolverSettings solver;
+  OutputSettings output;
+
+  std::string effective_parameters; ///< the text of scene.prm: every entry with its value
+
+  bool has_body_force() const;
+  bool has_contact() const;
+  bool has_friction() const; ///< does any contact boundary name a friction bound?
+
+  /**
+   * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
+   * Throws InputError with one line (file, entry, value, remedy).
+   */
+  static Scene read(const std::string &file,
+                    const std::vector<std::pair<std::string, std::string>> &overrides = {});
+
+  /** All entries with defaults and documentation, as a parameter file. */
+  static std::string default_parameters();
+};
+} // namespace hpvi
+
+#endif

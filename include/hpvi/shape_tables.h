@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_shape_tables_h
+#define hpvi_shape_tables_h
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * The scalar FE_Q(p) tabulated at Gauss points of the reference cell [0,1]^dim or of one of its
+ * faces, in deal.II's numbering of shape functions. Rows of @p derivatives come point by point;
+ * each point has its dim first derivatives and, where asked for, dim^2 second derivatives.
+ */
+template <int dim>
+struct ShapeTable
+{
+  unsigned int n_shapes;
+  unsigned int rows_per_point; ///< dim, or dim + dim^2 with second derivatives
+  std::vector<dealii::Point<dim>> points;
+  std::vector<double> weights;            ///< of the quadrature on the cell or the face
+  dealii::FullMatrix<double> values;      ///< n_points x n_shapes
+  dealii::FullMatrix<double> derivatives; ///< (n_points rows_per_point) x n_shapes
+};
+
+/** How deal.II numbers the unknowns of FESystem(FE_Q(p), dim) on one cell. */
+struct LocalNumbering
+{
+  unsigned int n_boundary; ///< unknowns on vertices and faces; they come first
+  std::vector<unsigned int> component; ///< of each unknown
+  std::vector<unsigned int> shape;     ///< scalar shape function of each unknown
+};
+
+/**
+ * All tables that a run needs, each computed when first asked for. They depend on degree, face and
+ * number of points only, never on a cell; so cells cost one small matrix product where deal.II's
+ * FEValues would transform every shape function at every point.
+ */
+template <int dim>
+class ShapeTables
+{
+public:
+  /** (n_gauss)^dim points in the cell, with second derivatives. */
+  const ShapeTable<dim> &cell(unsigned int degree, unsigned int n_gauss) const;
+
+  /** (n_gauss)^(dim-1) points on face @p face_no. */
+  const ShapeTable<dim> &
+  face(unsigned int degree, unsigned int face_no, unsigned int n_gauss) const;
+
+  /** The same on the part of a face that its child @p subface_no covers. */
+  const ShapeTable<dim> &subface(unsigned int degree,
+                                 unsigned int face_no,
+                                 unsigned int subface_no,
+                                 unsigned int n_gauss) const;
+
+  const LocalNumbering &numbering(unsigned int degree) const;
+
+private:
+  mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
+  mutable std::map<unsigned int, LocalNumbering> numberings;
+};
+
+/**
+ * Apply @p table (rows x n_shapes) to vector-valued coefficients stored component by component:
+ * result[c * rows + r] = sum_i table(r, i) coefficients[c * n_shapes + i].
+ */
+std::vector<double> evaluate(const dealii::FullMatrix<double> &table,
+                             const std::vector<double> &coefficients);
+
+/** Values of scalar FE_Q(p), in deal.II's numbering, at @p point of the reference cell. */
+template <int dim>
+std::vector<double> shape_values(unsigned int degree, const dealii::Point<dim> &point);
+
+/** The d-linear map from the reference cell to a cell with straight edges. */
+template <int dim>
+class CellMap
+{
+public:
+  using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
+
+  explicit CellMap(const Vertices &vertices);
+
+  const Vertices &vertices() const; ///< in deal.II's order
+
+  /** Is the map affine, so that every derivative of it is constant? */
+  bool is_affine() const;
+
+  dealii::Point<dim> point(const dealii::Point<dim> &reference) const;
+
+  /** J_ij = d x_i / d xi_j. */
+  dealii::Tensor<2, dim> jacobian(const dealii::Point<dim> &reference) const;
+
+  /** H_ijk = d^2 x_i / (d xi_j d xi_k). */
+  dealii::Tensor<3, dim> hessian(const dealii::Point<dim> &reference) const;
+
+private:
+  Vertices corners;
+  bool affine;
+  dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
+};
+
+/** The map of a triangulation's cell. */
+template <int dim, class CellIterator>
+CellMap<dim> map_of(const CellIterator &cell)
+{
+  typename CellMap<dim>::Vertices vertices;
+  for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
+    vertices[v] = cell->vertex(v);
+  return CellMap<dim>(vertices);
+}
+} // namespace hpvi
+
+#endif

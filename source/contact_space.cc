@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <hpvi/contact_space.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Does g vanish at every point where an integral over the face would ask for it? */
+template <int dim>
+bool friction_vanishes(const ContactFace<dim> &face)
+{
+  if (face.condition->friction_bound == nullptr)
+    return true;
+  const QGauss<1> gauss(face.degree + 1);
+  for (const Point<1> &s : gauss.get_points())
+    if (face.friction_bound(face.point(s[0])) != 0.)
+      return false;
+  return true;
+}
+
+template <int dim>
+ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                           const unsigned int face_no,
+                           const unsigned int degree,
+                           const BoundaryCondition<dim> &condition)
+{
+  static_assert(dim == 2, "a straight contact edge");
+  const auto edge = cell->face(face_no);
+  Tensor<1, dim> along = edge->vertex(1) - edge->vertex(0);
+  along /= along.norm();
+  Tensor<1, dim> normal = cross_product_2d(along);
+  if (normal * (edge->center() - cell->center()) < 0)
+    normal = -normal;
+  return {cell, face_no, degree, &condition, normal, -cross_product_2d(normal), 0, 0};
+}
+} // namespace
+
+template <int dim>
+double ContactFace<dim>::friction_bound(const Point<dim> &x) const
+{
+  return condition->friction_bound ? condition->friction_bound->value(x) : 0.;
+}
+
+template <int dim>
+Point<dim> ContactFace<dim>::point(const double s) const
+{
+  const auto edge = cell->face(face_no);
+  return edge->vertex(0) + s * (edge->vertex(1) - edge->vertex(0));
+}
+
+template <int dim>
+double ContactFace<dim>::length() const
+{
+  return cell->face(face_no)->diameter();
+}
+
+template <int dim>
+ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
+                                const DisplacementSpace<dim> &displacement_space)
+{
+  if (!scene.has_contact())
+    return;
+  for (const auto &cell : displacement_space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned() && cell->at_boundary())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+        {
+          const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
+          if (condition.bilateral_contact)
+            contact_faces.push_back(
+              make_face(cell, f, displacement_space.degrees()[cell->active_cell_index()],
+                        condition));
+        }
+
+  std::stable_sort(contact_faces.begin(), contact_faces.end(),
+                   [](const ContactFace<dim> &a, const ContactFace<dim> &b)
+                   {
+                     if (a.condition->id != b.condition->id)
+                       return a.condition->id < b.condition->id;
+                     return a.tangent * (b.point(0.5) - a.point(0.5)) > 0;
+                   });
+  number_multipliers();
+}
+
+template <int dim>
+void ContactSpace<dim>::number_multipliers()
+{
+  for (ContactFace<dim> &face : contact_faces)
+  {
+    face.first_multiplier = n_unknowns;
+    face.n_multipliers = friction_vanishes(face) ? 0 : face.degree - 1;
+    n_unknowns += face.n_multipliers;
+    if (face.n_multipliers > 0)
+      elements.try_emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));
+  }
+}
+
+template <int dim>
+const std::vector<ContactFace<dim>> &ContactSpace<dim>::faces() const
+{
+  return contact_faces;
+}
+
+template <int dim>
+unsigned int ContactSpace<dim>::n_multipliers() const
+{
+  return n_unknowns;
+}
+
+template <int dim>
+FeasibleSet ContactSpace<dim>::feasible_set() const
+{
+  Vector<double> lower(n_unknowns), upper(n_unknowns);
+  lower = -1.;
+  upper = 1.;
+  return {lower, upper};
+}
+
+template <int dim>
+std::vector<double> ContactSpace<dim>::basis_values(const ContactFace<dim> &face,
+                                                    const double s) const
+{
+  std::vector<double> values(face.n_multipliers);
+  if (face.n_multipliers > 0)
+  {
+    const FE_DGQArbitraryNodes<dim - 1> &element = elements.at(face.n_multipliers);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = element.shape_value(i, Point<dim - 1>(s));
+  }
+  return values;
+}
+
+template <int dim>
+double ContactSpace<dim>::value(const ContactFace<dim> &face,
+                                const Vector<double> &lambda,
+                                const double s) const
+{
+  const std::vector<double> basis = basis_values(face, s);
+  double sum = 0;
+  for (unsigned int i = 0; i < basis.size(); ++i)
+    sum += basis[i] * lambda[face.first_multiplier + i];
+  return sum;
+}
+
+template struct ContactFace<2>;
+template class ContactSpace<2>;
+} // namespace hpvi

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/element_stiffness.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
+template <int dim>
+std::vector<long> congruence_class(const typename CellMap<dim>::Vertices &vertices,
+                                   const unsigned int degree)
+{
+  double size = 1.;
+  if (dim == 2)
+  {
+    size = 0;
+    for (const Point<dim> &v : vertices)
+      size = std::max(size, (v - vertices[0]).norm());
+  }
+  std::vector<long> key{degree};
+  for (const Point<dim> &v : vertices)
+    for (unsigned int d = 0; d < dim; ++d)
+      key.push_back(std::lround((v[d] - vertices[0][d]) / size * 1e11));
+  return key;
+}
+
+/** Matrices P_ab = int d_a phi_i d_b phi_j over the cell, for all pairs of directions. */
+template <int dim>
+std::array<std::array<FullMatrix<double>, dim>, dim>
+gradient_products(const CellMap<dim> &map, const ShapeTable<dim> &table)
+{
+  const unsigned int n_points = table.points.size(), n = table.n_shapes;
+  std::array<FullMatrix<double>, dim> G;
+  for (auto &g : G)
+    g.reinit(n_points, n);
+  for (unsigned int q = 0; q < n_points; ++q)
+  {
+    const Tensor<2, dim> J = map.jacobian(table.points[q]);
+    const Tensor<2, dim> inverse = invert(J);
+    const double weight = std::sqrt(table.weights[q] * std::abs(determinant(J)));
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int r = 0; r < dim; ++r)
+          G[a](q, i) +=
+            weight * inverse[r][a] * table.derivatives(q * table.rows_per_point + r, i);
+  }
+  std::array<std::array<FullMatrix<double>, dim>, dim> P;
+  for (unsigned int a = 0; a < dim; ++a)
+    for (unsigned int b = 0; b < dim; ++b)
+    {
+      P[a][b].reinit(n, n);
+      G[a].Tmmult(P[a][b], G[b]);
+    }
+  return P;
+}
+} // namespace
+
+template <int dim>
+ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene,
+                                            const ShapeTables<dim> &tables)
+    : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
+{
+}
+
+template <int dim>
+FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
+                                                      const unsigned int degree) const
+{
+  const auto P = gradient_products(map, tables.cell(degree, degree + 1));
+  const LocalNumbering &numbering = tables.numbering(degree);
+  const double lambda = material.lambda(dim), mu = material.mu();
+  const unsigned int n = numbering.shape.size();
+  FullMatrix<double> K(n, n);
+  for (unsigned int row = 0; row < n; ++row)
+    for (unsigned int column = 0; column < n; ++column)
+    {
+      const unsigned int i = numbering.shape[row], c = numbering.component[row];
+      const unsigned int j = numbering.shape[column], d = numbering.component[column];
+      double sum = lambda * P[c][d](i, j) + mu * P[d][c](i, j);
+      for (unsigned int a = 0; c == d && a < dim; ++a)
+        sum += mu * P[a][a](i, j);
+      K(row, column) = sum;
+    }
+  return K;
+}
+
+template <int dim>
+std::shared_ptr<ElementStiffness>
+ElementStiffnesses<dim>::condense(FullMatrix<double> &&K, const unsigned int n_boundary) const
+{
+  auto element = std::make_shared<ElementStiffness>();
+  const unsigned int n_interior = K.m() - n_boundary;
+  element->condensed.reinit(n_boundary, n_boundary);
+  element->condensed.fill(K, 0, 0, 0, 0);
+  if (n_interior > 0)
+  {
+    LAPACKFullMatrix<double> K_ii(n_interior), K_ib(n_interior, n_boundary);
+    for (unsigned int i = 0; i < n_interior; ++i)
+    {
+      for (unsigned int j = 0; j < n_interior; ++j)
+        K_ii(i, j) = K(n_boundary + i, n_boundary + j);
+      for (unsigned int j = 0; j < n_boundary; ++j)
+        K_ib(i, j) = -K(n_boundary + i, j);
+    }
+    K_ii.set_property(LAPACKSupport::symmetric);
+    K_ii.compute_cholesky_factorization();
+    K_ii.solve(K_ib);
+    element->extension.reinit(n_interior, n_boundary);
+    element->extension = K_ib;
+    FullMatrix<double> K_bi(n_boundary, n_interior);
+    K_bi.fill(K, 0, 0, 0, n_boundary);
+    K_bi.mmult(element->condensed, element->extension, /*adding=*/true);
+    if (interior_loads)
+      element->K_ii = K_ii;
+  }
+  element->K = std::move(K);
+  return element;
+}
+
+template <int dim>
+std::shared_ptr<const ElementStiffness>
+ElementStiffnesses<dim>::get(const CellMap<dim> &map, const unsigned int degree)
+{
+  auto &entry = known[congruence_class<dim>(map.vertices(), degree)];
+  std::shared_ptr<const ElementStiffness> element = entry.lock();
+  if (!element)
+  {
+    element = condense(stiffness(map, degree), tables.numbering(degree).n_boundary);
+    entry = element;
+  }
+  return element;
+}
+
+template class ElementStiffnesses<2>;
+} // namespace hpvi

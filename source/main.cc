@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptive_solver.h>
+#include <hpvi/command_line.h>
+#include <hpvi/output.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+using namespace hpvi;
+
+constexpr int dim = 2;
+
+std::string version_line()
+{
+#ifdef DEBUG
+  const std::string build = "Debug";
+#else
+  const std::string build = "Release";
+#endif
+  return "hpvi " HPVI_VERSION " (" + build + " build), deal.II " DEAL_II_PACKAGE_VERSION;
+}
+
+/** The one line for stderr. What deal.II's exceptions say in what() fills a page. */
+std::string failure_line(const std::exception &error)
+{
+  if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error))
+    return error.what();
+  std::ostringstream text;
+  if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
+    dealii_error->print_info(text);
+  else
+    text << error.what();
+  std::istringstream words(text.str());
+  std::string word, line = "hpvi: internal error:";
+  while (words >> word)
+    line += " " + word;
+  return line;
+}
+
+// ---------------------------------------------------------------- what a run prints
+
+void print_table_head()
+{
+  std::cout << std::setw(4) << "step" << std::setw(10) << "elements" << std::setw(11) << "dofs_free"
+            << std::setw(12) << "multipliers" << std::setw(6) << "p_min" << std::setw(6) << "p_max"
+            << std::setw(12) << "estimate" << std::setw(12) << "slack" << std::setw(13)
+            << "qp_products" << std::setw(10) << "seconds" << std::endl;
+}
+
+void print_row(const Step<dim> &step)
+{
+  const DisplacementSpace<dim> &space = step.solution.displacement_space;
+  const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
+  std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
+            << std::setw(11) << space.n_free_dofs() << std::setw(12)
+            << step.solution.contact_space.n_multipliers() << std::setw(6) << *p_min << std::setw(6)
+            << *p_max << std::scientific << std::setprecision(3) << std::setw(12)
+            << step.estimate.total() << std::setw(12) << step.energies.slack << std::setw(13)
+            << step.qp.multiplications << std::fixed << std::setprecision(2) << std::setw(10)
+            << step.seconds << std::endl;
+}
+
+/** Time per stage, summed over the steps. */
+class StageTable
+{
+public:
+  void add(const StageTimes &times)
+  {
+    const double seconds[] = {times.setup,   times.assemble, times.factor, times.qp,
+                              times.recover, times.estimate, times.decide, times.refine};
+    for (unsigned int s = 0; s < n_stages; ++s)
+      sum[s] += seconds[s];
+    total += times.total();
+  }
+
+  void print() const
+  {
+    const char *const names[] = {"setup",   "assemble", "factor", "qp",
+                                 "recover", "estimate", "decide", "refine"};
+    std::cout << "\nstage        seconds  percent\n" << std::fixed;
+    for (unsigned int s = 0; s < n_stages; ++s)
+      print_row(names[s], sum[s]);
+    print_row("total", total);
+  }
+
+private:
+  static constexpr unsigned int n_stages = 8;
+
+  void print_row(const char *name, const double seconds) const
+  {
+    std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
+              << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
+              << (total > 0 ? 100 * seconds / total : 0.) << '\n';
+  }
+
+  double sum[n_stages] = {};
+  double total = 0;
+};
+
+// ---------------------------------------------------------------- what the program does
+
+void run(const Scene<dim> &scene, const std::string &directory)
+{
+  AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
+  Output<dim> output(scene, directory);
+  StageTable stages;
+  std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
+  print_table_head();
+  try
+  {
+    solver.run(
+        [&](const Step<dim> &step)
+        {
+          print_row(step);
+          stages.add(step.times);
+          output.write_step(step);
+        });
+  }
+  catch (const std::exception &error)
+  {
+    output.finish(failure_line(error)); // the finished steps stay
+    throw;
+  }
+  output.finish("done");
+  stages.print();
+  std::cout << "\nresults in " << directory << std::endl;
+}
+
+void obey(const CommandLine &command_line)
+{
+  if (command_line.help)
+    std::cout << usage();
+  else if (command_line.version)
+    std::cout << version_line() << std::endl;
+  else if (command_line.scene_file.empty())
+    std::cout << Scene<dim>::default_parameters();
+  else
+  {
+    const auto scene = Scene<dim>::read(command_line.scene_file, command_line.overrides);
+    if (command_line.print_parameters)
+      std::cout << scene.effective_parameters;
+    else if (command_line.validate)
+      std::cout << scene.file << ": valid: " << scene.title << std::endl;
+    else
+      run(scene, command_line.output_directory.empty() ? "output/" + scene.name
+                                                       : command_line.output_directory);
+  }
+}
+} // namespace
+
+int main(int argc, char *argv[])
+{
+  try
+  {
+    obey(parse(argc, argv));
+    return 0;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << failure_line(error) << std::endl;
+    return dynamic_cast<const InputError *>(&error) ? 1 : 2;
+  }
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/refinement_strategy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hpvi
+{
+bool Refinement::is_empty(const Degrees &old_degrees) const
+{
+  return degrees == old_degrees && std::find(bisect.begin(), bisect.end(), true) == bisect.end();
+}
+
+namespace
+{
+std::vector<double> indicators(const ErrorEstimate &estimate)
+{
+  std::vector<double> eta(estimate.volume.size());
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    eta[cell] = estimate.indicator(cell);
+  return eta;
+}
+
+/** Cell indices by falling indicator, ties by index. */
+std::vector<unsigned int> by_falling_indicator(const std::vector<double> &eta)
+{
+  std::vector<unsigned int> order(eta.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const unsigned int a, const unsigned int b) { return eta[a] > eta[b]; });
+  return order;
+}
+
+unsigned int share_of(const double fraction, const unsigned int n_cells)
+{
+  // Without the small number 0.1 * 30 would round up to 4.
+  return std::min<unsigned int>(n_cells, std::ceil(fraction * n_cells - 1e-9));
+}
+
+void raise_or_bisect(Refinement &refinement, const unsigned int cell, const unsigned int maximum)
+{
+  if (refinement.degrees[cell] < maximum)
+    ++refinement.degrees[cell];
+  else
+    refinement.bisect[cell] = true;
+}
+
+void bisect_above_mean(Refinement &refinement,
+                       const std::vector<double> &eta,
+                       const double threshold)
+{
+  const double mean = std::accumulate(eta.begin(), eta.end(), 0.) / eta.size();
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    refinement.bisect[cell] = eta[cell] > threshold * mean;
+}
+} // namespace
+
+Refinement mark(const Adaptivity &adaptivity,
+                const Degrees &degrees,
+                const ErrorEstimate &estimate,
+                const std::function<double(unsigned int)> &decay_rate)
+{
+  const unsigned int n = degrees.size(), maximum = adaptivity.maximum_degree;
+  Refinement result{std::vector<bool>(n, false), degrees};
+  switch (adaptivity.method)
+  {
+    case Method::hup2:
+    case Method::hup3:
+    case Method::hup4:
+      result.bisect.assign(n, true);
+      break;
+    case Method::hap2:
+    case Method::hap3:
+    case Method::hap4:
+      bisect_above_mean(result, indicators(estimate), adaptivity.hap_threshold);
+      break;
+    case Method::pu:
+      for (unsigned int &degree : result.degrees)
+        degree = std::min(degree + 1, maximum);
+      break;
+    case Method::hpa1:
+    {
+      const auto order = by_falling_indicator(indicators(estimate));
+      const unsigned int first = share_of(adaptivity.hpa1_bisected, n);
+      const unsigned int last = std::min(n, first + share_of(adaptivity.hpa1_raised, n));
+      for (unsigned int k = 0; k < first; ++k)
+        result.bisect[order[k]] = true;
+      for (unsigned int k = first; k < last; ++k)
+        raise_or_bisect(result, order[k], maximum);
+      break;
+    }
+    case Method::hpa2:
+    {
+      const auto order = by_falling_indicator(indicators(estimate));
+      for (unsigned int k = 0; k < share_of(adaptivity.hpa2_marked, n); ++k)
+        if (decay_rate(order[k]) > adaptivity.hpa2_decay)
+          raise_or_bisect(result, order[k], maximum);
+        else
+          result.bisect[order[k]] = true;
+      break;
+    }
+  }
+  return result;
+}
+} // namespace hpvi

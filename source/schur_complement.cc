@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cholmod.h>
+#include <hpvi/numerical_failure.h>
+#include <hpvi/schur_complement.h>
+
+#include <algorithm>
+#include <limits>
+
+// OpenBLAS, where it is the BLAS in use, lets us choose its number of threads; others do not.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace hpvi
+{
+using namespace dealii;
+
+/** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
+struct SchurComplement::Factor
+{
+  cholmod_common common;
+  cholmod_factor *L = nullptr;
+  std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
+  Vector<double> y;             ///< L^-1 P f
+
+  Factor()
+  {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = true;
+  }
+
+  ~Factor()
+  {
+    cholmod_free_factor(&L, &common);
+    cholmod_finish(&common);
+  }
+
+  Factor(const Factor &) = delete;
+  Factor &operator=(const Factor &) = delete;
+
+  void compute(cholmod_sparse *matrix, const std::vector<int> &is_contact);
+  LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
+  Vector<double> solve(int system, const Vector<double> &right_hand_side);
+};
+
+namespace
+{
+/** The upper triangle of the chosen rows and columns in CHOLMOD's compressed columns. */
+cholmod_sparse *upper_triangle(const SparseMatrix<double> &A,
+                               const SchurComplement::Indices &unknowns,
+                               cholmod_common *common)
+{
+  std::vector<int> number(A.m(), -1);
+  for (unsigned int i = 0; i < unknowns.size(); ++i)
+    number[unknowns[i]] = i;
+  cholmod_sparse *matrix =
+    cholmod_allocate_sparse(unknowns.size(), unknowns.size(), A.n_nonzero_elements(),
+                            /*sorted=*/false, /*packed=*/true, /*stype=*/1, CHOLMOD_REAL, common);
+  int *column_start = static_cast<int *>(matrix->p);
+  int *row = static_cast<int *>(matrix->i);
+  double *value = static_cast<double *>(matrix->x);
+  int n_entries = 0;
+  for (unsigned int j = 0; j < unknowns.size(); ++j)
+  {
+    column_start[j] = n_entries;
+    for (auto entry = A.begin(unknowns[j]); entry != A.end(unknowns[j]); ++entry)
+    {
+      const int i = number[entry->column()];
+      if (i < 0 || i > static_cast<int>(j))
+        continue;
+      row[n_entries] = i;
+      value[n_entries++] = entry->value();
+    }
+  }
+  column_start[unknowns.size()] = n_entries;
+  return matrix;
+}
+} // namespace
+
+void SchurComplement::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_contact)
+{
+  permutation.resize(matrix->nrow);
+  std::vector<int> groups(is_contact);
+  if (!cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common))
+    throw NumericalFailure("the ordering of the stiffness matrix failed");
+
+  // The order is taken as it is: a postordering could move contact unknowns away from the end.
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder = false;
+  L = cholmod_analyze_p(matrix, permutation.data(), nullptr, 0, &common);
+  cholmod_factorize(matrix, L, &common);
+  if (common.status != CHOLMOD_OK || L->minor < L->n)
+    throw NumericalFailure("the stiffness matrix is not positive definite: a rigid-body motion is "
+                           "free or elements are degenerate");
+}
+
+LAPACKFullMatrix<double>
+SchurComplement::Factor::trailing_block(const unsigned int n_trailing) const
+{
+  LAPACKFullMatrix<double> block(n_trailing, n_trailing);
+  const int first = static_cast<int>(L->n - n_trailing);
+  const int *super = static_cast<const int *>(L->super), *pi = static_cast<const int *>(L->pi),
+            *px = static_cast<const int *>(L->px), *s = static_cast<const int *>(L->s);
+  const double *x = static_cast<const double *>(L->x);
+  for (unsigned int k = 0; k < L->nsuper; ++k)
+    for (int column = std::max(super[k], first); column < super[k + 1]; ++column)
+    {
+      const int n_supernode_rows = pi[k + 1] - pi[k];
+      for (int r = column - super[k]; r < n_supernode_rows; ++r)
+        block(s[pi[k] + r] - first, column - first) =
+          x[px[k] + (column - super[k]) * n_supernode_rows + r];
+    }
+  block.set_property(LAPACKSupport::lower_triangular);
+  return block;
+}
+
+Vector<double> SchurComplement::Factor::solve(const int system,
+                                              const Vector<double> &right_hand_side)
+{
+  cholmod_dense dense{};
+  dense.nrow = dense.nzmax = dense.d = right_hand_side.size();
+  dense.ncol = 1;
+  dense.x = const_cast<double *>(right_hand_side.begin());
+  dense.xtype = CHOLMOD_REAL;
+  dense.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense *result = cholmod_solve(system, L, &dense, &common);
+  const double *values = static_cast<const double *>(result->x);
+  const Vector<double> solution(values, values + right_hand_side.size());
+  cholmod_free_dense(&result, &common);
+  return solution;
+}
+
+SchurComplement::SchurComplement(const SparseMatrix<double> &A,
+                                 const Vector<double> &f,
+                                 const Indices &unknowns,
+                                 const Indices &contact,
+                                 const FullMatrix<double> &B)
+    : factor(std::make_unique<Factor>()), unknowns(unknowns), n_rows(A.m())
+{
+  if (openblas_set_num_threads)
+    openblas_set_num_threads(1);
+  const unsigned int n = unknowns.size(), n_contact = contact.size();
+  if (n == 0)
+    return;
+  std::vector<int> is_contact(n, 0);
+  for (const auto dof : contact)
+    is_contact[std::lower_bound(unknowns.begin(), unknowns.end(), dof) - unknowns.begin()] = 1;
+
+  cholmod_sparse *matrix = upper_triangle(A, unknowns, &factor->common);
+  try
+  {
+    factor->compute(matrix, is_contact);
+  }
+  catch (...)
+  {
+    cholmod_free_sparse(&matrix, &factor->common);
+    throw;
+  }
+  cholmod_free_sparse(&matrix, &factor->common);
+
+  Vector<double> permuted(n);
+  for (unsigned int i = 0; i < n; ++i)
+    permuted[i] = f[unknowns[factor->permutation[i]]];
+  factor->y = factor->solve(CHOLMOD_L, permuted);
+  if (n_contact == 0)
+    return;
+
+  const LAPACKFullMatrix<double> L_cc = factor->trailing_block(n_contact);
+  Y.reinit(n_contact, B.m());
+  for (unsigned int k = 0; k < n_contact; ++k)
+  {
+    const auto dof = unknowns[factor->permutation[n - n_contact + k]];
+    const unsigned int column =
+      std::lower_bound(contact.begin(), contact.end(), dof) - contact.begin();
+    for (unsigned int m = 0; m < B.m(); ++m)
+      Y(k, m) = B(m, column);
+  }
+  L_cc.solve(Y);
+  schur_matrix.reinit(B.m(), B.m());
+  Y.Tmmult(schur_matrix, Y);
+  reduced_load.reinit(B.m());
+  Vector<double> y_contact(factor->y.begin() + (n - n_contact), factor->y.end());
+  Y.Tvmult(reduced_load, y_contact);
+}
+
+SchurComplement::~SchurComplement() = default;
+
+const LAPACKFullMatrix<double> &SchurComplement::S() const
+{
+  return schur_matrix;
+}
+
+const Vector<double> &SchurComplement::d() const
+{
+  return reduced_load;
+}
+
+Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
+{
+  Vector<double> u(n_rows);
+  const unsigned int n = unknowns.size();
+  if (n == 0)
+    return u;
+  Vector<double> y(factor->y);
+  if (lambda.size() > 0)
+  {
+    Vector<double> correction(Y.m());
+    Y.vmult(correction, lambda);
+    for (unsigned int k = 0; k < correction.size(); ++k)
+      y[n - correction.size() + k] -= correction[k];
+  }
+  const Vector<double> permuted = factor->solve(CHOLMOD_Lt, y);
+  for (unsigned int i = 0; i < n; ++i)
+    u[unknowns[factor->permutation[i]]] = permuted[i];
+  return u;
+}
+
+std::size_t SchurComplement::factor_entries() const
+{
+  return factor->L ? factor->L->xsize : 0;
+}
+} // namespace hpvi

@@ -1,0 +1,216 @@
+#!/bin/bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+#
+# usage: run.sh HPVI
+#
+# Every bad scene must end with exit status 1 and exactly one line on stderr that names file, entry,
+# value and remedy, and must write nothing. Each call below is one row:
+#
+#   invalid WORD... -- ENTRY=VALUE...   base.prm with these entries overridden
+#   broken FILE WORD...                 a file that is bad by itself
+#   refused WORD... -- ARGUMENT...      any other command line
+#
+# Every WORD must occur in the line.
+
+if [ $# -ne 1 ] || [ ! -x "$1" ]; then
+  echo "usage: $0 HPVI" >&2
+  exit 2
+fi
+hpvi=$(realpath "$1")
+scenes=$(realpath "$(dirname "$0")")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/empty"
+cd "$scratch/empty" || exit 2
+rows=0
+failures=0
+
+complain() { # ROW PROBLEM
+  echo "FAILED: $1: $2" >&2
+  sed 's/^/  stderr: /' "$scratch/stderr" >&2
+  failures=$((failures + 1))
+}
+
+# Run hpvi with the arguments; $1 is an array's name that holds the words to look for.
+check() {
+  local -n expected=$1
+  shift
+  local status word row="hpvi $*"
+  rows=$((rows + 1))
+  timeout 60 "$hpvi" "$@" >"$scratch/stdout" 2>"$scratch/stderr"
+  status=$?
+  [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
+  [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || complain "$row" "stderr does not hold one line"
+  for word in "${expected[@]}"; do
+    grep -qF -- "$word" "$scratch/stderr" || complain "$row" "stderr does not say: $word"
+  done
+  [ ! -s "$scratch/stdout" ] || complain "$row" "something on stdout"
+  [ -z "$(ls -A)" ] || complain "$row" "files were written: $(ls -A)"
+}
+
+invalid() {
+  local words=("base.prm") arguments=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  check words --validate "$scenes/base.prm" "${arguments[@]}"
+}
+
+# Validation and a real run share their checks; the run must not have begun to write.
+broken() {
+  local words=("$@")
+  check words --validate "$scenes/$1"
+  check words "$scenes/$1"
+}
+
+refused() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  check words "$@"
+}
+
+# --- names: the nearest known one is named, from the file with the line
+broken unknown_entry.prm ":3:" "Material/Poisson ratio = 0.4" "unknown entry" "Material/Poisson's ratio"
+broken unknown_subsection.prm ":2:" "Boundary botom" "unknown subsection" "Boundary bottom"
+invalid "Material/Yungs modulus = 3" "unknown entry" "Material/Young's modulus" -- "Material/Yungs modulus=3"
+invalid "Adaptivity/Plane = stress" "unknown entry" "Material/Plane" -- "Adaptivity/Plane=stress"
+invalid "Method = pu" "unknown entry" "Adaptivity/Method" -- "Method=pu"
+invalid "Materail" "unknown subsection" '"Material"' -- "Materail/Plane=stress"
+invalid "Boundary front" "unknown subsection" '"Boundary ' -- "Boundary front/Traction=1; 0"
+invalid "names no entry" "Section/Entry=value" -- "Units/=mm"
+
+# --- the syntax of the file
+broken missing_end.prm ":5:" "subsection Boundary right" "inside subsection Material" '"end"'
+broken missing_last_end.prm ":2:" "subsection Boundary right" "never closed" '"end"'
+broken stray_end.prm ":3:" "no subsection is open" "remove"
+broken missing_set.prm ":3:" "Plane = stress" "not a statement" '"set Entry = value"'
+broken missing_equals.prm ":3:" "set Plane stress" "not a statement" '"set Entry = value"'
+broken include.prm ":2:" "include base.prm" "not supported" "into one file"
+refused "no_such_scene.prm" "cannot be read" "check the name" -- no_such_scene.prm
+refused "is a directory" "name a scene file" -- "$scenes"
+
+# --- numbers
+broken negative_young.prm ":3:" "Material/Young's modulus = -15" "E > 0"
+for value in 0 -1 nan inf 1e400 "" "1 2" fifteen; do
+  invalid "Material/Young's modulus = $value" "not accepted" "E > 0" -- "Material/Young's modulus=$value"
+done
+for value in 0.5 -1 7; do
+  invalid "Material/Poisson's ratio = $value" "outside (-1, 1/2)" "-1 < nu < 1/2" -- "Material/Poisson's ratio=$value"
+done
+invalid "Material/Poisson's ratio = nan" "-1 < nu < 1/2" -- "Material/Poisson's ratio=nan"
+invalid "Dimension = 3" "set Dimension = 2" -- "Dimension=3"
+invalid "Dimension = 1" "give 2" -- "Dimension=1"
+invalid "Title = a # b" "remove '#'" -- "Title=a # b"
+
+# --- geometry
+invalid "Geometry/Shape = triangle" "box or quadrilateral" -- "Geometry/Shape=triangle"
+invalid "Geometry/Upper corner = 0, 4" "lower corner (0, 0)" "enlarge" -- "Geometry/Upper corner=0, 4"
+invalid "Geometry/Upper corner = nan, 4" "two finite numbers" -- "Geometry/Upper corner=nan, 4"
+invalid "Geometry/Upper corner = 4" "two finite numbers" -- "Geometry/Upper corner=4"
+invalid "Geometry/Subdivisions = 0, 4" "two positive integers" -- "Geometry/Subdivisions=0, 4"
+invalid "Geometry/Subdivisions = 2.5, 4" "two positive integers" -- "Geometry/Subdivisions=2.5, 4"
+invalid "Geometry/Subdivisions = 9999, 9999" "a million cells" "start coarse" -- "Geometry/Subdivisions=9999, 9999"
+invalid "Geometry/Graded towards = 5, 0" "(5, 0) outside the body" "points of the body" -- \
+  "Geometry/Graded towards=5, 0" "Geometry/Grading levels=2"
+invalid "Geometry/Grading levels = 2" "no point" "Graded towards" -- "Geometry/Grading levels=2"
+invalid "Geometry/Corners" "has no meaning for a box" "Shape = quadrilateral" -- "Geometry/Corners=0,0; 4,0; 4,4; 0,4"
+invalid "Geometry/Corners = " "four corners" "counterclockwise" -- "Geometry/Shape=quadrilateral"
+not_convex() {
+  invalid "Geometry/Corners = $1" "not convex at $2" "counterclockwise" -- "Geometry/Shape=quadrilateral" "Geometry/Corners=$1"
+}
+not_convex "0,0; 4,0; 1,1; 0,4" "(1, 1)"
+not_convex "0,0; 4,0; 4,0; 0,4" "(4, 0)"
+not_convex "0,0; 4,0; 8,0; 0,4" "(4, 0)"
+not_convex "0,0; 0,4; 4,4; 4,0" "(0, 0)"
+not_convex "0,0; 4,4; 4,0; 0,4" "(4, 4)"
+
+# --- expressions
+invalid "Boundary left/Traction = sin(x; 0" '"sin(x"' "Missing parenthesis" "constants are" -- "Boundary left/Traction=sin(x; 0"
+invalid "Boundary left/Traction = 2*q; 0" 'Unexpected token "q' "constants are" -- "Boundary left/Traction=2*q; 0"
+invalid "Boundary left/Traction = 1+; 0" "Unexpected end" -- "Boundary left/Traction=1+; 0"
+invalid "Boundary left/Traction = 1" "1 component(s) instead of 2" "';'" -- "Boundary left/Traction=1"
+invalid "Boundary left/Traction = 1, 0" "1 component(s) instead of 2" "';'" -- "Boundary left/Traction=1, 0"
+invalid "Boundary left/Traction = ; 1" "empty component" "write 0" -- "Boundary left/Traction=; 1"
+invalid "Boundary left/Traction = 1,5; 0" "comma" "'.'" -- "Boundary left/Traction=1,5; 0"
+invalid "Boundary left/Traction = y=3; 0" "assigns" "==" -- "Boundary left/Traction=y=3; 0"
+invalid "Boundary left/Traction = 1/y; 0" "not finite at (0, 0)" "finite everywhere" -- "Boundary left/Traction=1/y; 0"
+invalid "Boundary left/Traction = 0; log(y-4)" "not finite at (0, 0)" -- "Boundary left/Traction=0; log(y-4)"
+invalid "Boundary left/Traction = nan; 0" '"nan"' -- "Boundary left/Traction=nan; 0"
+invalid "Boundary left/Traction = 1e400; 0" '"1e400"' -- "Boundary left/Traction=1e400; 0"
+invalid "Boundary right/Displacement = 0; sqrt(2-y)" "not finite at (4, 2" -- "Boundary right/Displacement=0; sqrt(2-y)"
+invalid "Body force/Expression = 0; 1/(x-2)" "not finite at (2, 0)" -- "Body force/Expression=0; 1/(x-2)"
+invalid "Boundary bottom/Friction bound = sin(x" "Missing parenthesis" -- "Boundary bottom/Friction bound=sin(x"
+invalid "Boundary bottom/Friction bound = 4.5; 1" "2 component(s) instead of 1" -- "Boundary bottom/Friction bound=4.5; 1"
+
+# --- contact and supports
+invalid "Boundary bottom/Friction bound = -1" "negative at (0, 0)" "g >= 0" -- "Boundary bottom/Friction bound=-1"
+invalid "Boundary bottom/Friction bound = 1-x" "negative at (" "g >= 0" -- "Boundary bottom/Friction bound=1-x"
+invalid "Boundary bottom/Friction bound = nan" '"nan"' -- "Boundary bottom/Friction bound=nan"
+invalid "Boundary bottom/Friction bound = sqrt(x-1)" "not finite" -- "Boundary bottom/Friction bound=sqrt(x-1)"
+invalid "Boundary bottom/Contact = glue" "none or bilateral" -- "Boundary bottom/Contact=glue"
+invalid "Boundary top/Friction bound = 1" "needs contact" "Contact = bilateral" -- "Boundary top/Friction bound=1"
+invalid "Boundary bottom/Displacement = 0; 0" "Contact = bilateral" "only one" -- "Boundary bottom/Displacement=0; 0"
+invalid "Boundary bottom/Traction = 1; 0" "Contact = bilateral" "only one" -- "Boundary bottom/Traction=1; 0"
+invalid "Boundary right/Traction = 1; 0" "component x" "free" -- "Boundary right/Traction=1; 0"
+invalid "Boundary right/Displacement = 0; 0.1" "Boundary bottom/Contact = bilateral" "corner (4, 0) by 0.1" "agree" -- \
+  "Boundary right/Displacement=0; 0.1"
+invalid "Boundary right/Displacement = 0; 0" "Boundary top/Displacement = free; 1" "corner (4, 4) by 1" "agree" -- \
+  "Boundary top/Displacement=free; 1"
+broken no_support.prm "Boundary" "Displacement" "rigid-body motion" "translation in x" "prescribe"
+invalid "rigid-body motion" "translation in x" "friction alone" -- "Boundary right/Displacement="
+frictionless=("Boundary bottom/Contact=none" "Boundary bottom/Friction bound=")
+invalid "rigid-body motion" "translation in y" "prescribe" -- "${frictionless[@]}" "Boundary right/Displacement=0; free"
+invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionless[@]}" \
+  "Boundary right/Displacement=free; 0" "Boundary bottom/Displacement=0; free"
+invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" \
+  "Geometry/Shape=quadrilateral" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
+
+# --- the method's numbers
+invalid "Adaptivity/Method = hp5" "one of hup2" -- "Adaptivity/Method=hp5"
+invalid "Adaptivity/Smoothness reading = both" "plain or joint" -- "Adaptivity/Smoothness reading=both"
+invalid "Adaptivity/Start degree = 1" "contact" "at least 2" -- "Adaptivity/Start degree=1"
+invalid "Adaptivity/Start degree = -1" "from 0 to 20" -- "Adaptivity/Start degree=-1"
+invalid "Adaptivity/Start degree = 4" "Maximum degree = 3" "raise" -- "Adaptivity/Start degree=4" "Adaptivity/Maximum degree=3"
+for entry in "hap threshold" "hpa1 bisected fraction" "hpa1 raised fraction" "hpa2 marked fraction"; do
+  for value in 0 -0.1 1.5 nan; do
+    invalid "Adaptivity/$entry = $value" "(0, 1]" -- "Adaptivity/$entry=$value"
+  done
+done
+invalid "Adaptivity/hpa1 raised fraction = 0.6" "sum to at most 1" -- \
+  "Adaptivity/hpa1 raised fraction=0.6" "Adaptivity/hpa1 bisected fraction=0.5"
+invalid "Adaptivity/Maximum steps = 0" "positive integer" -- "Adaptivity/Maximum steps=0"
+invalid "Adaptivity/Maximum unknowns = 99999999999" "positive integer" -- "Adaptivity/Maximum unknowns=99999999999"
+invalid "Solver/QP tolerance = 0" "(0, 1]" -- "Solver/QP tolerance=0"
+invalid "Solver/Diagonal scaling = maybe" "true or false" -- "Solver/Diagonal scaling=maybe"
+
+# --- the command line
+refused "no scene" "name a parameter file" --
+refused "--frobnicate" "hpvi --help" -- --frobnicate "$scenes/base.prm"
+refused "--set Title" "has no '='" "Section/Entry=value" -- --set Title "$scenes/base.prm"
+refused "--output" "hpvi --help" -- "$scenes/base.prm" --output
+refused "hpvi --help" -- "$scenes/base.prm" "$scenes/base.prm"
+
+# --- a directory that cannot be written: below a regular file
+touch "$scratch/file"
+refused "$scratch/file/results" -- "$scenes/base.prm" --output "$scratch/file/results"
+refused "$scratch/file" -- "$scenes/base.prm" --output "$scratch/file"
+[ ! -s "$scratch/file" ] || complain "--output below a file" "the file was changed"
+
+# --- the good scene passes, and its effective parameters are the same scene again
+"$hpvi" --validate "$scenes/base.prm" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain "base.prm" "the good scene is rejected"
+"$hpvi" --print-parameters "$scenes/base.prm" >"$scratch/effective.prm" 2>"$scratch/stderr"
+"$hpvi" --print-parameters "$scratch/effective.prm" 2>"$scratch/stderr" | cmp -s - "$scratch/effective.prm" ||
+  complain "base.prm" "effective parameters do not survive a round trip"
+
+echo "$rows bad inputs, $failures failures"
+[ $failures -eq 0 ]
