@@ -35,8 +35,7 @@ struct Discretisation
   const ContactSpace<dim> contact_space;
   std::unique_ptr<const ElasticSystem<dim>> system;
 
-  Discretisation(const Scene<dim> &scene,
-                 const Triangulation<dim> &triangulation,
+  Discretisation(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
                  const Degrees &degrees)
       : displacement_space(scene, triangulation, degrees), contact_space(scene, displacement_space)
   {
@@ -88,7 +87,7 @@ void AdaptiveSolver<dim>::Stages::discretise()
   }
   StageTimer timer(times.assemble);
   next->system = std::make_unique<const ElasticSystem<dim>>(
-    scene, next->displacement_space, next->contact_space, tables, stiffnesses);
+      scene, next->displacement_space, next->contact_space, tables, stiffnesses);
   // Only now may the previous step go: it kept the element matrices that the new one shares.
   discretisation = std::move(next);
 }
@@ -100,8 +99,8 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   std::unique_ptr<const SchurComplement> schur_complement;
   {
     StageTimer timer(times.factor);
-    schur_complement = std::make_unique<const SchurComplement>(
-      system.A, system.f, system.unknowns, system.contact_unknowns, system.B);
+    schur_complement = std::make_unique<const SchurComplement>(system.A, system.f, system.unknowns,
+                                                               system.contact_unknowns, system.B);
   }
   if (discretisation->contact_space.n_multipliers() > 0)
     solve_for_multiplier(*schur_complement, reduction);
@@ -129,13 +128,13 @@ void AdaptiveSolver<dim>::Stages::solve_for_multiplier(const SchurComplement &sc
   reduction.lambda.reinit(qp.d.size());
   reduction.qp = Mprgp(settings).solve(qp, reduction.lambda);
   if (!reduction.qp.converged)
-    throw NumericalFailure(
-      "the quadratic program for the multiplier (" + std::to_string(qp.d.size()) +
-      " unknowns) has not converged after " + std::to_string(reduction.qp.multiplications) +
-      " products with S: relative projected gradient " +
-      std::to_string(reduction.qp.projected_gradient) + ", tolerance " +
-      std::to_string(settings.tolerance) +
-      "; raise Solver/QP maximum multiplications or Solver/QP tolerance");
+    throw NumericalFailure("the quadratic program for the multiplier (" +
+                           std::to_string(qp.d.size()) + " unknowns) has not converged after " +
+                           std::to_string(reduction.qp.multiplications) +
+                           " products with S: relative projected gradient " +
+                           std::to_string(reduction.qp.projected_gradient) + ", tolerance " +
+                           std::to_string(settings.tolerance) +
+                           "; raise Solver/QP maximum multiplications or Solver/QP tolerance");
   if (scene.solver.condition_number)
   {
     reduction.condition_raw = condition_number(qp.S);
@@ -157,16 +156,14 @@ bool AdaptiveSolver<dim>::Stages::refine(const Solution<dim> &solution,
   Refinement refinement;
   {
     StageTimer timer(times.decide);
-    refinement = mark(scene.adaptivity, degrees, estimate, [&](const unsigned int cell)
+    refinement = mark(scene.adaptivity, degrees, estimate,
+                      [&](const unsigned int cell)
                       { return smoothness.decay_rate(solution, tables, cell); });
   }
   if (refinement.is_empty(degrees))
     return false;
   StageTimer timer(times.refine);
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && refinement.bisect[cell->active_cell_index()])
-      cell->set_refine_flag();
-  degrees = refine_mesh(triangulation, refinement.degrees);
+  degrees = refine_mesh(triangulation, degrees, refinement);
   return true;
 }
 
@@ -196,8 +193,8 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
       step_energies = energies(solution, *stages->discretisation->system, stages->tables);
     }
     seconds += stages->times.total();
-    finished_step({number, solution, estimate, step_energies, reduction.qp,
-                   reduction.condition_raw, reduction.condition_scaled, stages->times, seconds});
+    finished_step({number, solution, estimate, step_energies, reduction.qp, reduction.condition_raw,
+                   reduction.condition_scaled, stages->times, seconds});
 
     stages->times = StageTimes();
     if (number >= adaptivity.maximum_steps ||

@@ -33,7 +33,7 @@ void ElasticSystem<dim>::assemble_stiffness(ElementStiffnesses<dim> &stiffnesses
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
       elements[cell->active_cell_index()] =
-        stiffnesses.get(map_of<dim>(cell), space.degrees()[cell->active_cell_index()]);
+          stiffnesses.get(map_of<dim>(cell), space.degrees()[cell->active_cell_index()]);
 
   std::vector<types::global_dof_index> boundary_dofs;
   const auto locate = [&](const unsigned int cell)
@@ -91,16 +91,14 @@ Tensor<1, dim> value(const std::array<typename BoundaryCondition<dim>::Expressio
 
 /** local_i += sum_q weight_q phi_i(x_q) . force(x_q) */
 template <int dim, class Force>
-void integrate_load(const ShapeTable<dim> &table,
-                    const LocalNumbering &numbering,
-                    const CellMap<dim> &map,
-                    const Force &force_times_measure,
+void integrate_load(const ShapeTable<dim> &table, const LocalNumbering &numbering,
+                    const CellMap<dim> &map, const Force &force_times_measure,
                     Vector<double> &local)
 {
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    const Tensor<1, dim> force = table.weights[q] * force_times_measure(table.points[q],
-                                                                        map.point(table.points[q]));
+    const Tensor<1, dim> force =
+        table.weights[q] * force_times_measure(table.points[q], map.point(table.points[q]));
     for (unsigned int i = 0; i < local.size(); ++i)
       local[i] += table.values(q, numbering.shape[i]) * force[numbering.component[i]];
   }
@@ -120,20 +118,22 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene, const ShapeTabl
       Vector<double> local(numbering.shape.size());
       if (interior_loads)
         integrate_load(
-          tables.cell(degree, degree + 2), numbering, map,
-          [&](const Point<dim> &reference, const Point<dim> &x)
-          { return std::abs(determinant(map.jacobian(reference))) * value<dim>(scene.body_force, x); },
-          local);
+            tables.cell(degree, degree + 2), numbering, map,
+            [&](const Point<dim> &reference, const Point<dim> &x) {
+              return std::abs(determinant(map.jacobian(reference))) *
+                     value<dim>(scene.body_force, x);
+            },
+            local);
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
         {
           const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
           if (condition.has_traction())
             integrate_load(
-              tables.face(degree, face, degree + 2), numbering, map,
-              [&](const Point<dim> &, const Point<dim> &x)
-              { return cell->face(face)->measure() * value<dim>(condition.traction, x); },
-              local);
+                tables.face(degree, face, degree + 2), numbering, map,
+                [&](const Point<dim> &, const Point<dim> &x)
+                { return cell->face(face)->measure() * value<dim>(condition.traction, x); },
+                local);
         }
       const auto dofs = space.cell_dofs(cell->active_cell_index());
       for (unsigned int i = 0; i < local.size(); ++i)
@@ -176,8 +176,7 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
 /** Call @p action(dof, weight) for every free unknown that @p dof depends on. */
 template <class Action>
 void for_each_free_part(const AffineConstraints<double> &constraints,
-                        const types::global_dof_index dof,
-                        const Action &action)
+                        const types::global_dof_index dof, const Action &action)
 {
   if (!constraints.is_constrained(dof))
     action(dof, 1.);
@@ -206,8 +205,8 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
     for (unsigned int i = 0; i < dofs.size(); ++i)
       for (unsigned int m = 0; m < couplings.back().m(); ++m)
         if (std::abs(couplings.back()(m, i)) > negligible * largest)
-          for_each_free_part(constraints, dofs[i], [&](const auto dof, double)
-                             { touches[dof] = true; });
+          for_each_free_part(constraints, dofs[i],
+                             [&](const auto dof, double) { touches[dof] = true; });
         else
           couplings.back()(m, i) = 0.; // shape functions of other faces: zero up to round-off
   }
@@ -232,7 +231,8 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
         if (b == 0.)
           continue;
         B_prescribed[face.first_multiplier + m] += b * constraints.get_inhomogeneity(dofs[i]);
-        for_each_free_part(constraints, dofs[i], [&](const auto dof, const double weight)
+        for_each_free_part(constraints, dofs[i],
+                           [&](const auto dof, const double weight)
                            { B(face.first_multiplier + m, column[dof]) += b * weight; });
       }
   }

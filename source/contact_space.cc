@@ -25,8 +25,7 @@ bool friction_vanishes(const ContactFace<dim> &face)
 
 template <int dim>
 ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                           const unsigned int face_no,
-                           const unsigned int degree,
+                           const unsigned int face_no, const unsigned int degree,
                            const BoundaryCondition<dim> &condition)
 {
   static_assert(dim == 2, "a straight contact edge");
@@ -72,9 +71,8 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
         {
           const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
           if (condition.bilateral_contact)
-            contact_faces.push_back(
-              make_face(cell, f, displacement_space.degrees()[cell->active_cell_index()],
-                        condition));
+            contact_faces.push_back(make_face(
+                cell, f, displacement_space.degrees()[cell->active_cell_index()], condition));
         }
 
   std::stable_sort(contact_faces.begin(), contact_faces.end(),
@@ -136,8 +134,7 @@ std::vector<double> ContactSpace<dim>::basis_values(const ContactFace<dim> &face
 }
 
 template <int dim>
-double ContactSpace<dim>::value(const ContactFace<dim> &face,
-                                const Vector<double> &lambda,
+double ContactSpace<dim>::value(const ContactFace<dim> &face, const Vector<double> &lambda,
                                 const double s) const
 {
   const std::vector<double> basis = basis_values(face, s);

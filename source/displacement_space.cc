@@ -21,7 +21,7 @@ class ExpressionVector : public Function<dim>
 {
 public:
   explicit ExpressionVector(
-    const std::array<typename BoundaryCondition<dim>::Expression, dim> &components)
+      const std::array<typename BoundaryCondition<dim>::Expression, dim> &components)
       : Function<dim>(dim), components(components)
   {
   }

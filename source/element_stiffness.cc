@@ -30,8 +30,8 @@ std::vector<long> congruence_class(const typename CellMap<dim>::Vertices &vertic
 
 /** Matrices P_ab = int d_a phi_i d_b phi_j over the cell, for all pairs of directions. */
 template <int dim>
-std::array<std::array<FullMatrix<double>, dim>, dim>
-gradient_products(const CellMap<dim> &map, const ShapeTable<dim> &table)
+std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const CellMap<dim> &map,
+                                                                       const ShapeTable<dim> &table)
 {
   const unsigned int n_points = table.points.size(), n = table.n_shapes;
   std::array<FullMatrix<double>, dim> G;
@@ -45,8 +45,7 @@ gradient_products(const CellMap<dim> &map, const ShapeTable<dim> &table)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int r = 0; r < dim; ++r)
-          G[a](q, i) +=
-            weight * inverse[r][a] * table.derivatives(q * table.rows_per_point + r, i);
+          G[a](q, i) += weight * inverse[r][a] * table.derivatives(q * table.rows_per_point + r, i);
   }
   std::array<std::array<FullMatrix<double>, dim>, dim> P;
   for (unsigned int a = 0; a < dim; ++a)
@@ -60,8 +59,7 @@ gradient_products(const CellMap<dim> &map, const ShapeTable<dim> &table)
 } // namespace
 
 template <int dim>
-ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene,
-                                            const ShapeTables<dim> &tables)
+ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables)
     : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
 {
 }
@@ -122,8 +120,8 @@ ElementStiffnesses<dim>::condense(FullMatrix<double> &&K, const unsigned int n_b
 }
 
 template <int dim>
-std::shared_ptr<const ElementStiffness>
-ElementStiffnesses<dim>::get(const CellMap<dim> &map, const unsigned int degree)
+std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellMap<dim> &map,
+                                                                     const unsigned int degree)
 {
   auto &entry = known[congruence_class<dim>(map.vertices(), degree)];
   std::shared_ptr<const ElementStiffness> element = entry.lock();

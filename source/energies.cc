@@ -22,8 +22,8 @@ std::vector<double> sign_changes(const F &function, const unsigned int n_samples
     const double right = static_cast<double>(k) / n_samples, f_right = function(right);
     if (f_left * f_right < 0.)
     {
-      const auto bracket = boost::math::tools::bisect(function, left, right,
-                                                      boost::math::tools::eps_tolerance<double>(48));
+      const auto bracket = boost::math::tools::bisect(
+          function, left, right, boost::math::tools::eps_tolerance<double>(48));
       cuts.push_back(0.5 * (bracket.first + bracket.second));
     }
     left = right;
@@ -38,17 +38,15 @@ template <int dim>
 class TangentialDisplacement
 {
 public:
-  TangentialDisplacement(const ContactFace<dim> &face,
-                         const Solution<dim> &solution,
+  TangentialDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution,
                          const ShapeTables<dim> &tables)
-      : basis(Polynomials::generate_complete_Lagrange_basis(
-          QGauss<1>(face.degree + 1).get_points())),
+      : basis(
+            Polynomials::generate_complete_Lagrange_basis(QGauss<1>(face.degree + 1).get_points())),
         nodal(face.degree + 1)
   {
-    const std::vector<double> values =
-      evaluate(tables.face(face.degree, face.face_no, face.degree + 1).values,
-               solution.coefficients(face.cell->active_cell_index(),
-                                     tables.numbering(face.degree)));
+    const std::vector<double> values = evaluate(
+        tables.face(face.degree, face.face_no, face.degree + 1).values,
+        solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree)));
     for (unsigned int k = 0; k < nodal.size(); ++k)
       for (unsigned int c = 0; c < dim; ++c)
         nodal[k] += face.tangent[c] * values[c * nodal.size() + k];
@@ -69,9 +67,7 @@ private:
 
 /** int weight(s, u_t) over one face by Gauss quadrature between consecutive cuts. */
 template <class F, class Weight>
-double integrate(const F &u_t,
-                 const std::vector<double> &cuts,
-                 const unsigned int n_gauss,
+double integrate(const F &u_t, const std::vector<double> &cuts, const unsigned int n_gauss,
                  const Weight &weight)
 {
   const QGauss<1> gauss(n_gauss);
@@ -87,8 +83,7 @@ double integrate(const F &u_t,
 } // namespace
 
 template <int dim>
-Energies energies(const Solution<dim> &solution,
-                  const ElasticSystem<dim> &system,
+Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
                   const ShapeTables<dim> &tables)
 {
   double friction = 0, coupling = 0;
@@ -97,15 +92,14 @@ Energies energies(const Solution<dim> &solution,
     {
       const TangentialDisplacement<dim> u_t(face, solution, tables);
       const auto g = [&](const double s) { return face.friction_bound(face.point(s)); };
-      friction += face.length() * integrate(u_t, sign_changes(u_t, 8 * face.degree),
-                                            face.degree + 2, [&](const double s, const double u)
-                                            { return g(s) * std::abs(u); });
+      friction += face.length() *
+                  integrate(u_t, sign_changes(u_t, 8 * face.degree), face.degree + 2,
+                            [&](const double s, const double u) { return g(s) * std::abs(u); });
       coupling +=
-        face.length() * integrate(u_t, {0., 1.}, face.degree + 1,
-                                  [&](const double s, const double u) {
-                                    return g(s) * u *
-                                           solution.contact_space.value(face, solution.lambda, s);
-                                  });
+          face.length() *
+          integrate(u_t, {0., 1.}, face.degree + 1,
+                    [&](const double s, const double u)
+                    { return g(s) * u * solution.contact_space.value(face, solution.lambda, s); });
     }
   const double potential = system.potential_energy(solution.u);
   return {potential + coupling, potential + friction, friction - coupling};

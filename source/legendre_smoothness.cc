@@ -64,7 +64,7 @@ LegendreSmoothness<dim>::projection(const unsigned int degree) const
   if (found == projections.end())
   {
     const auto lagrange =
-      Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
+        Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
     const QGauss<1> gauss(degree + 1);
     Projection result{FullMatrix<double>(degree + 1, degree + 1),
                       FE_Q<dim>(degree).get_poly_space_numbering()};
@@ -74,7 +74,7 @@ LegendreSmoothness<dim>::projection(const unsigned int degree) const
         {
           const double x = gauss.point(q)[0];
           result.matrix(k, i) +=
-            (2 * k + 1) * gauss.weight(q) * std::legendre(k, 2 * x - 1) * lagrange[i].value(x);
+              (2 * k + 1) * gauss.weight(q) * std::legendre(k, 2 * x - 1) * lagrange[i].value(x);
         }
     found = projections.emplace(degree, std::move(result)).first;
   }
@@ -82,8 +82,8 @@ LegendreSmoothness<dim>::projection(const unsigned int degree) const
 }
 
 template <int dim>
-std::vector<double>
-LegendreSmoothness<dim>::legendre_coefficients(const double *nodal, const unsigned int degree) const
+std::vector<double> LegendreSmoothness<dim>::legendre_coefficients(const double *nodal,
+                                                                   const unsigned int degree) const
 {
   const Projection &to_legendre = projection(degree);
   const unsigned int n = degree + 1, n_modes = to_legendre.lexicographic.size();

@@ -3,6 +3,8 @@
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/mesh.h>
 
+#include <algorithm>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -36,7 +38,7 @@ void grade_towards_points(const Geometry<dim> &geometry, Triangulation<dim> &tri
           // A point on a face belongs to both sides; the tolerance covers round-off of rotations.
           if (cell->bounding_box().point_inside(point, 1e-10) &&
               GeometryInfo<dim>::distance_to_unit_cell(
-                cell->real_to_unit_cell_affine_approximation(point)) < 1e-8)
+                  cell->real_to_unit_cell_affine_approximation(point)) < 1e-8)
             cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
   }
@@ -65,21 +67,32 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
   grade_towards_points(geometry, triangulation);
 }
 
+bool Refinement::is_empty(const Degrees &old_degrees) const
+{
+  return degrees == old_degrees && std::find(bisect.begin(), bisect.end(), true) == bisect.end();
+}
+
 template <int dim>
-Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees)
+Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
+                    const Refinement &refinement)
 {
   // The user index of a cell stays with it when it becomes a parent; a new child has none.
   for (const auto &cell : triangulation.active_cell_iterators())
-    cell->set_user_index(degrees[cell->active_cell_index()]);
+  {
+    cell->set_user_index(cell->active_cell_index() + 1);
+    if (cell->is_locally_owned() && refinement.bisect[cell->active_cell_index()])
+      cell->set_refine_flag();
+  }
   triangulation.execute_coarsening_and_refinement();
 
   Degrees new_degrees(triangulation.n_active_cells());
   for (const auto &cell : triangulation.active_cell_iterators())
-    new_degrees[cell->active_cell_index()] =
-      cell->user_index() != 0 ? cell->user_index() : cell->parent()->user_index();
+    new_degrees[cell->active_cell_index()] = cell->user_index() != 0
+                                                 ? refinement.degrees[cell->user_index() - 1]
+                                                 : degrees[cell->parent()->user_index() - 1];
   return new_degrees;
 }
 
 template void make_mesh(const Scene<2> &, Triangulation<2> &);
-template Degrees refine_mesh(Triangulation<2> &, const Degrees &);
+template Degrees refine_mesh(Triangulation<2> &, const Degrees &, const Refinement &);
 } // namespace hpvi

@@ -12,6 +12,7 @@ using namespace dealii;
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /**
  * A rigorous upper bound of |S|_2 for symmetric S: the smaller of row sum norm and Frobenius norm.
@@ -45,6 +46,7 @@ public:
 
 private:
   bool finished();
+  bool is_at_rest(bool recurrence_ended);
   void measure();
   bool is_proportional();
   bool minimise_on_face();
@@ -65,19 +67,18 @@ private:
   Vector<double> phi, beta; ///< its free and chopped part
   Vector<double> p, Sp;     ///< CG direction (steps go along -p) and its image
   Vector<double> trial, trial_gradient;
-  double fixed_length;  ///< below 2/|S|: a projected gradient step of this length lowers q
-  double reference = 0; ///< max(|d|, |S y_0|): what |nu| is compared with
+  const double norm;         ///< at least |S|
+  const double fixed_length; ///< below 2/|S|: a projected gradient step of this length lowers q
+  double reference = 0;      ///< max(|d|, |S y_0|): what |nu| is compared with
   bool gradient_is_recurrence = false; ///< r comes from updates, which drift, not from a product
-  double last_confirmed = infinity;
+  double last_look = infinity;         ///< relative gradient when is_at_rest() last looked
   QpReport report;
 };
 
 Iteration::Iteration(const QuadraticProgram &qp, const Mprgp::Settings &settings, Vector<double> &y)
-    : qp(qp), settings(settings), y(y), r(y.size()), Sp(y.size()), trial_gradient(y.size())
+    : qp(qp), settings(settings), y(y), r(y.size()), Sp(y.size()), trial_gradient(y.size()),
+      norm(norm_bound(qp.S)), fixed_length(norm == 0. ? 1. : 1.95 / norm)
 {
-  const double norm = norm_bound(qp.S);
-  fixed_length = norm == 0. ? 1. : 1.95 / norm;
-
   qp.feasible_set.project(y);
   if (!y.all_zero()) // S 0 needs no product
     multiply(y, r);
@@ -108,22 +109,35 @@ void Iteration::measure()
 bool Iteration::finished()
 {
   measure();
-  if (report.projected_gradient <= settings.tolerance && gradient_is_recurrence)
+  // Only a gradient that comes from a product may say that the end is reached: CG's recurrence goes
+  // on to fall where the true gradient has come to rest.
+  const bool confirm =
+      gradient_is_recurrence && report.projected_gradient <= std::max(settings.tolerance, epsilon);
+  if (confirm)
   {
-    // Only a gradient that comes from a product may say so: CG's recurrence goes on to fall where
-    // the true gradient has come to rest at round-off. If a round does not even halve the true
-    // one, there is nothing more to be had.
     recompute_gradient();
     p = phi;
     measure();
-    const bool at_rest = report.projected_gradient > 0.5 * last_confirmed;
-    last_confirmed = report.projected_gradient;
-    if (at_rest && last_confirmed > settings.tolerance)
-      return true;
   }
-  report.converged = report.projected_gradient <= settings.tolerance;
+  report.converged = !gradient_is_recurrence && report.projected_gradient <= settings.tolerance;
   return report.converged || !std::isfinite(report.projected_gradient) ||
-         report.multiplications >= settings.maximum_multiplications;
+         report.multiplications >= settings.maximum_multiplications || is_at_rest(confirm);
+}
+
+/**
+ * Is there nothing more to be had for this tolerance? So it is if the true gradient does not even
+ * halve from one look at the round-off level `eps (|S| |y| + |d|)`, or from one end of the
+ * recurrence, to the next.
+ */
+bool Iteration::is_at_rest(const bool recurrence_ended)
+{
+  const double round_off = epsilon * (norm * y.l2_norm() + qp.d.l2_norm());
+  if (!recurrence_ended &&
+      (gradient_is_recurrence || report.projected_gradient * reference > round_off))
+    return false;
+  const bool halved = report.projected_gradient <= 0.5 * last_look;
+  last_look = report.projected_gradient;
+  return !halved;
 }
 
 /**

@@ -7,11 +7,6 @@
 
 namespace hpvi
 {
-bool Refinement::is_empty(const Degrees &old_degrees) const
-{
-  return degrees == old_degrees && std::find(bisect.begin(), bisect.end(), true) == bisect.end();
-}
-
 namespace
 {
 std::vector<double> indicators(const ErrorEstimate &estimate)
@@ -46,8 +41,7 @@ void raise_or_bisect(Refinement &refinement, const unsigned int cell, const unsi
     refinement.bisect[cell] = true;
 }
 
-void bisect_above_mean(Refinement &refinement,
-                       const std::vector<double> &eta,
+void bisect_above_mean(Refinement &refinement, const std::vector<double> &eta,
                        const double threshold)
 {
   const double mean = std::accumulate(eta.begin(), eta.end(), 0.) / eta.size();
@@ -56,50 +50,48 @@ void bisect_above_mean(Refinement &refinement,
 }
 } // namespace
 
-Refinement mark(const Adaptivity &adaptivity,
-                const Degrees &degrees,
-                const ErrorEstimate &estimate,
+Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
                 const std::function<double(unsigned int)> &decay_rate)
 {
   const unsigned int n = degrees.size(), maximum = adaptivity.maximum_degree;
   Refinement result{std::vector<bool>(n, false), degrees};
   switch (adaptivity.method)
   {
-    case Method::hup2:
-    case Method::hup3:
-    case Method::hup4:
-      result.bisect.assign(n, true);
-      break;
-    case Method::hap2:
-    case Method::hap3:
-    case Method::hap4:
-      bisect_above_mean(result, indicators(estimate), adaptivity.hap_threshold);
-      break;
-    case Method::pu:
-      for (unsigned int &degree : result.degrees)
-        degree = std::min(degree + 1, maximum);
-      break;
-    case Method::hpa1:
-    {
-      const auto order = by_falling_indicator(indicators(estimate));
-      const unsigned int first = share_of(adaptivity.hpa1_bisected, n);
-      const unsigned int last = std::min(n, first + share_of(adaptivity.hpa1_raised, n));
-      for (unsigned int k = 0; k < first; ++k)
-        result.bisect[order[k]] = true;
-      for (unsigned int k = first; k < last; ++k)
+  case Method::hup2:
+  case Method::hup3:
+  case Method::hup4:
+    result.bisect.assign(n, true);
+    break;
+  case Method::hap2:
+  case Method::hap3:
+  case Method::hap4:
+    bisect_above_mean(result, indicators(estimate), adaptivity.hap_threshold);
+    break;
+  case Method::pu:
+    for (unsigned int &degree : result.degrees)
+      degree = std::min(degree + 1, maximum);
+    break;
+  case Method::hpa1:
+  {
+    const auto order = by_falling_indicator(indicators(estimate));
+    const unsigned int first = share_of(adaptivity.hpa1_bisected, n);
+    const unsigned int last = std::min(n, first + share_of(adaptivity.hpa1_raised, n));
+    for (unsigned int k = 0; k < first; ++k)
+      result.bisect[order[k]] = true;
+    for (unsigned int k = first; k < last; ++k)
+      raise_or_bisect(result, order[k], maximum);
+    break;
+  }
+  case Method::hpa2:
+  {
+    const auto order = by_falling_indicator(indicators(estimate));
+    for (unsigned int k = 0; k < share_of(adaptivity.hpa2_marked, n); ++k)
+      if (decay_rate(order[k]) > adaptivity.hpa2_decay)
         raise_or_bisect(result, order[k], maximum);
-      break;
-    }
-    case Method::hpa2:
-    {
-      const auto order = by_falling_indicator(indicators(estimate));
-      for (unsigned int k = 0; k < share_of(adaptivity.hpa2_marked, n); ++k)
-        if (decay_rate(order[k]) > adaptivity.hpa2_decay)
-          raise_or_bisect(result, order[k], maximum);
-        else
-          result.bisect[order[k]] = true;
-      break;
-    }
+      else
+        result.bisect[order[k]] = true;
+    break;
+  }
   }
   return result;
 }

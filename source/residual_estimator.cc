@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/residual_estimator.h>
 
 #include <cmath>
@@ -42,8 +42,7 @@ private:
   void add_contact(const ContactFace<dim> &face);
 
   Tensor<2, dim> stress(const Tensor<2, dim> &gradient) const;
-  std::vector<Tensor<1, dim>> tractions(const Cell &cell,
-                                        const ShapeTable<dim> &table,
+  std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
                                         const Tensor<1, dim> &normal) const;
   Tensor<1, dim> outer_normal(const Cell &cell, unsigned int face) const;
   double weight(unsigned int cell) const; ///< h_K/p_K
@@ -97,8 +96,7 @@ Tensor<2, dim> Residuals<dim>::stress(const Tensor<2, dim> &gradient) const
 /** d u_c / d x_j from reference derivatives of point q in @p derivatives (see evaluate()). */
 template <int dim>
 Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
-                                 const unsigned int first_row,
-                                 const unsigned int n_rows,
+                                 const unsigned int first_row, const unsigned int n_rows,
                                  const Tensor<2, dim> &inverse_jacobian)
 {
   Tensor<2, dim> gradient;
@@ -170,10 +168,10 @@ std::vector<Tensor<1, dim>> Residuals<dim>::tractions(const Cell &cell,
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   std::vector<Tensor<1, dim>> result(table.points.size());
   for (unsigned int q = 0; q < result.size(); ++q)
-    result[q] = stress(physical_gradient<dim>(derivatives, q * table.rows_per_point,
-                                              table.derivatives.m(),
-                                              invert(maps[index].jacobian(table.points[q])))) *
-                normal;
+    result[q] =
+        stress(physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
+                                      invert(maps[index].jacobian(table.points[q])))) *
+        normal;
   return result;
 }
 
@@ -204,7 +202,8 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
 
   const Tensor<1, dim> normal = outer_normal(cell, face);
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
-  const auto own = tractions(cell, table, normal), opposite = tractions(neighbor, *other_table, normal);
+  const auto own = tractions(cell, table, normal),
+             opposite = tractions(neighbor, *other_table, normal);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     sum += table.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
@@ -249,8 +248,7 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
     const Point<dim> x = face.point(s);
     double residual = own[q] * face.tangent;
     if (face.n_multipliers > 0)
-      residual +=
-        face.friction_bound(x) * solution.contact_space.value(face, solution.lambda, s);
+      residual += face.friction_bound(x) * solution.contact_space.value(face, solution.lambda, s);
     for (unsigned int c = 0; c < dim; ++c)
       if (face.condition->traction[c])
         residual -= face.tangent[c] * face.condition->traction[c]->value(x);
@@ -274,8 +272,8 @@ ErrorEstimate Residuals<dim>::compute()
           add_boundary(cell, face);
       }
       else if (!cell->face(face)->has_children() &&
-               (cell->neighbor_is_coarser(face) || cell->active_cell_index() <
-                                                     cell->neighbor(face)->active_cell_index()))
+               (cell->neighbor_is_coarser(face) ||
+                cell->active_cell_index() < cell->neighbor(face)->active_cell_index()))
         add_jump(cell, face);
   }
   for (const ContactFace<dim> &face : solution.contact_space.faces())

@@ -921,90 +921,114 @@ std::string support_entry(const BoundaryCondition<2> &boundary)
   return boundary.bilateral_contact ? "Contact" : "Displacement";
 }
 
-/** Can the conditions of the two edges at each corner hold together? */
-void check_corners(const Parameters &parameters, const Scene<2> &scene)
+[[noreturn]] void reject_corner(const Parameters &parameters, const BoundaryCondition<2> &one,
+                                const BoundaryCondition<2> &two, const Point<2> &corner,
+                                const double contradiction)
 {
-  const std::vector<Edge> edges = edges_of(scene.geometry);
-  double scale = 0;
+  // The message stands at the boundary whose value can be changed.
+  const BoundaryCondition<2> &changeable = one.bilateral_contact ? two : one;
+  const BoundaryCondition<2> &other = one.bilateral_contact ? one : two;
+  const std::string section = "Boundary " + other.name;
+  parameters.reject("Boundary " + changeable.name, support_entry(changeable),
+                    "contradicts " + section + "/" + support_entry(other) + " = " +
+                        parameters.text(section, support_entry(other)) + " at their corner " +
+                        to_string(corner) + " by " + to_string(std::abs(contradiction)) +
+                        "; make both agree there or free one component");
+}
+
+/** The largest displacement that any boundary prescribes. */
+double largest_displacement(const Scene<2> &scene, const std::vector<Edge> &edges)
+{
+  double largest = 0;
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &point : edges[f].sample())
       for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], point))
-        scale = std::max(scale, std::abs(condition.value));
+        largest = std::max(largest, std::abs(condition.value));
+  return largest;
+}
 
-  for (unsigned int corner = 0; corner < scene.geometry.corners.size(); ++corner)
+/** Can all @p conditions at one corner hold together? */
+void check_corner(const Parameters &parameters, const Scene<2> &scene, const Point<2> &corner,
+                  const std::vector<PointCondition> &conditions, const double scale)
+{
+  std::vector<PointCondition> basis; // orthonormal directions, by Gram and Schmidt
+  for (PointCondition rest : conditions)
   {
-    const Point<2> &point = scene.geometry.corners[corner];
-    std::vector<PointCondition> basis; // orthonormal directions, by Gram and Schmidt
+    for (const PointCondition &q : basis)
+    {
+      const double product = rest.direction * q.direction;
+      rest.direction -= product * q.direction;
+      rest.value -= product * q.value;
+    }
+    const double norm = rest.direction.norm();
+    if (norm > 1e-6)
+      basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
+    else if (std::abs(rest.value) > 1e-10 * scale)
+      reject_corner(parameters, scene.boundaries[basis.front().boundary],
+                    scene.boundaries[rest.boundary], corner, rest.value);
+  }
+}
+
+void check_corners(const Parameters &parameters, const Scene<2> &scene)
+{
+  const std::vector<Edge> edges = edges_of(scene.geometry);
+  const double scale = largest_displacement(scene, edges);
+  for (unsigned int c = 0; c < scene.geometry.corners.size(); ++c)
+  {
+    const Point<2> &corner = scene.geometry.corners[c];
+    std::vector<PointCondition> conditions;
     for (unsigned int f = 0; f < edges.size(); ++f)
-      if (edges[f].corners[0] == corner || edges[f].corners[1] == corner)
-        for (PointCondition rest : conditions_at(scene.boundaries[f], edges[f], point))
-        {
-          for (const PointCondition &q : basis)
-          {
-            const double product = rest.direction * q.direction;
-            rest.direction -= product * q.direction;
-            rest.value -= product * q.value;
-          }
-          const double norm = rest.direction.norm();
-          if (norm > 1e-6)
-            basis.push_back({rest.direction / norm, rest.value / norm, f});
-          else if (std::abs(rest.value) > 1e-10 * scale)
-          {
-            const BoundaryCondition<2> &one = scene.boundaries[basis.front().boundary];
-            const BoundaryCondition<2> &two = scene.boundaries[f];
-            const auto &[prescribed, other] =
-                one.bilateral_contact ? std::tie(two, one) : std::tie(one, two);
-            parameters.reject("Boundary " + prescribed.name, support_entry(prescribed),
-                              "contradicts Boundary " + other.name + "/" + support_entry(other) +
-                                  " = " +
-                                  parameters.text("Boundary " + other.name, support_entry(other)) +
-                                  " at their corner " + to_string(point) + " by " +
-                                  to_string(std::abs(rest.value)) +
-                                  "; make both agree there or free one component");
-          }
-        }
+      if (edges[f].corners[0] == c || edges[f].corners[1] == c)
+        for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], corner))
+          conditions.push_back(condition);
+    check_corner(parameters, scene, corner, conditions, scale);
   }
 }
 
 /**
- * A rigid-body motion `(a - c (y - y_0), b + c (x - x_0))` of which the supports say nothing, in
- * words; empty if there is none. @p rows are the motions' components (a, b, c) that supports fix.
+ * The rigid-body motion `(a - c (y - y_0)/length, b + c (x - x_0)/length)` in words; of a, b, c
+ * those behind @p last vanish, and that one is 1.
+ */
+std::string describe_motion(const std::array<double, 3> &motion, const unsigned int last,
+                            const Point<2> &centre, const double length)
+{
+  if (last == 0)
+    return "translation in x";
+  if (last == 1 && std::abs(motion[0]) < 1e-8)
+    return "translation in y";
+  if (last == 1)
+    return "translation along " + to_string(Point<2>(motion[0], motion[1]));
+  return "rotation about " + to_string(centre + length * Point<2>(-motion[1], motion[0]));
+}
+
+/**
+ * A rigid-body motion of which the supports say nothing, in words; empty if there is none. Each of
+ * @p rows is a condition on (a, b, c) above.
  */
 std::string free_motion(std::vector<std::array<double, 3>> rows, const Point<2> &centre,
                         const double length)
 {
-  // Elimination column by column: the first column without pivot names a free motion, which is a
-  // translation unless only the last column is left.
-  std::array<int, 3> pivot_row = {{-1, -1, -1}};
-  unsigned int rank = 0;
+  // Gauss and Jordan: the first column without pivot is a motion that earlier columns can balance.
   for (unsigned int column = 0; column < 3; ++column)
   {
-    const auto largest = std::max_element(rows.begin() + rank, rows.end(),
-                                          [column](const auto &a, const auto &b)
-                                          { return std::abs(a[column]) < std::abs(b[column]); });
-    if (largest == rows.end() || std::abs((*largest)[column]) < 1e-8)
+    const auto pivot = std::max_element(rows.begin() + column, rows.end(),
+                                        [column](const auto &a, const auto &b)
+                                        { return std::abs(a[column]) < std::abs(b[column]); });
+    if (pivot == rows.end() || std::abs((*pivot)[column]) < 1e-8)
     {
       std::array<double, 3> motion = {{0, 0, 0}};
       motion[column] = 1;
       for (unsigned int c = 0; c < column; ++c)
-        motion[c] = -rows[pivot_row[c]][column] / rows[pivot_row[c]][c];
-      if (column == 0)
-        return "translation in x";
-      if (column == 1 && std::abs(motion[0]) < 1e-8)
-        return "translation in y";
-      if (column == 1)
-        return "translation along " + to_string(Point<2>(motion[0], motion[1]));
-      return "rotation about " + to_string(centre + length * Point<2>(-motion[1], motion[0]));
+        motion[c] = -rows[c][column] / rows[c][c];
+      return describe_motion(motion, column, centre, length);
     }
-    std::swap(*largest, rows[rank]);
-    pivot_row[column] = rank++;
+    std::swap(*pivot, rows[column]);
     for (unsigned int r = 0; r < rows.size(); ++r)
-      if (r != rank - 1)
-      {
-        const double factor = rows[r][column] / rows[rank - 1][column];
-        for (unsigned int c = 0; c < 3; ++c)
-          rows[r][c] -= factor * rows[rank - 1][c];
-      }
+    {
+      const double factor = r == column ? 0. : rows[r][column] / rows[column][column];
+      for (unsigned int c = 0; c < 3; ++c)
+        rows[r][c] -= factor * rows[column][c];
+    }
   }
   return "";
 }

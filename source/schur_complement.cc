@@ -47,15 +47,14 @@ namespace
 {
 /** The upper triangle of the chosen rows and columns in CHOLMOD's compressed columns. */
 cholmod_sparse *upper_triangle(const SparseMatrix<double> &A,
-                               const SchurComplement::Indices &unknowns,
-                               cholmod_common *common)
+                               const SchurComplement::Indices &unknowns, cholmod_common *common)
 {
   std::vector<int> number(A.m(), -1);
   for (unsigned int i = 0; i < unknowns.size(); ++i)
     number[unknowns[i]] = i;
   cholmod_sparse *matrix =
-    cholmod_allocate_sparse(unknowns.size(), unknowns.size(), A.n_nonzero_elements(),
-                            /*sorted=*/false, /*packed=*/true, /*stype=*/1, CHOLMOD_REAL, common);
+      cholmod_allocate_sparse(unknowns.size(), unknowns.size(), A.n_nonzero_elements(),
+                              /*sorted=*/false, /*packed=*/true, /*stype=*/1, CHOLMOD_REAL, common);
   int *column_start = static_cast<int *>(matrix->p);
   int *row = static_cast<int *>(matrix->i);
   double *value = static_cast<double *>(matrix->x);
@@ -109,7 +108,7 @@ SchurComplement::Factor::trailing_block(const unsigned int n_trailing) const
       const int n_supernode_rows = pi[k + 1] - pi[k];
       for (int r = column - super[k]; r < n_supernode_rows; ++r)
         block(s[pi[k] + r] - first, column - first) =
-          x[px[k] + (column - super[k]) * n_supernode_rows + r];
+            x[px[k] + (column - super[k]) * n_supernode_rows + r];
     }
   block.set_property(LAPACKSupport::lower_triangular);
   return block;
@@ -131,10 +130,8 @@ Vector<double> SchurComplement::Factor::solve(const int system,
   return solution;
 }
 
-SchurComplement::SchurComplement(const SparseMatrix<double> &A,
-                                 const Vector<double> &f,
-                                 const Indices &unknowns,
-                                 const Indices &contact,
+SchurComplement::SchurComplement(const SparseMatrix<double> &A, const Vector<double> &f,
+                                 const Indices &unknowns, const Indices &contact,
                                  const FullMatrix<double> &B)
     : factor(std::make_unique<Factor>()), unknowns(unknowns), n_rows(A.m())
 {
@@ -172,7 +169,7 @@ SchurComplement::SchurComplement(const SparseMatrix<double> &A,
   {
     const auto dof = unknowns[factor->permutation[n - n_contact + k]];
     const unsigned int column =
-      std::lower_bound(contact.begin(), contact.end(), dof) - contact.begin();
+        std::lower_bound(contact.begin(), contact.end(), dof) - contact.begin();
     for (unsigned int m = 0; m < B.m(); ++m)
       Y(k, m) = B(m, column);
   }

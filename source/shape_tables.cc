@@ -23,7 +23,7 @@ class TensorElement
 public:
   explicit TensorElement(const unsigned int degree)
       : polynomials(Polynomials::generate_complete_Lagrange_basis(
-          QGaussLobatto<1>(degree + 1).get_points())),
+            QGaussLobatto<1>(degree + 1).get_points())),
         lexicographic(FE_Q<dim>(degree).get_poly_space_numbering())
   {
   }
@@ -63,10 +63,8 @@ private:
 };
 
 template <int dim>
-ShapeTable<dim> tabulate(const unsigned int degree,
-                         const std::vector<Point<dim>> &points,
-                         const std::vector<double> &weights,
-                         const bool second_derivatives)
+ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>> &points,
+                         const std::vector<double> &weights, const bool second_derivatives)
 {
   TensorElement<dim> element(degree);
   ShapeTable<dim> table;
@@ -116,25 +114,23 @@ const ShapeTable<dim> &ShapeTables<dim>::cell(const unsigned int degree,
   {
     const QGauss<dim> gauss(n_gauss);
     found =
-      tables.emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(), true))
-        .first;
+        tables.emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(), true))
+            .first;
   }
   return found->second;
 }
 
 template <int dim>
-const ShapeTable<dim> &ShapeTables<dim>::face(const unsigned int degree,
-                                              const unsigned int face_no,
+const ShapeTable<dim> &ShapeTables<dim>::face(const unsigned int degree, const unsigned int face_no,
                                               const unsigned int n_gauss) const
 {
   return subface(degree, face_no, whole_face, n_gauss);
 }
 
 template <int dim>
-const ShapeTable<dim> &ShapeTables<dim>::subface(const unsigned int degree,
-                                                 const unsigned int face_no,
-                                                 const unsigned int subface_no,
-                                                 const unsigned int n_gauss) const
+const ShapeTable<dim> &
+ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
+                          const unsigned int subface_no, const unsigned int n_gauss) const
 {
   const std::array<unsigned int, 4> key{{degree, face_no, subface_no, n_gauss}};
   auto found = tables.find(key);
@@ -199,8 +195,7 @@ namespace
 {
 /** Derivative of the d-linear shape function of vertex v, of the given order per direction. */
 template <int dim>
-double vertex_shape(const unsigned int v,
-                    const Point<dim> &xi,
+double vertex_shape(const unsigned int v, const Point<dim> &xi,
                     const std::array<unsigned int, dim> &order)
 {
   double product = 1.;

@@ -16,14 +16,14 @@ namespace hpvi
 /** Seconds spent in each stage of one step. */
 struct StageTimes
 {
-  double setup = 0;     ///< unknowns, constraints, contact space
-  double assemble = 0;  ///< A, f, B
-  double factor = 0;    ///< analysis, factorisation, reduction to the contact boundary
-  double qp = 0;        ///< the quadratic program
-  double recover = 0;   ///< u from the multiplier, energies
-  double estimate = 0;  ///< residual indicator
-  double decide = 0;    ///< smoothness, marking: the decision that led to this step
-  double refine = 0;    ///< bisection that led to this step
+  double setup = 0;    ///< unknowns, constraints, contact space
+  double assemble = 0; ///< A, f, B
+  double factor = 0;   ///< analysis, factorisation, reduction to the contact boundary
+  double qp = 0;       ///< the quadratic program
+  double recover = 0;  ///< u from the multiplier, energies
+  double estimate = 0; ///< residual indicator
+  double decide = 0;   ///< smoothness, marking: the decision that led to this step
+  double refine = 0;   ///< bisection that led to this step
 
   double total() const
   {

@@ -23,10 +23,8 @@ class ElasticSystem
 {
 public:
   /** Assemble; @p stiffnesses remembers element matrices from step to step. */
-  ElasticSystem(const Scene<dim> &scene,
-                const DisplacementSpace<dim> &displacement_space,
-                const ContactSpace<dim> &contact_space,
-                const ShapeTables<dim> &tables,
+  ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
+                const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
                 ElementStiffnesses<dim> &stiffnesses);
 
   dealii::SparseMatrix<double> A; ///< numbered like the displacement space; stress length^(dim-2)

@@ -22,12 +22,12 @@ struct ContactFace
 {
   typename dealii::DoFHandler<dim>::active_cell_iterator cell;
   unsigned int face_no;
-  unsigned int degree;                ///< p_K of the cell
+  unsigned int degree; ///< p_K of the cell
   const BoundaryCondition<dim> *condition;
-  dealii::Tensor<1, dim> normal;      ///< outer unit normal n
-  dealii::Tensor<1, dim> tangent;     ///< t = (-n_y, n_x)
-  unsigned int first_multiplier;      ///< index of the first unknown
-  unsigned int n_multipliers;         ///< p - 1, or 0 where g vanishes on the whole face
+  dealii::Tensor<1, dim> normal;  ///< outer unit normal n
+  dealii::Tensor<1, dim> tangent; ///< t = (-n_y, n_x)
+  unsigned int first_multiplier;  ///< index of the first unknown
+  unsigned int n_multipliers;     ///< p - 1, or 0 where g vanishes on the whole face
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;

@@ -21,8 +21,7 @@ class DisplacementSpace
 {
 public:
   /** @p degrees by active cell index; the triangulation must outlive the space. */
-  DisplacementSpace(const Scene<dim> &scene,
-                    const dealii::Triangulation<dim> &triangulation,
+  DisplacementSpace(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
                     const Degrees &degrees);
 
   const dealii::Triangulation<dim> &triangulation() const;

@@ -17,8 +17,7 @@ struct Energies
 
 /** The integral of g |u_Nt| splits each edge where u_Nt changes sign. */
 template <int dim>
-Energies energies(const Solution<dim> &solution,
-                  const ElasticSystem<dim> &system,
+Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
                   const ShapeTables<dim> &tables);
 } // namespace hpvi
 

@@ -20,12 +20,23 @@ using Degrees = std::vector<unsigned int>;
 template <int dim>
 void make_mesh(const Scene<dim> &scene, dealii::Triangulation<dim> &triangulation);
 
+/** What to do with each cell, by active cell index. */
+struct Refinement
+{
+  std::vector<bool> bisect;
+  Degrees degrees; ///< after raising p; cells that are bisected do not use theirs
+
+  bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
+};
+
 /**
- * Bisect the cells that carry a refinement flag (with deal.II's 2:1 closure) and hand every child
- * the degree of its parent; @p degrees are the new degrees of the cells before bisection.
+ * Carry out @p refinement with deal.II's 2:1 closure; returns the degrees of the new cells.
+ * A cell is either bisected or raised: where the closure bisects a cell that was to be raised, its
+ * children keep the old degree. So the thesis's tables want it (doc/chapter5.md).
  */
 template <int dim>
-Degrees refine_mesh(dealii::Triangulation<dim> &triangulation, const Degrees &degrees);
+Degrees refine_mesh(dealii::Triangulation<dim> &triangulation, const Degrees &degrees,
+                    const Refinement &refinement);
 } // namespace hpvi
 
 #endif

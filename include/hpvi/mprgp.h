@@ -30,8 +30,8 @@ public:
   {
     double tolerance = 1e-9; ///< |nu| <= tolerance * max(|d|, |S z_0|), scaled variables
     unsigned int maximum_multiplications = 100000;
-    double gamma = 1.;             ///< proportioning parameter Gamma
-    bool diagonal_scaling = true;  ///< iterate in y_i = sqrt(S_ii) z_i
+    double gamma = 1.;            ///< proportioning parameter Gamma
+    bool diagonal_scaling = true; ///< iterate in y_i = sqrt(S_ii) z_i
   };
 
   explicit Mprgp(const Settings &settings);

@@ -41,10 +41,8 @@ public:
    *
    * and both are 0 where l_i = u_i. NaN in z or r shows up in one of the parts.
    */
-  void split_gradient(const dealii::Vector<double> &z,
-                      const dealii::Vector<double> &r,
-                      dealii::Vector<double> &phi,
-                      dealii::Vector<double> &beta) const;
+  void split_gradient(const dealii::Vector<double> &z, const dealii::Vector<double> &r,
+                      dealii::Vector<double> &phi, dealii::Vector<double> &beta) const;
 
   /**
    * The box in the variables `y_i = z_i / scale_i`, scale_i > 0. A wall goes exactly to a wall:

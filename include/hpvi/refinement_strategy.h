@@ -10,15 +10,6 @@
 
 namespace hpvi
 {
-/** What to do with each cell, by active cell index. */
-struct Refinement
-{
-  std::vector<bool> bisect;
-  Degrees degrees; ///< after raising p; children of bisected cells inherit it
-
-  bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
-};
-
 /**
  * MARK of the methods of Chapter 5:
  *
@@ -34,9 +25,7 @@ struct Refinement
  * cell of maximum degree is bisected where its p would rise, except by pu, which then has nothing
  * left to do.
  */
-Refinement mark(const Adaptivity &adaptivity,
-                const Degrees &degrees,
-                const ErrorEstimate &estimate,
+Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
                 const std::function<double(unsigned int cell)> &decay_rate);
 } // namespace hpvi
 

@@ -35,9 +35,9 @@ enum class PlaneModel
 /** Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). */
 struct Material
 {
-  double young;      ///< Young's modulus E > 0, a stress
-  double poisson;    ///< Poisson's ratio nu in (-1, 1/2), dimensionless
-  PlaneModel plane;  ///< used in two dimensions only
+  double young;     ///< Young's modulus E > 0, a stress
+  double poisson;   ///< Poisson's ratio nu in (-1, 1/2), dimensionless
+  PlaneModel plane; ///< used in two dimensions only
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
   double mu() const;
@@ -74,8 +74,8 @@ struct BoundaryCondition
 {
   using Expression = std::shared_ptr<const dealii::Function<dim>>;
 
-  std::string name;                        ///< left, right, bottom, top, front, back
-  dealii::types::boundary_id id;           ///< deal.II's number: the index into Scene::boundaries
+  std::string name;                         ///< left, right, bottom, top, front, back
+  dealii::types::boundary_id id;            ///< deal.II's number: the index into Scene::boundaries
   std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
   std::array<Expression, dim> traction;     ///< components of G [stress]; null: zero
   bool bilateral_contact;                   ///< u_n = 0

@@ -31,10 +31,8 @@ public:
    * (ascending, a subset) are the columns of @p B. Throws NumericalFailure if A is not positive
    * definite.
    */
-  SchurComplement(const dealii::SparseMatrix<double> &A,
-                  const dealii::Vector<double> &f,
-                  const Indices &unknowns,
-                  const Indices &contact,
+  SchurComplement(const dealii::SparseMatrix<double> &A, const dealii::Vector<double> &f,
+                  const Indices &unknowns, const Indices &contact,
                   const dealii::FullMatrix<double> &B);
   ~SchurComplement();
 

@@ -32,7 +32,7 @@ struct ShapeTable
 /** How deal.II numbers the unknowns of FESystem(FE_Q(p), dim) on one cell. */
 struct LocalNumbering
 {
-  unsigned int n_boundary; ///< unknowns on vertices and faces; they come first
+  unsigned int n_boundary;             ///< unknowns on vertices and faces; they come first
   std::vector<unsigned int> component; ///< of each unknown
   std::vector<unsigned int> shape;     ///< scalar shape function of each unknown
 };
@@ -50,13 +50,11 @@ public:
   const ShapeTable<dim> &cell(unsigned int degree, unsigned int n_gauss) const;
 
   /** (n_gauss)^(dim-1) points on face @p face_no. */
-  const ShapeTable<dim> &
-  face(unsigned int degree, unsigned int face_no, unsigned int n_gauss) const;
+  const ShapeTable<dim> &face(unsigned int degree, unsigned int face_no,
+                              unsigned int n_gauss) const;
 
   /** The same on the part of a face that its child @p subface_no covers. */
-  const ShapeTable<dim> &subface(unsigned int degree,
-                                 unsigned int face_no,
-                                 unsigned int subface_no,
+  const ShapeTable<dim> &subface(unsigned int degree, unsigned int face_no, unsigned int subface_no,
                                  unsigned int n_gauss) const;
 
   const LocalNumbering &numbering(unsigned int degree) const;
