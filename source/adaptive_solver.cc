@@ -60,11 +60,15 @@ struct AdaptiveSolver<dim>::Stages
   const ShapeTables<dim> tables;
   ElementStiffnesses<dim> stiffnesses;
   const LegendreSmoothness<dim> smoothness;
+  const TrueError<dim> true_error;
   std::unique_ptr<Discretisation<dim>> discretisation;
   StageTimes times; ///< of the current step
+  double seconds = 0;
+  unsigned int number = 0;
 
   explicit Stages(const Scene<dim> &scene)
-      : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading)
+      : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
+        true_error(scene, tables)
   {
     make_mesh(scene, triangulation);
     degrees.assign(triangulation.n_active_cells(), scene.adaptivity.start_degree);
@@ -74,7 +78,11 @@ struct AdaptiveSolver<dim>::Stages
   Solution<dim> solve(Reduction &reduction);
   void solve_for_multiplier(const SchurComplement &schur_complement, Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
-  bool refine(const Solution<dim> &solution, const ErrorEstimate &estimate);
+  Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
+  Step<dim> report(const Solution<dim> &solution,
+                   const ErrorEstimate &estimate,
+                   const Reduction &reduction);
+  void refine(const Refinement &refinement);
 };
 
 template <int dim>
@@ -150,21 +158,19 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 }
 
 template <int dim>
-bool AdaptiveSolver<dim>::Stages::refine(const Solution<dim> &solution,
-                                         const ErrorEstimate &estimate)
+Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
+                                               const ErrorEstimate &estimate)
 {
-  Refinement refinement;
-  {
-    StageTimer timer(times.decide);
-    refinement = mark(scene.adaptivity, degrees, estimate,
-                      [&](const unsigned int cell)
-                      { return smoothness.decay_rate(solution, tables, cell); });
-  }
-  if (refinement.is_empty(degrees))
-    return false;
+  StageTimer timer(times.decide);
+  return mark(scene.adaptivity, degrees, estimate, [&](const unsigned int cell)
+              { return smoothness.decay_rate(solution, tables, cell); });
+}
+
+template <int dim>
+void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
+{
   StageTimer timer(times.refine);
   degrees = refine_mesh(triangulation, degrees, refinement);
-  return true;
 }
 
 template <int dim>
@@ -177,30 +183,69 @@ template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 
 template <int dim>
+Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
+                                              const ErrorEstimate &estimate,
+                                              const Reduction &reduction)
+{
+  Energies step_energies;
+  {
+    StageTimer timer(times.recover);
+    step_energies = energies(solution, *discretisation->system, tables);
+  }
+  const double scaled_estimate = estimate.total() / std::sqrt(2 * scene.material.mu());
+  seconds += times.total();
+  return {++number,
+          solution,
+          estimate,
+          scaled_estimate,
+          scaled_estimate / step_energies.norm,
+          step_energies,
+          true_error.measure(solution),
+          reduction.qp,
+          reduction.condition_raw,
+          reduction.condition_scaled,
+          times,
+          seconds,
+          {}};
+}
+
+namespace
+{
+/** Which limit of the scene does this step reach? Empty: none. */
+template <int dim>
+std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
+{
+  if (step.relative_estimate < limits.tolerance)
+    return "Tolerance";
+  if (step.number >= limits.maximum_steps)
+    return "Maximum steps";
+  if (step.solution.displacement_space.n_free_dofs() >= limits.maximum_unknowns)
+    return "Maximum unknowns";
+  if (limits.maximum_seconds > 0 && step.seconds >= limits.maximum_seconds)
+    return "Maximum seconds";
+  return {};
+}
+} // namespace
+
+template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
 {
-  const Adaptivity &adaptivity = stages->scene.adaptivity;
-  double seconds = 0;
-  for (unsigned int number = 1;; ++number)
+  for (bool finished = false; !finished;)
   {
     stages->discretise();
     Reduction reduction;
     const Solution<dim> solution = stages->solve(reduction);
     const ErrorEstimate estimate = stages->estimate(solution);
-    Energies step_energies;
-    {
-      StageTimer timer(stages->times.recover);
-      step_energies = energies(solution, *stages->discretisation->system, stages->tables);
-    }
-    seconds += stages->times.total();
-    finished_step({number, solution, estimate, step_energies, reduction.qp, reduction.condition_raw,
-                   reduction.condition_scaled, stages->times, seconds});
-
+    const Refinement refinement = stages->decide(solution, estimate);
+    Step<dim> step = stages->report(solution, estimate, reduction);
+    step.stopped_by = reached_limit(stages->scene.adaptivity, step);
+    if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
+      step.stopped_by = "Maximum degree";
+    finished = !step.stopped_by.empty();
+    finished_step(step);
     stages->times = StageTimes();
-    if (number >= adaptivity.maximum_steps ||
-        solution.displacement_space.n_free_dofs() >= adaptivity.maximum_unknowns ||
-        !stages->refine(solution, estimate))
-      return;
+    if (!finished)
+      stages->refine(refinement);
   }
 }
 

@@ -265,7 +265,7 @@ void ElasticSystem<dim>::recover(Vector<double> &u) const
 }
 
 template <int dim>
-double ElasticSystem<dim>::potential_energy(const Vector<double> &u) const
+double ElasticSystem<dim>::energy_product(const Vector<double> &u) const
 {
   double a = 0;
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
@@ -276,7 +276,13 @@ double ElasticSystem<dim>::potential_energy(const Vector<double> &u) const
       local[i] = u[dofs[i]];
     a += elements[cell]->K.matrix_norm_square(local);
   }
-  return 0.5 * a - load * u;
+  return a;
+}
+
+template <int dim>
+double ElasticSystem<dim>::work(const Vector<double> &u) const
+{
+  return load * u;
 }
 
 template class ElasticSystem<2>;

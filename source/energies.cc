@@ -101,8 +101,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
                     [&](const double s, const double u)
                     { return g(s) * u * solution.contact_space.value(face, solution.lambda, s); });
     }
-  const double potential = system.potential_energy(solution.u);
-  return {potential + coupling, potential + friction, friction - coupling};
+  const double a = system.energy_product(solution.u);
+  const double potential = 0.5 * a - system.work(solution.u);
+  return {potential + coupling, potential + friction, std::sqrt(a), friction - coupling};
 }
 
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &);

@@ -15,6 +15,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /**
+ * Neither NaN nor infinity in what is iterated upon? (The sides of the box have been checked, and
+ * may be infinite.)
+ */
+bool is_finite(const QuadraticProgram &qp, const Vector<double> &z)
+{
+  const auto finite = [](const double x) { return std::isfinite(x); };
+  for (unsigned int j = 0; j < qp.S.n(); ++j)
+    for (unsigned int i = 0; i < qp.S.m(); ++i)
+      if (!finite(qp.S(i, j)))
+        return false;
+  return std::all_of(qp.d.begin(), qp.d.end(), finite) && std::all_of(z.begin(), z.end(), finite);
+}
+
+/**
  * A rigorous upper bound of |S|_2 for symmetric S: the smaller of row sum norm and Frobenius norm.
  * It reads S once; an iterative estimate would read it several times and come from below.
  */
@@ -28,13 +42,11 @@ double norm_bound(const LAPACKFullMatrix<double> &S)
       row_sums[i] += std::abs(S(i, j));
       squares += S(i, j) * S(i, j);
     }
-  // The sum of squares comes last: min() returns its first argument if the other one is NaN, and a
-  // NaN in S must not hide.
   return std::min(std::sqrt(squares), row_sums.linfty_norm());
 }
 
 /**
- * One run of the algorithm in the variables in which it iterates. The QP value
+ * One run of the algorithm in the variables in which it iterates, from a feasible y. The QP value
  * `q(y) = 1/2 y'Sy - d'y` falls in every step.
  */
 class Iteration
@@ -79,7 +91,6 @@ Iteration::Iteration(const QuadraticProgram &qp, const Mprgp::Settings &settings
     : qp(qp), settings(settings), y(y), r(y.size()), Sp(y.size()), trial_gradient(y.size()),
       norm(norm_bound(qp.S)), fixed_length(norm == 0. ? 1. : 1.95 / norm)
 {
-  qp.feasible_set.project(y);
   if (!y.all_zero()) // S 0 needs no product
     multiply(y, r);
   reference = std::max(qp.d.l2_norm(), r.l2_norm());
@@ -90,9 +101,6 @@ Iteration::Iteration(const QuadraticProgram &qp, const Mprgp::Settings &settings
 
 QpReport Iteration::run()
 {
-  measure();
-  if (!(fixed_length > 0)) // NaN or infinity in S
-    return report;
   while (!finished())
     if (!(is_proportional() ? minimise_on_face() : proportion()))
       break;
@@ -306,11 +314,15 @@ QpReport Mprgp::solve(const QuadraticProgram &qp, Vector<double> &z) const
   AssertDimension(qp.S.n(), z.size());
   AssertDimension(qp.d.size(), z.size());
   AssertDimension(qp.feasible_set.size(), z.size());
-  if (z.size() == 0)
+  QpReport report;
+  report.converged = z.size() == 0;
+  if (report.converged)
+    return report;
+  qp.feasible_set.project(z);
+  if (!is_finite(qp, z))
   {
-    QpReport nothing_to_do;
-    nothing_to_do.converged = true;
-    return nothing_to_do;
+    report.projected_gradient = std::numeric_limits<double>::quiet_NaN();
+    return report;
   }
   if (!settings.diagonal_scaling)
     return Iteration(qp, settings, z).run();
@@ -321,7 +333,7 @@ QpReport Mprgp::solve(const QuadraticProgram &qp, Vector<double> &z) const
   Vector<double> y(z.size());
   for (unsigned int i = 0; i < z.size(); ++i)
     y[i] = z[i] / scale[i];
-  const QpReport report = Iteration(scaled, settings, y).run();
+  report = Iteration(scaled, settings, y).run();
   unscale(scaled.feasible_set, y, qp.feasible_set, scale, z);
   return report;
 }

@@ -362,9 +362,9 @@ std::string contact_table(const Solution<dim> &solution, const ShapeTables<dim> 
 /** Light for low degrees, dark for high ones; the same in every picture, so that steps compare. */
 const char *colour(const unsigned int degree)
 {
-  static const char *const colours[] = {"#fffbe0", "#fff0a6", "#fedb70", "#feba4f",
-                                        "#fc943c", "#f56a32", "#e23f34", "#c51d4c",
-                                        "#9c1468", "#73147b", "#4b1a78", "#24185c"};
+  static const char *const colours[] = {"#fffde0", "#fdf3a0", "#e6e66a", "#b4d857",
+                                        "#78c664", "#3fab78", "#1f8c86", "#276f8e",
+                                        "#33538f", "#443a85", "#471b6d", "#2d0a44"};
   return colours[std::clamp(degree, 1U, 12U) - 1];
 }
 
@@ -385,7 +385,7 @@ std::vector<double> tick_marks(const double lower, const double upper, const dou
   std::vector<double> marks;
   const double slack = 1e-9 * (upper - lower);
   for (double k = std::ceil((lower - slack) / spacing); k * spacing <= upper + slack; ++k)
-    marks.push_back(k * spacing);
+    marks.push_back(k * spacing + 0.); // never -0
   return marks;
 }
 
@@ -468,7 +468,7 @@ void MeshPicture::draw_cell(const Cell &cell, const double size)
   out << "Z\" fill=\"" << colour(degree) << "\" stroke-width=\""
       << text(std::min(0.8, 0.03 * size), 4) << "\"/>\n";
   // a scaled text of ordinary size: renderers round tiny font sizes
-  out << "<text transform=\"translate(" << coordinates(page(cell->center())) << ") scale("
+  out << "<text y=\"3.5\" transform=\"translate(" << coordinates(page(cell->center())) << ") scale("
       << text(0.05 * std::min(size, 80.), 4) << ")\" fill=\"" << text_colour(degree)
       << "\" stroke=\"none\">" << degree << "</text>\n";
 }
@@ -487,11 +487,10 @@ void MeshPicture::draw_cells()
     }
   std::stable_sort(cells.begin(), cells.end(),
                    [](const auto &a, const auto &b) { return a.first > b.first; });
-  out << "<g stroke=\"#333\" stroke-linejoin=\"round\" font-size=\"10\" text-anchor=\"middle\">\n"
-         "<g transform=\"translate(0 0)\">\n";
+  out << "<g stroke=\"#333\" stroke-linejoin=\"round\" font-size=\"10\" text-anchor=\"middle\">\n";
   for (const auto &[size, cell] : cells)
     draw_cell(cell, size);
-  out << "</g>\n</g>\n";
+  out << "</g>\n";
 }
 
 /** A thick line beside the boundary, where it hides no cell. */
@@ -505,7 +504,7 @@ void MeshPicture::draw_contact()
             coordinates(page(face.point(1.) + outward));
   }
   if (!path.empty())
-    out << "<path d=\"" << path << "\" stroke=\"#0a7a5c\" stroke-width=\"4\" fill=\"none\"/>\n";
+    out << "<path d=\"" << path << "\" stroke=\"#c4161c\" stroke-width=\"4\" fill=\"none\"/>\n";
 }
 
 /** Axes a little off the mesh with round numbers; the label names the unit. */
@@ -523,7 +522,7 @@ void MeshPicture::draw_axes()
   }
   draw_label(left + width / 2, bottom + gap + 36, "x" + suffix, " text-anchor=\"middle\"");
   draw_line(left - gap, top, left - gap, bottom);
-  for (const double y : tick_marks(box.lower_bound(1), box.upper_bound(1), height / 40.))
+  for (const double y : tick_marks(box.lower_bound(1), box.upper_bound(1), height / 60.))
   {
     const double at = page({0, y})[1];
     draw_line(left - gap, at, left - gap - tick, at);
@@ -551,7 +550,7 @@ void MeshPicture::draw_legend()
   if (!step.solution.contact_space.faces().empty())
   {
     out << "<path d=\"M" << text(x + 24, 6) << ' ' << text(y + 11, 6)
-        << "h30\" stroke=\"#0a7a5c\" stroke-width=\"4\"/>\n";
+        << "h30\" stroke=\"#c4161c\" stroke-width=\"4\"/>\n";
     draw_label(x + 62, y + 15, "contact boundary");
   }
 }

@@ -1159,17 +1159,6 @@ void fill(Parameters &parameters, const std::string &file,
 
 // ---------------------------------------------------------------- the interface
 
-double Material::mu() const
-{
-  return young / (2 * (1 + poisson));
-}
-
-double Material::lambda(const int dim) const
-{
-  const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-  return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
-}
-
 template <int dim>
 bool BoundaryCondition<dim>::has_displacement() const
 {

@@ -62,6 +62,8 @@ private:
   std::array<Derivatives1D, dim> factors;
 };
 
+} // namespace
+
 template <int dim>
 ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>> &points,
                          const std::vector<double> &weights, const bool second_derivatives)
@@ -100,6 +102,8 @@ ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>
   return table;
 }
 
+namespace
+{
 constexpr unsigned int whole_cell = numbers::invalid_unsigned_int;
 constexpr unsigned int whole_face = numbers::invalid_unsigned_int;
 } // namespace
@@ -178,17 +182,6 @@ std::vector<double> evaluate(const FullMatrix<double> &table,
   gemm("T", "N", &rows, &components, &shapes, &one, &table(0, 0), &shapes, coefficients.data(),
        &shapes, &zero, result.data(), &rows);
   return result;
-}
-
-template <int dim>
-std::vector<double> shape_values(const unsigned int degree, const Point<dim> &point)
-{
-  TensorElement<dim> element(degree);
-  element.locate(point);
-  std::vector<double> values(element.n_shapes());
-  for (unsigned int i = 0; i < values.size(); ++i)
-    values[i] = element.derivative(i, {});
-  return values;
 }
 
 namespace
@@ -283,5 +276,7 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
 template struct ShapeTable<2>;
 template class ShapeTables<2>;
 template class CellMap<2>;
-template std::vector<double> shape_values(unsigned int, const Point<2> &);
+template class CellMap<1>;
+template ShapeTable<2>
+tabulate(unsigned int, const std::vector<Point<2>> &, const std::vector<double> &, bool);
 } // namespace hpvi

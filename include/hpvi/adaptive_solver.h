@@ -7,9 +7,11 @@
 #include <hpvi/numerical_failure.h>
 #include <hpvi/residual_estimator.h>
 #include <hpvi/solution.h>
+#include <hpvi/true_error.h>
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace hpvi
 {
@@ -22,7 +24,7 @@ struct StageTimes
   double qp = 0;       ///< the quadratic program
   double recover = 0;  ///< u from the multiplier, energies
   double estimate = 0; ///< residual indicator
-  double decide = 0;   ///< smoothness, marking: the decision that led to this step
+  double decide = 0;   ///< smoothness, marking
   double refine = 0;   ///< bisection that led to this step
 
   double total() const
@@ -38,12 +40,20 @@ struct Step
   unsigned int number; ///< from 1
   const Solution<dim> &solution;
   const ErrorEstimate &estimate;
+  /**
+   * eta/(2 mu)^{1/2}, in the unit of the energy norm. The residual bounds the error through
+   * `2 mu |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the material.
+   */
+  double scaled_estimate;
+  double relative_estimate;    ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
   Energies energies;
+  TrueErrors errors;           ///< NaN where the scene gives nothing to compare with
   QpReport qp;                 ///< all zero without multipliers
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
   StageTimes times;
-  double seconds = 0; ///< since the start of the run, output excluded
+  double seconds = 0; ///< since the start of the run, without output and true errors
+  std::string stopped_by; ///< empty, or the limit that makes this the last step
 };
 
 /**

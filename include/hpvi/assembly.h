@@ -39,8 +39,8 @@ public:
   /** Given values at the unknowns, fill in constrained and interior ones. */
   void recover(dealii::Vector<double> &u) const;
 
-  /** `1/2 a(u,u) - L(u)`. */
-  double potential_energy(const dealii::Vector<double> &u) const;
+  double energy_product(const dealii::Vector<double> &u) const; ///< a(u,u)
+  double work(const dealii::Vector<double> &u) const;           ///< L(u)
 
 private:
   void assemble_stiffness(ElementStiffnesses<dim> &stiffnesses);

@@ -2,53 +2,22 @@
 #ifndef hpvi_scene_h
 #define hpvi_scene_h
 
+#include <hpvi/exact_solution.h>
+#include <hpvi/input_error.h>
+#include <hpvi/material.h>
+
 #include <deal.II/base/function.h>
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 
 #include <array>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace hpvi
 {
-/**
- * Bad input: what() is one line with file, entry, value and remedy. The program ends with exit
- * status 1.
- */
-class InputError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/** Which plane problem Section 2.1.3 of the thesis reduces Hooke's law to. */
-enum class PlaneModel
-{
-  stress,
-  strain
-};
-
-/** Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). */
-struct Material
-{
-  double young;     ///< Young's modulus E > 0, a stress
-  double poisson;   ///< Poisson's ratio nu in (-1, 1/2), dimensionless
-  PlaneModel plane; ///< used in two dimensions only
-
-  /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
-  double mu() const;
-
-  /**
-   * First Lame parameter `E nu/((1+nu)(1-2nu))`; plane stress replaces it by
-   * `2 lambda mu/(lambda + 2 mu)`. @p dim selects whether the plane model applies.
-   */
-  double lambda(int dim) const;
-};
-
 enum class Shape
 {
   box,
@@ -120,6 +89,8 @@ struct Adaptivity
   double hpa2_decay;           ///< hpa2: raise p where b > this, else bisect
   unsigned int maximum_steps;
   unsigned int maximum_unknowns; ///< no step is started after one with more dofs_free
+  double maximum_seconds = 0;    ///< no step is started after this time; 0: no limit
+  double tolerance = 0;          ///< stop where the relative indicator falls below; 0: never
 };
 
 /** How the quadratic program is solved. */
@@ -158,6 +129,8 @@ struct Scene
   Material material;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
+  std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
+  std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
   SolverSettings solver;
   OutputSettings output;

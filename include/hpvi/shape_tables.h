@@ -71,9 +71,12 @@ private:
 std::vector<double> evaluate(const dealii::FullMatrix<double> &table,
                              const std::vector<double> &coefficients);
 
-/** Values of scalar FE_Q(p), in deal.II's numbering, at @p point of the reference cell. */
+/** The table of scalar FE_Q(p) at any points of the reference cell. */
 template <int dim>
-std::vector<double> shape_values(unsigned int degree, const dealii::Point<dim> &point);
+ShapeTable<dim> tabulate(unsigned int degree,
+                         const std::vector<dealii::Point<dim>> &points,
+                         const std::vector<double> &weights,
+                         bool second_derivatives);
 
 /** The d-linear map from the reference cell to a cell with straight edges. */
 template <int dim>

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_stored_solution_h
+#define hpvi_stored_solution_h
+
+#include <hpvi/solution.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A displacement field by itself: polynomials on the active cells of a mesh that descends from the
+ * coarse mesh of a scene. It can be kept in a file, so that an overkill solution serves as
+ * reference for many runs.
+ */
+template <int dim>
+class StoredSolution
+{
+public:
+  /** Copy of a solution's displacement; the mesh is referred to, not copied. */
+  StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+
+  /**
+   * Read a file made by write(). Throws InputError if it does not fit to the coarse mesh of
+   * @p scene.
+   */
+  StoredSolution(const Scene<dim> &scene, const std::string &file);
+
+  /** One line per cell: its path from the coarse mesh, its degree, its coefficients. */
+  void write(std::ostream &out) const;
+
+  const dealii::Triangulation<dim> &triangulation() const;
+  unsigned int degree(unsigned int cell) const;
+
+  /** Coefficients of one active cell, component by component (see Solution::coefficients). */
+  const std::vector<double> &coefficients(unsigned int cell) const;
+
+private:
+  dealii::Triangulation<dim> own_mesh; ///< empty where the mesh is another's
+  const dealii::Triangulation<dim> *mesh;
+  Degrees degrees;
+  std::vector<std::vector<double>> cell_coefficients;
+};
+} // namespace hpvi
+
+#endif
