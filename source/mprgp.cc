@@ -127,7 +127,7 @@ bool Iteration::finished()
     p = phi;
     measure();
   }
-  report.converged = !gradient_is_recurrence && report.projected_gradient <= settings.tolerance;
+  report.converged = report.projected_gradient <= settings.tolerance;
   return report.converged || !std::isfinite(report.projected_gradient) ||
          report.multiplications >= settings.maximum_multiplications || is_at_rest(confirm);
 }

@@ -65,7 +65,7 @@ double FeasibleSet::distance_to_wall(const Vector<double> &z, const Vector<doubl
       alpha = std::min(alpha, (z[i] - lower_bounds[i]) / p[i]);
     else if (p[i] < 0)
       alpha = std::min(alpha, (z[i] - upper_bounds[i]) / p[i]);
-  return std::max(alpha, 0.);
+  return alpha;
 }
 
 void FeasibleSet::split_gradient(const Vector<double> &z, const Vector<double> &r,
@@ -79,7 +79,7 @@ void FeasibleSet::split_gradient(const Vector<double> &z, const Vector<double> &
   {
     const bool at_lower = z[i] <= lower_bounds[i];
     const bool at_upper = z[i] >= upper_bounds[i];
-    if ((!at_lower && !at_upper) || std::isnan(r[i]))
+    if (!at_lower && !at_upper)
       phi[i] = r[i];
     else if (at_lower && !at_upper)
       beta[i] = std::min(r[i], 0.);

@@ -6,12 +6,28 @@
 #include <algorithm>
 #include <limits>
 
-// OpenBLAS, where it is the BLAS in use, lets us choose its number of threads; others do not.
+// Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+/**
+ * One thread for dense algebra. CHOLMOD opens teams of four threads whatever the environment says,
+ * which costs more than it brings for matrices of this size.
+ */
+void use_one_thread()
+{
+  if (openblas_set_num_threads)
+    openblas_set_num_threads(1);
+  if (omp_set_max_active_levels)
+    omp_set_max_active_levels(0);
+}
+} // namespace
 
 /** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
 struct SchurComplement::Factor
@@ -135,8 +151,7 @@ SchurComplement::SchurComplement(const SparseMatrix<double> &A, const Vector<dou
                                  const FullMatrix<double> &B)
     : factor(std::make_unique<Factor>()), unknowns(unknowns), n_rows(A.m())
 {
-  if (openblas_set_num_threads)
-    openblas_set_num_threads(1);
+  use_one_thread();
   const unsigned int n = unknowns.size(), n_contact = contact.size();
   if (n == 0)
     return;

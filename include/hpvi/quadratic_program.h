@@ -39,7 +39,7 @@ public:
    *     phi_i = r_i          where l_i < z_i < u_i,   else 0,
    *     beta_i = min(r_i, 0) where z_i = l_i,  max(r_i, 0) where z_i = u_i,   else 0,
    *
-   * and both are 0 where l_i = u_i. NaN in z or r shows up in one of the parts.
+   * and both are 0 where l_i = u_i. NaN in r stays NaN where l_i < u_i.
    */
   void split_gradient(const dealii::Vector<double> &z, const dealii::Vector<double> &r,
                       dealii::Vector<double> &phi, dealii::Vector<double> &beta) const;

@@ -3,12 +3,11 @@
 #define hpvi_scene_h
 
 #include <hpvi/exact_solution.h>
+#include <hpvi/geometry.h>
 #include <hpvi/input_error.h>
 #include <hpvi/material.h>
 
 #include <deal.II/base/function.h>
-#include <deal.II/base/geometry_info.h>
-#include <deal.II/base/point.h>
 
 #include <array>
 #include <memory>
@@ -18,25 +17,6 @@
 
 namespace hpvi
 {
-enum class Shape
-{
-  box,
-  quadrilateral
-};
-
-/** The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, then graded. */
-template <int dim>
-struct Geometry
-{
-  Shape shape;
-  /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
-  std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell> corners;
-  std::array<unsigned int, dim> subdivisions;
-  /** Cells that touch one of these points are bisected @p grading_levels times. */
-  std::vector<dealii::Point<dim>> graded_towards;
-  unsigned int grading_levels;
-};
-
 /** Everything that a scene says about one named part of the boundary. */
 template <int dim>
 struct BoundaryCondition

@@ -356,31 +356,61 @@ TEST(Mprgp, FewProductsOnAContactEdge)
   }
 }
 
-/** The iterates are those of a run cut short after k products: the value must never rise. */
+/**
+ * The iterates are those of a run cut short after k products: the value must never rise. Returns
+ * the number of iterates.
+ */
+unsigned int expect_falling_values(const QuadraticProgram &qp, const Vector<double> &start)
+{
+  double last = infinity;
+  unsigned int iterates = 0;
+  Mprgp::Settings settings;
+  bool converged = false;
+  for (unsigned int limit = 0; !converged && limit < 1000; ++limit)
+  {
+    settings.maximum_multiplications = limit;
+    Vector<double> z = start;
+    converged = Mprgp(settings).solve(qp, z).converged;
+    const double now = value(qp, z);
+    EXPECT_LE(now, last + 1e-13 * std::abs(last)) << "limit " << limit;
+    iterates += now != last;
+    last = now;
+  }
+  EXPECT_TRUE(converged);
+  return iterates;
+}
+
 TEST(Mprgp, ValueFallsMonotonically)
 {
   for (unsigned int seed = 0; seed < 4; ++seed)
   {
+    SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     const QuadraticProgram qp =
         seed == 0 ? edge_program(0.7) : random_program(30 + 10 * seed, random);
-    const Vector<double> start = random_vector(qp.d.size(), random);
-    double last = infinity;
-    bool converged = false;
-    unsigned int falls = 0;
-    for (unsigned int limit = 0; !converged && limit < 500; ++limit)
-    {
-      Mprgp::Settings settings;
-      settings.maximum_multiplications = limit;
-      Vector<double> z = start;
-      converged = Mprgp(settings).solve(qp, z).converged;
-      const double now = value(qp, z);
-      EXPECT_LE(now, last + 1e-14 * std::abs(last)) << "seed " << seed << ", limit " << limit;
-      falls += now < last;
-      last = now;
-    }
-    EXPECT_TRUE(converged);
-    EXPECT_GT(falls, 10u);
+    EXPECT_GT(expect_falling_values(qp, random_vector(qp.d.size(), random)), 10u);
+  }
+}
+
+/**
+ * `S = v v' + 0.01 I`: the projection of a CG step leaves the valley and often raises the value,
+ * and a projected gradient step may be no longer than 2/|S|.
+ */
+TEST(Mprgp, ValueFallsInNarrowValleys)
+{
+  for (unsigned int seed = 0; seed < 100; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const unsigned int n = 2 + seed % 5;
+    std::mt19937 random(seed);
+    QuadraticProgram qp{LAPACKFullMatrix<double>(n), random_vector(n, random), unit_box(n)};
+    const Vector<double> v = random_vector(n, random);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        qp.S(i, j) = v[i] * v[j] + (i == j ? 0.01 : 0.);
+    Vector<double> start = random_vector(n, random);
+    start *= 0.5;
+    EXPECT_GT(expect_falling_values(qp, start), 1u);
   }
 }
 
@@ -543,6 +573,18 @@ TEST(Mprgp, NoCurvature)
   EXPECT_EQ(z, vec({1., -1., 1.}));
 }
 
+/** Where q bends downwards it falls as far as the walls; that is a stationary point, no more. */
+TEST(Mprgp, NegativeCurvature)
+{
+  QuadraticProgram qp{LAPACKFullMatrix<double>(2), vec({1., 2.}), unit_box(2)};
+  qp.S(0, 0) = 1.;
+  qp.S(1, 1) = -1.;
+  Vector<double> z(2);
+  EXPECT_TRUE(Mprgp({}).solve(qp, z).converged);
+  expect_near(z, vec({1., 1.}), 1e-8);
+  expect_falling_values(qp, Vector<double>(2));
+}
+
 /** A row without coupling (g = 0 there) must not spoil the others. */
 TEST(Mprgp, VanishingRow)
 {
@@ -566,8 +608,10 @@ TEST(Mprgp, GivesUpWhereThereIsNoMinimum)
   qp.feasible_set = FeasibleSet(vec({-1., -1.}), vec({1., infinity}));
   Vector<double> z(2);
   EXPECT_FALSE(Mprgp({}).solve(qp, z).converged);
-  z = -1.; // the same from the wall
+  EXPECT_TRUE(std::isfinite(z.l2_norm()));
+  z = vec({1., -1.}); // the same from the wall
   EXPECT_FALSE(Mprgp({}).solve(qp, z).converged);
+  EXPECT_TRUE(std::isfinite(z.l2_norm()));
 }
 
 TEST(Mprgp, NaNAndInfinityEndTheRun)

@@ -159,7 +159,6 @@ invalid "Boundary bottom/Friction bound = sqrt(x-1)" "not finite" -- "Boundary b
 invalid "Boundary bottom/Contact = glue" "none or bilateral" -- "Boundary bottom/Contact=glue"
 invalid "Boundary top/Friction bound = 1" "needs contact" "Contact = bilateral" -- "Boundary top/Friction bound=1"
 invalid "Boundary bottom/Displacement = 0; 0" "Contact = bilateral" "only one" -- "Boundary bottom/Displacement=0; 0"
-invalid "Boundary bottom/Traction = 1; 0" "Contact = bilateral" "only one" -- "Boundary bottom/Traction=1; 0"
 invalid "Boundary right/Traction = 1; 0" "component x" "free" -- "Boundary right/Traction=1; 0"
 invalid "Boundary right/Displacement = 0; 0.1" "Boundary bottom/Contact = bilateral" "corner (4, 0) by 0.1" "agree" -- \
   "Boundary right/Displacement=0; 0.1"
@@ -173,6 +172,33 @@ invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionle
   "Boundary right/Displacement=free; 0" "Boundary bottom/Displacement=0; free"
 invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" \
   "Geometry/Shape=quadrilateral" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
+
+# --- the exact solution: named, on y = 0, with a constant bound, and not contradicted
+invalid "Boundary right/Displacement = exact" "the scene has none" "Exact solution/Solution" -- "Boundary right/Displacement=exact"
+invalid "Boundary left/Traction = 0; exact" "the scene has none" -- "Boundary left/Traction=0; exact"
+invalid "Boundary bottom/Friction bound = exact" "not an expression" -- "Boundary bottom/Friction bound=exact"
+invalid "Boundary right/Displacement = exact; 0; 0" "3 component(s) instead of 2" -- "Boundary right/Displacement=exact; 0; 0"
+exact=("Exact solution/Solution=stick-slip" "Exact solution/Transition=2" "Boundary left/Traction=exact"
+  "Boundary top/Traction=exact" "Boundary right/Displacement=exact")
+invalid "Exact solution/Solution = hertz" "none, stick-slip or smooth" -- "Exact solution/Solution=hertz"
+invalid "Exact solution/Transition = nan" "give a number" -- "Exact solution/Transition=nan"
+invalid "Exact solution/Length = 0" "positive number" -- "Exact solution/Length=0"
+invalid "Exact solution/Length = 0.4" "|lambda| = 1.0" "> 1 at (3.6" "enlarge" -- "${exact[@]}" "Exact solution/Length=0.4"
+invalid "Exact solution/Length = 0.5" "against its friction" "enlarge" -- "${exact[@]}" \
+  "Exact solution/Solution=smooth" "Exact solution/Transition=0" "Exact solution/Length=0.5"
+invalid "Exact solution/Solution = stick-slip" "y = 0" "put the bottom edge there" -- "${exact[@]}" "Geometry/Lower corner=0, 1"
+for bound in "" 0 "1+x"; do
+  invalid "Boundary bottom/Friction bound = $bound" "positive constant" "give a number" -- "${exact[@]}" "Boundary bottom/Friction bound=$bound"
+done
+invalid "Boundary left/Traction = 1.5*(5 - y); -0.75" "contradicts Exact solution/Solution = stick-slip" "write exact" -- \
+  "${exact[@]}" "Boundary left/Traction=1.5*(5 - y); -0.75"
+invalid "Boundary right/Displacement = 0; 0" "contradicts Exact solution/Solution" "write exact" -- \
+  "${exact[@]}" "Boundary right/Displacement=0; 0"
+invalid "Boundary left/Contact = bilateral" "contradicts Exact solution/Solution" "Contact = none" -- \
+  "${exact[@]}" "Boundary left/Traction=" "Boundary left/Contact=bilateral"
+invalid "Boundary bottom/Traction = 1; 0" "contradicts Exact solution/Solution" "without traction" -- \
+  "${exact[@]}" "Boundary bottom/Traction=1; 0"
+invalid "Body force/Expression = 0; -1" "contradicts Exact solution/Solution" "remove" -- "${exact[@]}" "Body force/Expression=0; -1"
 
 # --- the method's numbers
 invalid "Adaptivity/Method = hp5" "one of hup2" -- "Adaptivity/Method=hp5"
@@ -208,6 +234,14 @@ refused "$scratch/file" -- "$scenes/base.prm" --output "$scratch/file"
 # --- the good scene passes, and its effective parameters are the same scene again
 "$hpvi" --validate "$scenes/base.prm" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "the good scene is rejected"
+"$hpvi" --validate "$scenes/base.prm" --set "Boundary bottom/Traction=1; -1" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain "base.prm" "a load on the contact boundary is rejected"
+exact_scene=()
+for override in "${exact[@]}"; do
+  exact_scene+=(--set "$override")
+done
+"$hpvi" --validate "$scenes/base.prm" "${exact_scene[@]}" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain "base.prm" "its exact solution is rejected"
 "$hpvi" --print-parameters "$scenes/base.prm" >"$scratch/effective.prm" 2>"$scratch/stderr"
 "$hpvi" --print-parameters "$scratch/effective.prm" 2>"$scratch/stderr" | cmp -s - "$scratch/effective.prm" ||
   complain "base.prm" "effective parameters do not survive a round trip"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_geometry_h
+#define hpvi_geometry_h
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+enum class Shape
+{
+  box,
+  quadrilateral
+};
+
+/** The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, then graded. */
+template <int dim>
+struct Geometry
+{
+  Shape shape;
+  /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
+  std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell> corners;
+  std::array<unsigned int, dim> subdivisions;
+  /** Cells that touch one of these points are bisected @p grading_levels times. */
+  std::vector<dealii::Point<dim>> graded_towards;
+  unsigned int grading_levels;
+};
+
+/** A straight edge of a plane body. */
+struct Edge
+{
+  std::array<unsigned int, 2> corners; ///< indices into Geometry::corners
+  std::array<dealii::Point<2>, 2> ends;
+  dealii::Tensor<1, 2> normal; ///< outer unit normal
+
+  /** Equidistant points from end to end. */
+  std::vector<dealii::Point<2>> sample() const;
+};
+
+/** The four edges by boundary id. */
+std::vector<Edge> edges_of(const Geometry<2> &geometry);
+
+/** Points all over the body, its boundary included. */
+std::vector<dealii::Point<2>> sample_body(const Geometry<2> &geometry);
+
+/** The mean of the corners. */
+dealii::Point<2> centre_of(const Geometry<2> &geometry);
+} // namespace hpvi
+
+#endif

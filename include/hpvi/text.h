@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_text_h
+#define hpvi_text_h
+
+#include <deal.II/base/point.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** @p text fit for one line of a message: no control characters, not endless. */
+std::string printable(std::string text);
+
+std::string lower_case(std::string text);
+
+/** Trim, and make every run of white space one blank, as in names of entries. */
+std::string single_spaced(const std::string &text);
+
+/** The parts of @p text between semicolons, trimmed; empty parts are kept. */
+std::vector<std::string> split_components(const std::string &text);
+
+/** Number of insertions, deletions and replacements between two words, case ignored. */
+unsigned int edit_distance(const std::string &left, const std::string &right);
+
+/** "(x, y)" */
+template <int dim>
+std::string to_string(const dealii::Point<dim> &x);
+
+/** With six digits at most. */
+std::string to_string(double value);
+
+/** What a library's exception says, on one line: deal.II's what() fills a page. */
+std::string one_line(const std::exception &error);
+} // namespace hpvi
+
+#endif

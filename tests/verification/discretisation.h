@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_verification_discretisation_h
+#define hpvi_verification_discretisation_h
+
+#include <gtest/gtest.h>
+#include <hpvi/adaptive_solver.h>
+#include <hpvi/schur_complement.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace verification
+{
+using namespace dealii;
+using namespace hpvi;
+
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/** All digits of a number, for entries and expressions. */
+inline std::string text(const double value)
+{
+  std::ostringstream out;
+  out << std::setprecision(17) << value;
+  return out.str();
+}
+
+/** One of the scenes that come with the program. */
+inline Scene<2> shipped_scene(const std::string &name, const Overrides &overrides = {})
+{
+  const char *directory = std::getenv("HPVI_SCENES");
+  return Scene<2>::read(std::string(directory ? directory : "prm") + "/" + name + ".prm",
+                        overrides);
+}
+
+/** A scene that consists of @p entries alone. */
+inline Scene<2> scene_of(const Overrides &entries)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-" + std::to_string(std::random_device()()) + ".prm");
+  std::ofstream(file) << "set Dimension = 2\n";
+  Scene<2> scene = Scene<2>::read(file.string(), entries);
+  std::filesystem::remove(file);
+  return scene;
+}
+
+/** Bisect a third of the cells, some levels deep; deal.II keeps the mesh 1-irregular. */
+inline void refine_at_random(Triangulation<2> &mesh, const unsigned int levels,
+                             std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> uniform;
+  for (unsigned int level = 0; level < levels; ++level)
+  {
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (uniform(random) < 1. / 3.)
+        cell->set_refine_flag();
+    mesh.execute_coarsening_and_refinement();
+  }
+}
+
+inline Degrees random_degrees(const Triangulation<2> &mesh, const unsigned int lowest,
+                              const unsigned int highest, std::mt19937 &random)
+{
+  std::uniform_int_distribution<unsigned int> degree(lowest, highest);
+  Degrees degrees(mesh.n_active_cells());
+  for (unsigned int &p : degrees)
+    p = degree(random);
+  return degrees;
+}
+
+/** The mesh of a scene, refined at random, with random degrees. */
+struct RandomMesh
+{
+  Triangulation<2> mesh;
+  Degrees degrees;
+
+  RandomMesh(const Scene<2> &scene, const unsigned int seed, const unsigned int levels,
+             const unsigned int lowest = 2, const unsigned int highest = 8)
+  {
+    std::mt19937 random(seed);
+    make_mesh(scene, mesh);
+    refine_at_random(mesh, levels, random);
+    degrees = random_degrees(mesh, lowest, highest, random);
+  }
+};
+
+/** The stages of one step on a given mesh, each open to questions. */
+class Discretisation
+{
+public:
+  const Scene<2> &scene;
+  const ShapeTables<2> tables;
+  ElementStiffnesses<2> stiffnesses;
+  const DisplacementSpace<2> displacement_space;
+  const ContactSpace<2> contact_space;
+  const ElasticSystem<2> system;
+
+  Discretisation(const Scene<2> &scene, const Triangulation<2> &mesh, const Degrees &degrees)
+      : scene(scene), stiffnesses(scene, tables), displacement_space(scene, mesh, degrees),
+        contact_space(scene, displacement_space),
+        system(scene, displacement_space, contact_space, tables, stiffnesses)
+  {
+  }
+
+  Discretisation(const Scene<2> &scene, const RandomMesh &mesh)
+      : Discretisation(scene, mesh.mesh, mesh.degrees)
+  {
+  }
+
+  SchurComplement reduce() const
+  {
+    return SchurComplement(system.A, system.f, system.unknowns, system.contact_unknowns, system.B);
+  }
+
+  QuadraticProgram quadratic_program(const SchurComplement &schur_complement) const
+  {
+    QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
+    qp.d += system.B_prescribed;
+    return qp;
+  }
+
+  /** @p tolerance of the quadratic program; it bounds how exact the solution can be. */
+  Solution<2> solve(const double tolerance = 1e-13) const
+  {
+    const SchurComplement schur_complement = reduce();
+    Vector<double> lambda;
+    if (contact_space.n_multipliers() > 0)
+    {
+      Mprgp::Settings settings;
+      settings.tolerance = tolerance;
+      lambda.reinit(contact_space.n_multipliers());
+      const QpReport report = Mprgp(settings).solve(quadratic_program(schur_complement), lambda);
+      EXPECT_TRUE(report.converged) << "projected gradient " << report.projected_gradient;
+    }
+    Vector<double> u = schur_complement.displacement(lambda);
+    system.recover(u);
+    return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
+  }
+
+  /** Random displacement that meets all constraints, with any multiplier. */
+  Solution<2> random_field(std::mt19937 &random) const
+  {
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    Vector<double> u(displacement_space.n_dofs()), lambda(contact_space.n_multipliers());
+    for (double &value : u)
+      value = uniform(random);
+    for (double &value : lambda)
+      value = uniform(random);
+    displacement_space.constraints().distribute(u);
+    return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
+  }
+};
+} // namespace verification
+
+#endif
