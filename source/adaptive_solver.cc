@@ -79,8 +79,7 @@ struct AdaptiveSolver<dim>::Stages
   void solve_for_multiplier(const SchurComplement &schur_complement, Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
-  Step<dim> report(const Solution<dim> &solution,
-                   const ErrorEstimate &estimate,
+  Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
                    const Reduction &reduction);
   void refine(const Refinement &refinement);
 };
@@ -107,17 +106,15 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   std::unique_ptr<const SchurComplement> schur_complement;
   {
     StageTimer timer(times.factor);
-    schur_complement = std::make_unique<const SchurComplement>(system.A, system.f, system.unknowns,
+    schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
   if (discretisation->contact_space.n_multipliers() > 0)
     solve_for_multiplier(*schur_complement, reduction);
 
   StageTimer timer(times.recover);
-  Vector<double> u = schur_complement->displacement(reduction.lambda);
-  system.recover(u);
-  return {scene, discretisation->displacement_space, discretisation->contact_space, std::move(u),
-          reduction.lambda};
+  return {scene, discretisation->displacement_space, discretisation->contact_space,
+          system.recover(schur_complement->displacement(reduction.lambda)), reduction.lambda};
 }
 
 template <int dim>
@@ -162,7 +159,8 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
                                                const ErrorEstimate &estimate)
 {
   StageTimer timer(times.decide);
-  return mark(scene.adaptivity, degrees, estimate, [&](const unsigned int cell)
+  return mark(scene.adaptivity, degrees, estimate,
+              [&](const unsigned int cell)
               { return smoothness.decay_rate(solution, tables, cell); });
 }
 

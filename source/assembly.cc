@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <hpvi/assembly.h>
 
 #include <algorithm>
@@ -9,69 +8,171 @@ namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+/** Call @p action(dof, weight) for every free unknown that @p dof depends on. */
+template <class Action>
+void for_each_free_part(const AffineConstraints<double> &constraints,
+                        const types::global_dof_index dof, const Action &action)
+{
+  if (const auto *entries = constraints.get_constraint_entries(dof))
+    for (const auto &entry : *entries)
+      action(entry.first, entry.second);
+  else
+    action(dof, 1.);
+}
+} // namespace
+
 template <int dim>
 ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
                                   const DisplacementSpace<dim> &displacement_space,
                                   const ContactSpace<dim> &contact_space,
                                   const ShapeTables<dim> &tables,
                                   ElementStiffnesses<dim> &stiffnesses)
-    : space(displacement_space), interior_loads(scene.has_body_force())
+    : space(displacement_space), load(displacement_space.n_dofs()),
+      interior_loads(scene.has_body_force())
 {
-  const unsigned int n = space.n_dofs();
-  f.reinit(n);
-  load.reinit(n);
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    elements.push_back(
+        stiffnesses.get(map_of<dim>(cell), space.degrees()[cell->active_cell_index()]));
+  number_unknowns();
   assemble_loads(scene, tables);
-  assemble_stiffness(stiffnesses);
+  std::vector<Contribution> contributions;
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    contributions.push_back(reduce(cell));
+  sum_up(contributions);
   assemble_contact(contact_space, tables);
 }
 
 template <int dim>
-void ElasticSystem<dim>::assemble_stiffness(ElementStiffnesses<dim> &stiffnesses)
+void ElasticSystem<dim>::number_unknowns()
 {
-  const unsigned int n = space.n_dofs();
-  elements.resize(space.triangulation().n_active_cells());
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned())
-      elements[cell->active_cell_index()] =
-          stiffnesses.get(map_of<dim>(cell), space.degrees()[cell->active_cell_index()]);
-
-  std::vector<types::global_dof_index> boundary_dofs;
-  const auto locate = [&](const unsigned int cell)
-  {
-    const auto dofs = space.cell_dofs(cell);
-    boundary_dofs.assign(dofs.begin(), dofs.begin() + elements[cell]->condensed.m());
-  };
-
-  DynamicSparsityPattern dynamic_pattern(n);
-  std::vector<bool> is_unknown(n, false);
+  number.assign(space.n_dofs(), numbers::invalid_unsigned_int);
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
-  {
-    locate(cell);
-    space.constraints().add_entries_local_to_global(boundary_dofs, dynamic_pattern, false);
-    for (const auto dof : boundary_dofs)
-      is_unknown[dof] = !space.constraints().is_constrained(dof);
-  }
-  pattern.copy_from(dynamic_pattern);
-  A.reinit(pattern);
-  for (types::global_dof_index dof = 0; dof < n; ++dof)
-    if (is_unknown[dof])
-      unknowns.push_back(dof);
-
-  Vector<double> condensed_load;
-  for (unsigned int cell = 0; cell < elements.size(); ++cell)
-  {
-    locate(cell);
-    condensed_load.reinit(boundary_dofs.size());
-    if (interior_loads && elements[cell]->extension.m() > 0)
+    for (unsigned int i = 0; i < elements[cell]->condensed.m(); ++i)
     {
-      const auto dofs = space.cell_dofs(cell);
-      Vector<double> inside(dofs.size() - boundary_dofs.size());
-      for (unsigned int i = 0; i < inside.size(); ++i)
-        inside[i] = load[dofs[boundary_dofs.size() + i]];
-      elements[cell]->extension.Tvmult(condensed_load, inside);
+      const auto dof = space.cell_dofs(cell)[i];
+      if (number[dof] == numbers::invalid_unsigned_int && !space.constraints().is_constrained(dof))
+      {
+        number[dof] = unknowns.size();
+        unknowns.push_back(dof);
+      }
     }
-    space.constraints().distribute_local_to_global(elements[cell]->condensed, condensed_load,
-                                                   boundary_dofs, A, f);
+  f.reinit(unknowns.size());
+}
+
+template <int dim>
+Vector<double> ElasticSystem<dim>::interior_load(const unsigned int cell) const
+{
+  const unsigned int n_boundary = elements[cell]->condensed.m();
+  const auto dofs = space.cell_dofs(cell);
+  Vector<double> inside(dofs.size() - n_boundary);
+  for (unsigned int i = 0; i < inside.size(); ++i)
+    inside[i] = load[dofs[n_boundary + i]];
+  return inside;
+}
+
+/**
+ * `T' K T` of one cell, where T expresses the unknowns on its boundary by free ones. T is nearly
+ * the identity, so it is applied entry by entry. Adds the cell's part of f as well: the load
+ * inside the cell, and what prescribed displacements h leave on the right, -T' K h.
+ */
+template <int dim>
+typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsigned int cell)
+{
+  const FullMatrix<double> &K = elements[cell]->condensed;
+  const unsigned int n = K.m();
+  Contribution result;
+  struct Part
+  {
+    unsigned int local, target;
+    double weight;
+  };
+  std::vector<Part> T;
+  Vector<double> local_load(n), prescribed(n);
+  bool has_prescribed = false;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const auto dof = space.cell_dofs(cell)[i];
+    for_each_free_part(space.constraints(), dof,
+                       [&](const auto free_dof, const double weight)
+                       {
+                         const unsigned int unknown = number[free_dof];
+                         const auto found =
+                             std::find(result.targets.begin(), result.targets.end(), unknown);
+                         T.push_back({i, unsigned(found - result.targets.begin()), weight});
+                         if (found == result.targets.end())
+                           result.targets.push_back(unknown);
+                       });
+    prescribed[i] = space.constraints().get_inhomogeneity(dof);
+    has_prescribed = has_prescribed || prescribed[i] != 0.;
+  }
+
+  FullMatrix<double> TK(result.targets.size(), n);
+  for (const Part &part : T)
+    for (unsigned int j = 0; j < n; ++j)
+      TK(part.target, j) += part.weight * K(part.local, j);
+  result.matrix.reinit(result.targets.size(), result.targets.size());
+  for (unsigned int i = 0; i < result.targets.size(); ++i)
+    for (const Part &part : T)
+      result.matrix(i, part.target) += part.weight * TK(i, part.local);
+
+  if (interior_loads && elements[cell]->extension.m() > 0)
+    elements[cell]->extension.Tvmult(local_load, interior_load(cell));
+  if (has_prescribed)
+  {
+    Vector<double> reaction(n);
+    K.vmult(reaction, prescribed);
+    local_load -= reaction;
+  }
+  if (interior_loads || has_prescribed)
+    for (const Part &part : T)
+      f[result.targets[part.target]] += part.weight * local_load[part.local];
+  return result;
+}
+
+/** Column by column, so that one marker array finds equal entries of neighbouring cells. */
+template <int dim>
+void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
+{
+  struct Place
+  {
+    unsigned int cell, local;
+  };
+  std::vector<std::vector<Place>> places(unknowns.size());
+  std::size_t n_entries = 0;
+  for (unsigned int cell = 0; cell < contributions.size(); ++cell)
+  {
+    const auto &targets = contributions[cell].targets;
+    for (unsigned int i = 0; i < targets.size(); ++i)
+      places[targets[i]].push_back({cell, i});
+    n_entries += targets.size() * (targets.size() + 1) / 2;
+  }
+  A.row.reserve(n_entries);
+  A.value.reserve(n_entries);
+  A.column_start.reserve(unknowns.size() + 1);
+  std::vector<int> position(unknowns.size(), -1);
+  for (unsigned int column = 0; column < unknowns.size(); ++column)
+  {
+    const int first = A.row.size();
+    for (const Place &place : places[column])
+    {
+      const Contribution &contribution = contributions[place.cell];
+      for (unsigned int i = 0; i < contribution.targets.size(); ++i)
+      {
+        const unsigned int row = contribution.targets[i];
+        if (row > column)
+          continue;
+        if (position[row] < first)
+        {
+          position[row] = A.row.size();
+          A.row.push_back(row);
+          A.value.push_back(0.);
+        }
+        A.value[position[row]] += contribution.matrix(place.local, i);
+      }
+    }
+    A.column_start.push_back(A.row.size());
   }
 }
 
@@ -139,9 +240,15 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene, const ShapeTabl
       for (unsigned int i = 0; i < local.size(); ++i)
         load[dofs[i]] += local[i];
     }
-  // Interior loads reach f through the condensation, all others through the constraints.
-  f = load;
-  space.constraints().condense(f);
+  // Loads on the boundary of cells; those inside reach f through the condensation.
+  for (types::global_dof_index dof = 0; dof < load.size(); ++dof)
+    if (load[dof] != 0.)
+      for_each_free_part(space.constraints(), dof,
+                         [&](const auto free_dof, const double weight)
+                         {
+                           if (number[free_dof] != numbers::invalid_unsigned_int)
+                             f[number[free_dof]] += weight * load[dof];
+                         });
 }
 
 namespace
@@ -173,17 +280,6 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
   return local;
 }
 
-/** Call @p action(dof, weight) for every free unknown that @p dof depends on. */
-template <class Action>
-void for_each_free_part(const AffineConstraints<double> &constraints,
-                        const types::global_dof_index dof, const Action &action)
-{
-  if (!constraints.is_constrained(dof))
-    action(dof, 1.);
-  else
-    for (const auto &entry : *constraints.get_constraint_entries(dof))
-      action(entry.first, entry.second);
-}
 } // namespace
 
 template <int dim>
@@ -192,7 +288,7 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
 {
   const AffineConstraints<double> &constraints = space.constraints();
   std::vector<FullMatrix<double>> couplings;
-  std::vector<bool> touches(contact_space.n_multipliers() > 0 ? space.n_dofs() : 0, false);
+  std::vector<bool> touches(contact_space.n_multipliers() > 0 ? unknowns.size() : 0, false);
   const double negligible = 1e-14;
   for (const ContactFace<dim> &face : contact_space.faces())
   {
@@ -206,17 +302,17 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
       for (unsigned int m = 0; m < couplings.back().m(); ++m)
         if (std::abs(couplings.back()(m, i)) > negligible * largest)
           for_each_free_part(constraints, dofs[i],
-                             [&](const auto dof, double) { touches[dof] = true; });
+                             [&](const auto dof, double) { touches[number[dof]] = true; });
         else
           couplings.back()(m, i) = 0.; // shape functions of other faces: zero up to round-off
   }
 
   std::vector<unsigned int> column(touches.size());
-  for (unsigned int dof = 0; dof < touches.size(); ++dof)
-    if (touches[dof])
+  for (unsigned int unknown = 0; unknown < touches.size(); ++unknown)
+    if (touches[unknown])
     {
-      column[dof] = contact_unknowns.size();
-      contact_unknowns.push_back(dof);
+      column[unknown] = contact_unknowns.size();
+      contact_unknowns.push_back(unknown);
     }
   B.reinit(contact_space.n_multipliers(), contact_unknowns.size());
   B_prescribed.reinit(contact_space.n_multipliers());
@@ -233,14 +329,17 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
         B_prescribed[face.first_multiplier + m] += b * constraints.get_inhomogeneity(dofs[i]);
         for_each_free_part(constraints, dofs[i],
                            [&](const auto dof, const double weight)
-                           { B(face.first_multiplier + m, column[dof]) += b * weight; });
+                           { B(face.first_multiplier + m, column[number[dof]]) += b * weight; });
       }
   }
 }
 
 template <int dim>
-void ElasticSystem<dim>::recover(Vector<double> &u) const
+Vector<double> ElasticSystem<dim>::recover(const Vector<double> &x) const
 {
+  Vector<double> u(space.n_dofs());
+  for (unsigned int k = 0; k < unknowns.size(); ++k)
+    u[unknowns[k]] = x[k];
   space.constraints().distribute(u);
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
   {
@@ -252,8 +351,7 @@ void ElasticSystem<dim>::recover(Vector<double> &u) const
     Vector<double> boundary(n_boundary), interior(n_interior);
     if (interior_loads)
     {
-      for (unsigned int i = 0; i < n_interior; ++i)
-        interior[i] = load[dofs[n_boundary + i]];
+      interior = interior_load(cell);
       element.K_ii.solve(interior);
     }
     for (unsigned int i = 0; i < n_boundary; ++i)
@@ -262,19 +360,32 @@ void ElasticSystem<dim>::recover(Vector<double> &u) const
     for (unsigned int i = 0; i < n_interior; ++i)
       u[dofs[n_boundary + i]] = interior[i];
   }
+  return u;
 }
 
+/**
+ * With u_i = extension u_b + w, w = K_ii^-1 f_i, the mixed terms vanish: a(u,u) is the sum of
+ * `u_b' K_condensed u_b + w' f_i` over the cells.
+ */
 template <int dim>
 double ElasticSystem<dim>::energy_product(const Vector<double> &u) const
 {
   double a = 0;
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
   {
+    const FullMatrix<double> &condensed = elements[cell]->condensed;
     const auto dofs = space.cell_dofs(cell);
-    Vector<double> local(dofs.size());
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      local[i] = u[dofs[i]];
-    a += elements[cell]->K.matrix_norm_square(local);
+    Vector<double> boundary(condensed.m());
+    for (unsigned int i = 0; i < boundary.size(); ++i)
+      boundary[i] = u[dofs[i]];
+    a += condensed.matrix_norm_square(boundary);
+    if (interior_loads && elements[cell]->extension.m() > 0)
+    {
+      const Vector<double> f_i = interior_load(cell);
+      Vector<double> w(f_i);
+      elements[cell]->K_ii.solve(w);
+      a += w * f_i;
+    }
   }
   return a;
 }

@@ -88,7 +88,7 @@ FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
 
 template <int dim>
 std::shared_ptr<ElementStiffness>
-ElementStiffnesses<dim>::condense(FullMatrix<double> &&K, const unsigned int n_boundary) const
+ElementStiffnesses<dim>::condense(const FullMatrix<double> &K, const unsigned int n_boundary) const
 {
   auto element = std::make_shared<ElementStiffness>();
   const unsigned int n_interior = K.m() - n_boundary;
@@ -115,7 +115,6 @@ ElementStiffnesses<dim>::condense(FullMatrix<double> &&K, const unsigned int n_b
     if (interior_loads)
       element->K_ii = K_ii;
   }
-  element->K = std::move(K);
   return element;
 }
 

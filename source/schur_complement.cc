@@ -61,33 +61,21 @@ struct SchurComplement::Factor
 
 namespace
 {
-/** The upper triangle of the chosen rows and columns in CHOLMOD's compressed columns. */
-cholmod_sparse *upper_triangle(const SparseMatrix<double> &A,
-                               const SchurComplement::Indices &unknowns, cholmod_common *common)
+/** A view of @p A as CHOLMOD knows it. CHOLMOD does not write to it. */
+cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 {
-  std::vector<int> number(A.m(), -1);
-  for (unsigned int i = 0; i < unknowns.size(); ++i)
-    number[unknowns[i]] = i;
-  cholmod_sparse *matrix =
-      cholmod_allocate_sparse(unknowns.size(), unknowns.size(), A.n_nonzero_elements(),
-                              /*sorted=*/false, /*packed=*/true, /*stype=*/1, CHOLMOD_REAL, common);
-  int *column_start = static_cast<int *>(matrix->p);
-  int *row = static_cast<int *>(matrix->i);
-  double *value = static_cast<double *>(matrix->x);
-  int n_entries = 0;
-  for (unsigned int j = 0; j < unknowns.size(); ++j)
-  {
-    column_start[j] = n_entries;
-    for (auto entry = A.begin(unknowns[j]); entry != A.end(unknowns[j]); ++entry)
-    {
-      const int i = number[entry->column()];
-      if (i < 0 || i > static_cast<int>(j))
-        continue;
-      row[n_entries] = i;
-      value[n_entries++] = entry->value();
-    }
-  }
-  column_start[unknowns.size()] = n_entries;
+  cholmod_sparse matrix{};
+  matrix.nrow = matrix.ncol = A.n();
+  matrix.nzmax = A.row.size();
+  matrix.p = const_cast<int *>(A.column_start.data());
+  matrix.i = const_cast<int *>(A.row.data());
+  matrix.x = const_cast<double *>(A.value.data());
+  matrix.stype = 1;
+  matrix.itype = CHOLMOD_INT;
+  matrix.xtype = CHOLMOD_REAL;
+  matrix.dtype = CHOLMOD_DOUBLE;
+  matrix.sorted = false;
+  matrix.packed = true;
   return matrix;
 }
 } // namespace
@@ -146,34 +134,24 @@ Vector<double> SchurComplement::Factor::solve(const int system,
   return solution;
 }
 
-SchurComplement::SchurComplement(const SparseMatrix<double> &A, const Vector<double> &f,
-                                 const Indices &unknowns, const Indices &contact,
+SchurComplement::SchurComplement(const SymmetricMatrix &A, const Vector<double> &f,
+                                 const std::vector<unsigned int> &contact,
                                  const FullMatrix<double> &B)
-    : factor(std::make_unique<Factor>()), unknowns(unknowns), n_rows(A.m())
+    : factor(std::make_unique<Factor>())
 {
   use_one_thread();
-  const unsigned int n = unknowns.size(), n_contact = contact.size();
+  const unsigned int n = A.n(), n_contact = contact.size();
   if (n == 0)
     return;
   std::vector<int> is_contact(n, 0);
-  for (const auto dof : contact)
-    is_contact[std::lower_bound(unknowns.begin(), unknowns.end(), dof) - unknowns.begin()] = 1;
-
-  cholmod_sparse *matrix = upper_triangle(A, unknowns, &factor->common);
-  try
-  {
-    factor->compute(matrix, is_contact);
-  }
-  catch (...)
-  {
-    cholmod_free_sparse(&matrix, &factor->common);
-    throw;
-  }
-  cholmod_free_sparse(&matrix, &factor->common);
+  for (const unsigned int unknown : contact)
+    is_contact[unknown] = 1;
+  cholmod_sparse matrix = as_cholmod(A);
+  factor->compute(&matrix, is_contact);
 
   Vector<double> permuted(n);
   for (unsigned int i = 0; i < n; ++i)
-    permuted[i] = f[unknowns[factor->permutation[i]]];
+    permuted[i] = f[factor->permutation[i]];
   factor->y = factor->solve(CHOLMOD_L, permuted);
   if (n_contact == 0)
     return;
@@ -182,9 +160,9 @@ SchurComplement::SchurComplement(const SparseMatrix<double> &A, const Vector<dou
   Y.reinit(n_contact, B.m());
   for (unsigned int k = 0; k < n_contact; ++k)
   {
-    const auto dof = unknowns[factor->permutation[n - n_contact + k]];
+    const unsigned int unknown = factor->permutation[n - n_contact + k];
     const unsigned int column =
-        std::lower_bound(contact.begin(), contact.end(), dof) - contact.begin();
+        std::lower_bound(contact.begin(), contact.end(), unknown) - contact.begin();
     for (unsigned int m = 0; m < B.m(); ++m)
       Y(k, m) = B(m, column);
   }
@@ -210,10 +188,10 @@ const Vector<double> &SchurComplement::d() const
 
 Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
 {
-  Vector<double> u(n_rows);
-  const unsigned int n = unknowns.size();
+  const unsigned int n = factor->permutation.size();
+  Vector<double> x(n);
   if (n == 0)
-    return u;
+    return x;
   Vector<double> y(factor->y);
   if (lambda.size() > 0)
   {
@@ -224,8 +202,8 @@ Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
   }
   const Vector<double> permuted = factor->solve(CHOLMOD_Lt, y);
   for (unsigned int i = 0; i < n; ++i)
-    u[unknowns[factor->permutation[i]]] = permuted[i];
-  return u;
+    x[factor->permutation[i]] = permuted[i];
+  return x;
 }
 
 std::size_t SchurComplement::factor_entries() const

@@ -277,6 +277,6 @@ template struct ShapeTable<2>;
 template class ShapeTables<2>;
 template class CellMap<2>;
 template class CellMap<1>;
-template ShapeTable<2>
-tabulate(unsigned int, const std::vector<Point<2>> &, const std::vector<double> &, bool);
+template ShapeTable<2> tabulate(unsigned int, const std::vector<Point<2>> &,
+                                const std::vector<double> &, bool);
 } // namespace hpvi

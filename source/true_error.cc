@@ -81,7 +81,7 @@ struct LocalField
         for (unsigned int r = 0; r < dim; ++r)
           for (unsigned int j = 0; j < dim; ++j)
             result[q].gradient[c][j] +=
-              derivatives[c * points.size() * dim + q * dim + r] * inverse[r][j];
+                derivatives[c * points.size() * dim + q * dim + r] * inverse[r][j];
       }
     }
     return result;
@@ -99,11 +99,8 @@ double energy_density(const Material &material, const Tensor<2, dim> &gradient)
 }
 
 template <int dim>
-void add_squares(const Material &material,
-                 const Values<dim> &field,
-                 const Values<dim> &truth,
-                 const double weight,
-                 Squares &sums)
+void add_squares(const Material &material, const Values<dim> &field, const Values<dim> &truth,
+                 const double weight, Squares &sums)
 {
   const Values<dim> difference = truth - field;
   sums.energy += weight * energy_density(material, difference.gradient);
@@ -118,8 +115,7 @@ class CommonRefinement
 public:
   using Cell = typename Triangulation<dim>::cell_iterator;
 
-  CommonRefinement(const Material &material,
-                   const StoredSolution<dim> &solution,
+  CommonRefinement(const Material &material, const StoredSolution<dim> &solution,
                    const StoredSolution<dim> &reference)
       : material(material), solution(solution), reference(reference)
   {
@@ -157,7 +153,7 @@ private:
     for (unsigned int q = 0; q < gauss.size(); ++q)
       add_squares(material, field_values[q], truth_values[q],
                   gauss.weight(q) * share *
-                    std::abs(determinant(field.map.jacobian(in_a.point(gauss.point(q))))),
+                      std::abs(determinant(field.map.jacobian(in_a.point(gauss.point(q))))),
                   sums);
   }
 
@@ -168,10 +164,8 @@ private:
 
 /** Parts of a cell, small near singular points: no part is much larger than its distance. */
 template <int dim>
-void add_graded_boxes(const CellMap<dim> &map,
-                      const Box<dim> &box,
-                      const std::vector<Point<dim>> &singularities,
-                      const unsigned int levels_left,
+void add_graded_boxes(const CellMap<dim> &map, const Box<dim> &box,
+                      const std::vector<Point<dim>> &singularities, const unsigned int levels_left,
                       std::vector<Box<dim>> &boxes)
 {
   Point<dim> middle;
@@ -179,9 +173,9 @@ void add_graded_boxes(const CellMap<dim> &map,
     middle[d] = 0.5;
   const Point<dim> centre = map.point(box.point(middle));
   const double diameter = box.size * map.jacobian(box.point(middle)).norm();
-  const bool near = std::any_of(singularities.begin(), singularities.end(),
-                                [&](const Point<dim> &x)
-                                { return x.distance(centre) < 1.2 * diameter; });
+  const bool near =
+      std::any_of(singularities.begin(), singularities.end(),
+                  [&](const Point<dim> &x) { return x.distance(centre) < 1.2 * diameter; });
   if (near && levels_left > 0)
     for (unsigned int c = 0; c < GeometryInfo<dim>::max_children_per_cell; ++c)
       add_graded_boxes(map, box.child(c), singularities, levels_left - 1, boxes);
@@ -219,8 +213,7 @@ TrueErrors TrueError<dim>::measure(const Solution<dim> &solution) const
 }
 
 template <int dim>
-void TrueError<dim>::compare_with_reference(const Solution<dim> &solution,
-                                            TrueErrors &errors) const
+void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const
 {
   const StoredSolution<dim> field(solution, tables);
   const Squares sums = CommonRefinement<dim>(scene.material, field, *reference).integrate();
@@ -233,8 +226,7 @@ namespace
 {
 /** |lambda - lambda_N|^2 over one straight contact face, graded towards the transitions. */
 template <int dim>
-double multiplier_square(const Solution<dim> &solution,
-                         const ContactFace<dim> &face,
+double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &face,
                          const ExactSolution<dim> &exact)
 {
   CellMap<1>::Vertices ends{{Point<1>(0.), Point<1>(face.length())}};
@@ -251,7 +243,7 @@ double multiplier_square(const Solution<dim> &solution,
     {
       const double s = box.point(gauss.point(q))[0];
       const double difference =
-        exact.multiplier(face.point(s)) - solution.contact_space.value(face, solution.lambda, s);
+          exact.multiplier(face.point(s)) - solution.contact_space.value(face, solution.lambda, s);
       sum += gauss.weight(q) * box.size * face.length() * difference * difference;
     }
   return sum;
@@ -303,7 +295,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueError
         const Point<dim> x = field.map.point(reference_point);
         add_squares(scene.material, field_values[q], {exact.displacement(x), exact.gradient(x)},
                     gauss.weight(q) * std::pow(box.size, dim) *
-                      std::abs(determinant(field.map.jacobian(reference_point))),
+                        std::abs(determinant(field.map.jacobian(reference_point))),
                     sums);
       }
     }

@@ -45,14 +45,14 @@ struct Step
    * `2 mu |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the material.
    */
   double scaled_estimate;
-  double relative_estimate;    ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
+  double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
   Energies energies;
   TrueErrors errors;           ///< NaN where the scene gives nothing to compare with
   QpReport qp;                 ///< all zero without multipliers
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
   StageTimes times;
-  double seconds = 0; ///< since the start of the run, without output and true errors
+  double seconds = 0;     ///< since the start of the run, without output and true errors
   std::string stopped_by; ///< empty, or the limit that makes this the last step
 };
 

@@ -2,11 +2,10 @@
 #ifndef hpvi_assembly_h
 #define hpvi_assembly_h
 
-#include <deal.II/lac/sparse_matrix.h>
-#include <deal.II/lac/sparsity_pattern.h>
 #include <hpvi/contact_space.h>
 #include <hpvi/displacement_space.h>
 #include <hpvi/element_stiffness.h>
+#include <hpvi/symmetric_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -27,30 +26,41 @@ public:
                 const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
                 ElementStiffnesses<dim> &stiffnesses);
 
-  dealii::SparseMatrix<double> A; ///< numbered like the displacement space; stress length^(dim-2)
-  dealii::Vector<double> f;       ///< right-hand side for A
-  std::vector<dealii::types::global_dof_index> unknowns; ///< rows of A that are unknown, ascending
+  SymmetricMatrix A;        ///< over the unknowns; stress length^(dim-2)
+  dealii::Vector<double> f; ///< right-hand side over the unknowns
 
-  /** Unknowns with a tangential part on the contact boundary; the columns of B. */
-  std::vector<dealii::types::global_dof_index> contact_unknowns;
+  /** Unknowns with a tangential part on the contact boundary, ascending; the columns of B. */
+  std::vector<unsigned int> contact_unknowns;
   dealii::FullMatrix<double> B;        ///< B_mk = b(v_k, w_m), n_multipliers x contact_unknowns
   dealii::Vector<double> B_prescribed; ///< b(u_D, w_m), the part of prescribed displacements
 
-  /** Given values at the unknowns, fill in constrained and interior ones. */
-  void recover(dealii::Vector<double> &u) const;
+  /** All displacement unknowns from values at the unknowns of A. */
+  dealii::Vector<double> recover(const dealii::Vector<double> &x) const;
 
   double energy_product(const dealii::Vector<double> &u) const; ///< a(u,u)
   double work(const dealii::Vector<double> &u) const;           ///< L(u)
 
 private:
-  void assemble_stiffness(ElementStiffnesses<dim> &stiffnesses);
+  /** What one cell adds to the unknowns that its boundary depends on. */
+  struct Contribution
+  {
+    std::vector<unsigned int> targets;
+    dealii::FullMatrix<double> matrix; ///< targets x targets
+  };
+
+  void number_unknowns();
   void assemble_loads(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  void assemble_stiffness(ElementStiffnesses<dim> &stiffnesses);
+  Contribution reduce(unsigned int cell);
+  void sum_up(const std::vector<Contribution> &contributions);
   void assemble_contact(const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
+  dealii::Vector<double> interior_load(unsigned int cell) const;
 
   const DisplacementSpace<dim> &space;
-  dealii::SparsityPattern pattern;
-  dealii::Vector<double> load; ///< L(v_i) for every displacement unknown
-  bool interior_loads;         ///< does any load act inside a cell?
+  dealii::Vector<double> load;                           ///< L(v_i) for every displacement unknown
+  bool interior_loads;                                   ///< does any load act inside a cell?
+  std::vector<dealii::types::global_dof_index> unknowns; ///< their number in the space
+  std::vector<unsigned int> number;                      ///< the inverse of unknowns
   std::vector<std::shared_ptr<const ElementStiffness>> elements; ///< by active cell index
 };
 } // namespace hpvi

@@ -14,8 +14,8 @@
 namespace hpvi
 {
 /**
- * The stiffness matrix of one element in deal.II's local numbering, split into unknowns b on its
- * boundary and i in its interior, and its static condensation.
+ * Static condensation of the stiffness matrix K of one element: of its unknowns in deal.II's local
+ * numbering those in its interior (i) are eliminated, those on its boundary (b) are kept.
  */
 struct ElementStiffness
 {
@@ -41,7 +41,7 @@ public:
 private:
   using Key = std::vector<long>;
   dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
-  std::shared_ptr<ElementStiffness> condense(dealii::FullMatrix<double> &&K,
+  std::shared_ptr<ElementStiffness> condense(const dealii::FullMatrix<double> &K,
                                              unsigned int n_boundary) const;
 
   const Material material;

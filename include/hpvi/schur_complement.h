@@ -2,11 +2,10 @@
 #ifndef hpvi_schur_complement_h
 #define hpvi_schur_complement_h
 
-#include <deal.II/base/types.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/quadratic_program.h>
+#include <hpvi/symmetric_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -24,22 +23,18 @@ namespace hpvi
 class SchurComplement
 {
 public:
-  using Indices = std::vector<dealii::types::global_dof_index>;
-
   /**
-   * Factor the rows and columns @p unknowns (ascending) of the symmetric matrix @p A. @p contact
-   * (ascending, a subset) are the columns of @p B. Throws NumericalFailure if A is not positive
-   * definite.
+   * Factor @p A. @p contact (ascending) are the unknowns that belong to the columns of @p B.
+   * Throws NumericalFailure if A is not positive definite.
    */
-  SchurComplement(const dealii::SparseMatrix<double> &A, const dealii::Vector<double> &f,
-                  const Indices &unknowns, const Indices &contact,
-                  const dealii::FullMatrix<double> &B);
+  SchurComplement(const SymmetricMatrix &A, const dealii::Vector<double> &f,
+                  const std::vector<unsigned int> &contact, const dealii::FullMatrix<double> &B);
   ~SchurComplement();
 
   const dealii::LAPACKFullMatrix<double> &S() const; ///< n_multipliers x n_multipliers
   const dealii::Vector<double> &d() const;           ///< n_multipliers
 
-  /** `u = A^-1 (f - B' lambda)` at the unknowns, zero elsewhere; length A.m(). */
+  /** `x = A^-1 (f - B' lambda)`. */
   dealii::Vector<double> displacement(const dealii::Vector<double> &lambda) const;
 
   std::size_t factor_entries() const; ///< entries stored for L
@@ -47,8 +42,6 @@ public:
 private:
   struct Factor;
   std::unique_ptr<Factor> factor;
-  Indices unknowns;
-  unsigned int n_rows;
   dealii::LAPACKFullMatrix<double> Y; ///< L_cc^-1 B_c'
   dealii::LAPACKFullMatrix<double> schur_matrix;
   dealii::Vector<double> reduced_load;

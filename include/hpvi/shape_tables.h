@@ -73,10 +73,8 @@ std::vector<double> evaluate(const dealii::FullMatrix<double> &table,
 
 /** The table of scalar FE_Q(p) at any points of the reference cell. */
 template <int dim>
-ShapeTable<dim> tabulate(unsigned int degree,
-                         const std::vector<dealii::Point<dim>> &points,
-                         const std::vector<double> &weights,
-                         bool second_derivatives);
+ShapeTable<dim> tabulate(unsigned int degree, const std::vector<dealii::Point<dim>> &points,
+                         const std::vector<double> &weights, bool second_derivatives);
 
 /** The d-linear map from the reference cell to a cell with straight edges. */
 template <int dim>

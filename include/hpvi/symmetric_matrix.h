@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_symmetric_matrix_h
+#define hpvi_symmetric_matrix_h
+
+#include <vector>
+
+namespace hpvi
+{
+/** The upper triangle of a sparse symmetric matrix by compressed columns, rows in any order. */
+struct SymmetricMatrix
+{
+  std::vector<int> column_start{0}; ///< size n + 1
+  std::vector<int> row;             ///< of each entry, <= its column
+  std::vector<double> value;
+
+  unsigned int n() const
+  {
+    return column_start.size() - 1;
+  }
+};
+} // namespace hpvi
+
+#endif
