@@ -4,6 +4,8 @@
 #include <hpvi/refinement_strategy.h>
 #include <hpvi/schur_complement.h>
 
+#include <sstream>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -117,6 +119,19 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
           system.recover(schur_complement->displacement(reduction.lambda)), reduction.lambda};
 }
 
+namespace
+{
+std::string not_converged(const QpReport &report, const unsigned int size, const double tolerance)
+{
+  std::ostringstream line;
+  line << "the quadratic program for the multiplier (" << size << " unknowns) has not converged "
+       << "after " << report.multiplications << " products with S: relative projected gradient "
+       << report.projected_gradient << ", tolerance " << tolerance
+       << "; raise Solver/QP maximum multiplications or Solver/QP tolerance";
+  return line.str();
+}
+} // namespace
+
 template <int dim>
 void AdaptiveSolver<dim>::Stages::solve_for_multiplier(const SchurComplement &schur_complement,
                                                        Reduction &reduction)
@@ -133,13 +148,7 @@ void AdaptiveSolver<dim>::Stages::solve_for_multiplier(const SchurComplement &sc
   reduction.lambda.reinit(qp.d.size());
   reduction.qp = Mprgp(settings).solve(qp, reduction.lambda);
   if (!reduction.qp.converged)
-    throw NumericalFailure("the quadratic program for the multiplier (" +
-                           std::to_string(qp.d.size()) + " unknowns) has not converged after " +
-                           std::to_string(reduction.qp.multiplications) +
-                           " products with S: relative projected gradient " +
-                           std::to_string(reduction.qp.projected_gradient) + ", tolerance " +
-                           std::to_string(settings.tolerance) +
-                           "; raise Solver/QP maximum multiplications or Solver/QP tolerance");
+    throw NumericalFailure(not_converged(reduction.qp, qp.d.size(), settings.tolerance));
   if (scene.solver.condition_number)
   {
     reduction.condition_raw = condition_number(qp.S);

@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -45,63 +46,47 @@ std::string failure_line(const std::exception &error)
 
 // ---------------------------------------------------------------- what a run prints
 
-void print_table_head()
+/** The true error has a column only where the scene gives something to compare with. */
+void print_table_head(const bool with_error)
 {
-  std::cout << std::setw(4) << "step" << std::setw(10) << "elements" << std::setw(11) << "dofs_free"
-            << std::setw(12) << "multipliers" << std::setw(6) << "p_min" << std::setw(6) << "p_max"
-            << std::setw(12) << "estimate" << std::setw(12) << "slack" << std::setw(13)
-            << "qp_products" << std::setw(10) << "seconds" << std::endl;
+  std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
+            << (with_error ? "  true_error" : "") << "       slack qp_products   seconds"
+            << std::endl;
 }
 
 void print_row(const Step<dim> &step)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
+  std::ostringstream degrees;
+  degrees << *p_min << '-' << *p_max;
   std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
-            << std::setw(11) << space.n_free_dofs() << std::setw(12)
-            << step.solution.contact_space.n_multipliers() << std::setw(6) << *p_min << std::setw(6)
-            << *p_max << std::scientific << std::setprecision(3) << std::setw(12)
-            << step.estimate.total() << std::setw(12) << step.energies.slack << std::setw(13)
+            << std::setw(11) << space.n_free_dofs() << std::setw(10)
+            << step.solution.contact_space.n_multipliers() << std::setw(6) << degrees.str()
+            << std::scientific << std::setprecision(3) << std::setw(11) << step.estimate.total()
+            << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (!std::isnan(step.errors.energy))
+    std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
+  std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)
             << step.qp.multiplications << std::fixed << std::setprecision(2) << std::setw(10)
             << step.seconds << std::endl;
 }
 
-/** Time per stage, summed over the steps. */
-class StageTable
+void print_stage(const std::string &name, const double seconds, const double total)
 {
-public:
-  void add(const StageTimes &times)
-  {
-    const double seconds[] = {times.setup,   times.assemble, times.factor, times.qp,
-                              times.recover, times.estimate, times.decide, times.refine};
-    for (unsigned int s = 0; s < n_stages; ++s)
-      sum[s] += seconds[s];
-    total += times.total();
-  }
+  std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
+            << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
+            << (total > 0 ? 100 * seconds / total : 0.) << '\n';
+}
 
-  void print() const
-  {
-    const char *const names[] = {"setup",   "assemble", "factor", "qp",
-                                 "recover", "estimate", "decide", "refine"};
-    std::cout << "\nstage        seconds  percent\n" << std::fixed;
-    for (unsigned int s = 0; s < n_stages; ++s)
-      print_row(names[s], sum[s]);
-    print_row("total", total);
-  }
-
-private:
-  static constexpr unsigned int n_stages = 8;
-
-  void print_row(const char *name, const double seconds) const
-  {
-    std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
-              << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
-              << (total > 0 ? 100 * seconds / total : 0.) << '\n';
-  }
-
-  double sum[n_stages] = {};
-  double total = 0;
-};
+/** Time per stage, summed over the steps. */
+void print_stages(const StageTimes &times)
+{
+  std::cout << "\nstage        seconds  percent\n" << std::fixed;
+  for (const auto &[name, seconds] : times.named())
+    print_stage(name, seconds, times.total());
+  print_stage("total", times.total(), times.total());
+}
 
 // ---------------------------------------------------------------- what the program does
 
@@ -109,16 +94,18 @@ void run(const Scene<dim> &scene, const std::string &directory)
 {
   AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
   Output<dim> output(scene, directory);
-  StageTable stages;
+  StageTimes times;
+  std::string stopped_by;
   std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
-  print_table_head();
+  print_table_head(scene.has_known_solution());
   try
   {
     solver.run(
         [&](const Step<dim> &step)
         {
           print_row(step);
-          stages.add(step.times);
+          times += step.times;
+          stopped_by = step.stopped_by;
           output.write_step(step);
         });
   }
@@ -128,8 +115,9 @@ void run(const Scene<dim> &scene, const std::string &directory)
     throw;
   }
   output.finish("done");
-  stages.print();
-  std::cout << "\nresults in " << directory << std::endl;
+  print_stages(times);
+  std::cout << "\nstopped by Adaptivity/" << stopped_by << "\nresults in " << directory
+            << std::endl;
 }
 
 void obey(const CommandLine &command_line)

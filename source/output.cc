@@ -67,10 +67,12 @@ std::string json_string(const std::string &content)
   return result + '"';
 }
 
-/** JSON knows neither empty fields nor infinity. */
-std::string json_number(const std::string &field)
+/** A field of a table: JSON knows neither empty fields nor infinity. */
+std::string json_value(const std::string &field)
 {
-  return field.empty() || field.find_first_of("infa") != std::string::npos ? "null" : field;
+  if (field.empty() || field.find_first_of("infa") != std::string::npos)
+    return "null";
+  return field.find_first_of("/ ") != std::string::npos ? json_string(field) : field;
 }
 
 std::string xml_text(const std::string &content)
@@ -126,10 +128,24 @@ std::string root_of_sum(const std::vector<double> &squares)
 
 Record stage_record(const StageTimes &times)
 {
-  return {{"setup", text(times.setup, 6)},     {"assemble", text(times.assemble, 6)},
-          {"factor", text(times.factor, 6)},   {"qp", text(times.qp, 6)},
-          {"recover", text(times.recover, 6)}, {"estimate", text(times.estimate, 6)},
-          {"decide", text(times.decide, 6)},   {"refine", text(times.refine, 6)}};
+  Record record;
+  for (const auto &[name, seconds] : times.named())
+    record.emplace_back(name, text(seconds, 6));
+  return record;
+}
+
+/** Where stick meets slip: points separated by blanks, coordinates by slashes. */
+template <int dim>
+std::string transition_list(const Solution<dim> &solution)
+{
+  std::string list;
+  for (const Point<dim> &x : transitions(solution))
+  {
+    list += list.empty() ? "" : " ";
+    for (unsigned int d = 0; d < dim; ++d)
+      list += (d > 0 ? "/" : "") + text(x[d], 10);
+  }
+  return list;
 }
 
 /** The row of convergence.csv. */
@@ -138,6 +154,7 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   const auto condition = [](const double value) { return value == 0 ? "" : text(value); };
+  const auto known = [](const double value) { return std::isnan(value) ? "" : text(value); };
   Record record{{"step", text(step.number)},
                 {"elements", text(space.triangulation().n_active_cells())},
                 {"dofs", text(space.n_dofs())},
@@ -160,7 +177,18 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
                 {"qp_proportioning", text(step.qp.proportioning_steps)},
                 {"qp_projected_gradient", text(step.qp.projected_gradient)},
                 {"condition_raw", condition(step.condition_raw)},
-                {"condition_scaled", condition(step.condition_scaled)}};
+                {"condition_scaled", condition(step.condition_scaled)},
+                {"estimate_scaled", text(step.scaled_estimate)},
+                {"estimate_relative", text(step.relative_estimate)},
+                {"energy_norm", text(step.energies.norm)},
+                {"error_energy", known(step.errors.energy)},
+                {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
+                {"error_l2", known(step.errors.l2)},
+                {"error_multiplier", known(step.errors.multiplier_l2)},
+                {"error_transition", known(step.errors.transition)},
+                {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
+                {"effectivity", known(step.scaled_estimate / step.errors.energy)},
+                {"transitions", transition_list(step.solution)}};
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);
   return record;
@@ -605,9 +633,10 @@ void create(const fs::path &directory)
 /** Is this the name of a file that belongs to single steps or to a whole earlier run? */
 bool is_result(const std::string &name)
 {
-  static const std::regex pattern("(contact-[0-9]{2,}\\.csv|solution-[0-9]{2,}\\.vtu|"
-                                  "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|"
-                                  "degrees\\.csv|summary\\.json|scene\\.prm)(\\.tmp)?");
+  static const std::regex pattern(
+      "(contact-[0-9]{2,}\\.csv|solution-[0-9]{2,}\\.vtu|"
+      "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|"
+      "degrees\\.csv|reference\\.dat|summary\\.json|scene\\.prm)(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 } // namespace
@@ -677,6 +706,13 @@ void Output<dim>::write_step(const Step<dim> &step)
     DataOutBase::write_pvd_record(record, vtu_files);
     write("solution.pvd", record.str());
   }
+  if (scene.output.reference && !step.stopped_by.empty())
+  {
+    std::ostringstream file;
+    StoredSolution<dim>(step.solution, tables, step.energies.energy).write(file);
+    write("reference.dat", file.str());
+  }
+  stopped_by = step.stopped_by;
   add_rows(step); // last: the tables name no step whose files are missing
   write_tables();
   write_summary("running", "");
@@ -704,10 +740,7 @@ void Output<dim>::add_rows(const Step<dim> &step)
   const auto [p_min, p_max] = std::minmax_element(p.begin(), p.end());
   convergence.push_back(convergence_record(step, *p_min, *p_max));
   degrees.push_back(count_degrees(step.solution.displacement_space));
-  for (const auto stage :
-       {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor, &StageTimes::qp,
-        &StageTimes::recover, &StageTimes::estimate, &StageTimes::decide, &StageTimes::refine})
-    times.*stage += step.times.*stage;
+  times += step.times;
 }
 
 template <int dim>
@@ -729,10 +762,12 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
   {
     std::string list;
     for (const auto &[name, value] : record)
-      list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_number(value);
+      list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_value(value);
     return "{" + list + "\n  }";
   };
   std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
+  if (!stopped_by.empty())
+    json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
   if (!message.empty())
     json += "  \"message\": " + json_string(message) + ",\n";
   json += "  \"scene\": " + json_string(scene.name) +

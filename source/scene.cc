@@ -285,6 +285,8 @@ Adaptivity read_adaptivity(Parameters &parameters, const bool has_contact)
   adaptivity.hpa2_decay = parameters.number(section, "hpa2 decay threshold");
   adaptivity.maximum_steps = parameters.integer(section, "Maximum steps");
   adaptivity.maximum_unknowns = parameters.integer(section, "Maximum unknowns");
+  adaptivity.maximum_seconds = parameters.number(section, "Maximum seconds");
+  adaptivity.tolerance = parameters.number(section, "Tolerance");
 
   if (has_contact && adaptivity.start_degree < 2)
     parameters.reject(section, "Start degree",
@@ -317,6 +319,7 @@ OutputSettings read_output(const Parameters &parameters)
   output.vtu = parameters.boolean("Output", "VTU");
   output.mesh_picture = parameters.boolean("Output", "Mesh picture");
   output.contact = parameters.boolean("Output", "Contact tables");
+  output.reference = parameters.boolean("Output", "Reference solution");
   return output;
 }
 } // namespace
@@ -335,6 +338,12 @@ bool BoundaryCondition<dim>::has_traction() const
 {
   return std::any_of(traction.begin(), traction.end(),
                      [](const Expression &e) { return e != nullptr; });
+}
+
+template <int dim>
+bool Scene<dim>::has_known_solution() const
+{
+  return exact_solution || !reference_solution.empty();
 }
 
 template <int dim>
@@ -387,6 +396,7 @@ Scene<dim> Scene<dim>::read(const std::string &file,
   check_corners(parameters, scene);
   check_supports(scene);
   check_exact_solution(parameters, scene);
+  scene.reference_solution = parameters.text("Error", "Reference solution");
 
   scene.adaptivity = read_adaptivity(parameters, scene.has_contact());
   scene.solver = read_solver(parameters);

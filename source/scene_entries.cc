@@ -139,7 +139,11 @@ void add_method_entries(std::vector<Entry> &entries)
        {section, "Maximum steps", "16", positive, "a positive integer",
         "Number of adaptive steps, the first on the coarse mesh."},
        {section, "Maximum unknowns", "1000000", positive, "a positive integer",
-        "No step is started after one with more free displacement unknowns."}});
+        "No step is started after one with as many free displacement unknowns."},
+       {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
+        "No step is started after this time of computing; 0: no limit."},
+       {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",
+        "Stop where the relative indicator eta/((2 mu)^(1/2) |u_N|_a) falls below; 0: never."}});
 }
 
 void add_program_entries(std::vector<Entry> &entries)
@@ -158,7 +162,12 @@ void add_program_entries(std::vector<Entry> &entries)
         "Report the condition number of S, raw and scaled; costs an eigenvalue computation."},
        {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},
        {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
-       {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."}});
+       {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
+       {"Output", "Reference solution", "false", boolean, yes_no,
+        "Write the last step's displacement to reference.dat, for Error/Reference solution."},
+       {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
+        "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
+        "against it. Without effect where an exact solution is named."}});
 }
 } // namespace
 

@@ -9,8 +9,9 @@ namespace hpvi
 using namespace dealii;
 
 template <int dim>
-StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables)
-    : mesh(&solution.displacement_space.triangulation()),
+StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables,
+                                    const double energy)
+    : mesh(&solution.displacement_space.triangulation()), energy_value(energy),
       degrees(solution.displacement_space.degrees())
 {
   for (unsigned int cell = 0; cell < degrees.size(); ++cell)
@@ -31,11 +32,13 @@ struct CellRecord
   std::vector<double> coefficients;
 };
 
-std::map<CellId, CellRecord> read_records(const std::string &file, const int dim)
+std::map<CellId, CellRecord> read_records(const std::string &file, const int dim, double &energy)
 {
   std::ifstream in(file);
   if (!in)
     does_not_fit(file, "the reference solution cannot be read");
+  if (!(in >> energy))
+    does_not_fit(file, "not a reference solution");
   std::map<CellId, CellRecord> records;
   std::string path;
   while (in >> path)
@@ -58,7 +61,7 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
     : mesh(&own_mesh)
 {
   static_assert(dim == 2, "the number of coefficients of a cell");
-  const std::map<CellId, CellRecord> records = read_records(file, dim);
+  const std::map<CellId, CellRecord> records = read_records(file, dim, energy_value);
   make_mesh(scene, own_mesh);
   // Bisect every cell that is not in the file until all active cells are.
   for (bool complete = false; !complete;)
@@ -88,6 +91,7 @@ template <int dim>
 void StoredSolution<dim>::write(std::ostream &out) const
 {
   out.precision(17);
+  out << energy_value << '\n';
   for (const auto &cell : mesh->active_cell_iterators())
   {
     out << cell->id() << ' ' << degrees[cell->active_cell_index()];
@@ -95,6 +99,12 @@ void StoredSolution<dim>::write(std::ostream &out) const
       out << ' ' << value;
     out << '\n';
   }
+}
+
+template <int dim>
+double StoredSolution<dim>::energy() const
+{
+  return energy_value;
 }
 
 template <int dim>

@@ -196,12 +196,6 @@ template <int dim>
 TrueError<dim>::~TrueError() = default;
 
 template <int dim>
-bool TrueError<dim>::is_known() const
-{
-  return scene.exact_solution || reference;
-}
-
-template <int dim>
 TrueErrors TrueError<dim>::measure(const Solution<dim> &solution) const
 {
   TrueErrors errors;
@@ -220,6 +214,7 @@ void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueE
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
+  errors.reference_energy = reference->energy();
 }
 
 namespace
@@ -317,6 +312,7 @@ std::vector<Point<dim>> transitions(const Solution<dim> &solution)
 {
   const double slip_tolerance = 1e-8;
   std::vector<Point<dim>> result, points;
+  std::vector<double> sizes;
   std::vector<int> states; // -1, 1: slip in either direction, 0: stick
   for (const ContactFace<dim> &face : solution.contact_space.faces())
   {
@@ -327,12 +323,31 @@ std::vector<Point<dim>> transitions(const Solution<dim> &solution)
       const unsigned int i = forward ? k : face.n_multipliers - 1 - k;
       const double z = solution.lambda[face.first_multiplier + i];
       points.push_back(face.point(gauss.point(i)[0]));
+      sizes.push_back(face.length());
       states.push_back(std::abs(z) < 1. - slip_tolerance ? 0 : (z > 0 ? 1 : -1));
     }
   }
-  for (unsigned int k = 1; k < states.size(); ++k)
-    if (states[k] != states[k - 1])
-      result.push_back(points[k - 1] + 0.5 * (points[k] - points[k - 1]));
+  // Where the exact multiplier only just reaches 1, states may alternate from point to point: an
+  // odd number of changes within two edges counts as one, in their middle, an even one as none.
+  for (unsigned int k = 1; k < states.size();)
+  {
+    Point<dim> sum;
+    unsigned int n_changes = 0, last = k;
+    for (unsigned int i = k; i < states.size(); ++i)
+      if (states[i] != states[i - 1])
+      {
+        if (n_changes > 0 && points[i].distance(points[last]) > 2 * std::max(sizes[i], sizes[last]))
+          break;
+        sum += 0.5 * (points[i - 1] + Tensor<1, dim>(points[i]));
+        ++n_changes;
+        last = i;
+      }
+    if (n_changes == 0)
+      break;
+    if (n_changes % 2 == 1)
+      result.push_back(sum / n_changes);
+    k = last + 1;
+  }
   return result;
 }
 

@@ -9,9 +9,11 @@
 #include <hpvi/solution.h>
 #include <hpvi/true_error.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace hpvi
 {
@@ -27,9 +29,34 @@ struct StageTimes
   double decide = 0;   ///< smoothness, marking
   double refine = 0;   ///< bisection that led to this step
 
+  /** Name and seconds of every stage, in the order in which they run. */
+  std::array<std::pair<const char *, double>, 8> named() const
+  {
+    return {{{"setup", setup},
+             {"assemble", assemble},
+             {"factor", factor},
+             {"qp", qp},
+             {"recover", recover},
+             {"estimate", estimate},
+             {"decide", decide},
+             {"refine", refine}}};
+  }
+
   double total() const
   {
-    return setup + assemble + factor + qp + recover + estimate + decide + refine;
+    double sum = 0;
+    for (const auto &stage : named())
+      sum += stage.second;
+    return sum;
+  }
+
+  StageTimes &operator+=(const StageTimes &other)
+  {
+    for (const auto stage :
+         {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor, &StageTimes::qp,
+          &StageTimes::recover, &StageTimes::estimate, &StageTimes::decide, &StageTimes::refine})
+      this->*stage += other.*stage;
+    return *this;
   }
 };
 

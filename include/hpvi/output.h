@@ -19,13 +19,13 @@ namespace hpvi
  * | file | content |
  * |---|---|
  * | `scene.prm` | every parameter with its value |
- * | `convergence.csv` | a row per step; `estimate*` in stress length^(dim/2), energies in stress
- * length^dim, times in seconds; a field is empty where nothing was computed | | `degrees.csv` |
- * number of elements of each degree, a row per step | | `contact-NN.csv` | traces at the Gauss
- * points of the contact faces, sorted along the tangent | | `solution-NN.vtu`, `solution.pvd` |
- * displacement, stress, degree and eta_K on subdivided cells | | `mesh-NN.svg` | the mesh with
- * degrees in colour and as digits (two dimensions) | | `summary.json` | how the run ended, its last
- * row, seconds per stage |
+ * | `convergence.csv` | a row per step: `estimate*` in stress length^(dim/2), energies in stress length^dim, times in seconds; empty where nothing was computed |
+ * | `degrees.csv` | number of elements of each degree, a row per step |
+ * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
+ * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
+ * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
+ * | `reference.dat` | the last displacement, to measure other runs against |
+ * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage |
  *
  * Numbers are written with as many digits as it takes to read the same number back. The units are
  * those of the scene. What the scene switches off is neither built nor written.
@@ -66,6 +66,7 @@ private:
   std::vector<Record> convergence;                       ///< a record per step
   std::vector<std::vector<unsigned int>> degrees;        ///< elements by step and degree
   StageTimes times;                                      ///< sums over the steps
+  std::string stopped_by;                                ///< the limit that ended the run
   std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
 };
 } // namespace hpvi

@@ -69,8 +69,8 @@ struct Adaptivity
   double hpa2_decay;           ///< hpa2: raise p where b > this, else bisect
   unsigned int maximum_steps;
   unsigned int maximum_unknowns; ///< no step is started after one with more dofs_free
-  double maximum_seconds = 0;    ///< no step is started after this time; 0: no limit
-  double tolerance = 0;          ///< stop where the relative indicator falls below; 0: never
+  double maximum_seconds;        ///< no step is started after this time; 0: no limit
+  double tolerance;              ///< stop where the relative indicator falls below; 0: never
 };
 
 /** How the quadratic program is solved. */
@@ -88,6 +88,7 @@ struct OutputSettings
   bool vtu;
   bool mesh_picture;
   bool contact;
+  bool reference; ///< reference.dat after the last step
 };
 
 /**
@@ -119,7 +120,8 @@ struct Scene
 
   bool has_body_force() const;
   bool has_contact() const;
-  bool has_friction() const; ///< does any contact boundary name a friction bound?
+  bool has_known_solution() const; ///< exact or reference: can the true error be measured?
+  bool has_friction() const;       ///< does any contact boundary name a friction bound?
 
   /**
    * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.

@@ -19,7 +19,7 @@ class StoredSolution
 {
 public:
   /** Copy of a solution's displacement; the mesh is referred to, not copied. */
-  StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+  StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables, double energy = 0);
 
   /**
    * Read a file made by write(). Throws InputError if it does not fit to the coarse mesh of
@@ -27,7 +27,9 @@ public:
    */
   StoredSolution(const Scene<dim> &scene, const std::string &file);
 
-  /** One line per cell: its path from the coarse mesh, its degree, its coefficients. */
+  double energy() const; ///< J(u)
+
+  /** J(u), then one line per cell: its path from the coarse mesh, its degree, its coefficients. */
   void write(std::ostream &out) const;
 
   const dealii::Triangulation<dim> &triangulation() const;
@@ -39,6 +41,7 @@ public:
 private:
   dealii::Triangulation<dim> own_mesh; ///< empty where the mesh is another's
   const dealii::Triangulation<dim> *mesh;
+  double energy_value;
   Degrees degrees;
   std::vector<std::vector<double>> cell_coefficients;
 };

@@ -15,11 +15,12 @@ struct TrueErrors
 {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double energy = unknown;        ///< |u - u_N|_a, (stress length^dim)^{1/2}
-  double energy_norm = unknown;   ///< |u|_a, to relate it to
-  double l2 = unknown;            ///< |u - u_N|_{L2}, length^{1+dim/2}
-  double multiplier_l2 = unknown; ///< |lambda - lambda_N|_{L2(Gamma_C)}, length^{(dim-1)/2}
-  double transition = unknown;    ///< largest distance from a transition of u to u_N's, length
+  double energy = unknown;           ///< |u - u_N|_a, (stress length^dim)^{1/2}
+  double energy_norm = unknown;      ///< |u|_a, to relate it to
+  double reference_energy = unknown; ///< J(u) of a reference solution
+  double l2 = unknown;               ///< |u - u_N|_{L2}, length^{1+dim/2}
+  double multiplier_l2 = unknown;    ///< |lambda - lambda_N|_{L2(Gamma_C)}, length^{(dim-1)/2}
+  double transition = unknown;       ///< largest distance from a transition of u to u_N's, length
 };
 
 /**
@@ -34,8 +35,6 @@ public:
   /** Takes what the scene names: its exact solution, else its reference solution. */
   TrueError(const Scene<dim> &scene, const ShapeTables<dim> &tables);
   ~TrueError();
-
-  bool is_known() const; ///< does the scene give something to compare with?
 
   TrueErrors measure(const Solution<dim> &solution) const;
 

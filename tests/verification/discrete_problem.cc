@@ -1,0 +1,812 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The discrete problem as a whole: equations, complementarity, patch tests, rotation, conformity.
+#include "discretisation.h"
+
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/hp/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_direct.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace verification;
+
+/** Gauss quadrature with @p extra points more than the degree, by active FE index. */
+template <int dim>
+hp::QCollection<dim> quadratures(const hp::FECollection<2> &elements, const unsigned int extra)
+{
+  hp::QCollection<dim> collection;
+  for (unsigned int i = 0; i < elements.size(); ++i)
+    collection.push_back(QGauss<dim>(elements[i].degree + extra));
+  return collection;
+}
+
+// ---------------------------------------------------------------- the oracle
+
+/**
+ * A, f, B of (5.1)-(5.3) by deal.II's FEValues on the whole hp space: no static condensation, no
+ * congruence classes, no tables.
+ */
+class Oracle
+{
+public:
+  explicit Oracle(const Solution<2> &solution);
+
+  /** f - A u - B' lambda for the unknowns that no constraint binds. */
+  Vector<double> residual(const Solution<2> &solution) const;
+
+  /** f for the unknowns that no constraint binds. */
+  Vector<double> load() const
+  {
+    return condense(F);
+  }
+
+  /** (B u)_i, with prescribed displacements */
+  Vector<double> tangential_moments(const Vector<double> &u) const
+  {
+    Vector<double> result(B.m());
+    if (B.m() > 0)
+      B.vmult(result, u);
+    return result;
+  }
+
+  /** B A^-1 B' z */
+  Vector<double> schur_product(const Vector<double> &z) const;
+
+private:
+  void assemble_cells(const Solution<2> &solution);
+  void assemble_tractions(const Solution<2> &solution);
+  void assemble_contact(const Solution<2> &solution);
+  Vector<double> condense(const Vector<double> &v) const;
+
+  const AffineConstraints<double> &constraints;
+  SparsityPattern pattern;
+  SparseMatrix<double> K, A; // on all unknowns; with constraints eliminated
+  Vector<double> F;
+  FullMatrix<double> B;
+};
+
+Oracle::Oracle(const Solution<2> &solution)
+    : constraints(solution.displacement_space.constraints())
+{
+  const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
+  DynamicSparsityPattern dynamic_pattern(dofs.n_dofs());
+  DoFTools::make_sparsity_pattern(dofs, dynamic_pattern);
+  DoFTools::make_sparsity_pattern(dofs, dynamic_pattern, constraints);
+  pattern.copy_from(dynamic_pattern);
+  K.reinit(pattern);
+  A.reinit(pattern);
+  F.reinit(dofs.n_dofs());
+  B.reinit(solution.contact_space.n_multipliers(), dofs.n_dofs());
+  assemble_cells(solution);
+  assemble_tractions(solution);
+  assemble_contact(solution);
+}
+
+void Oracle::assemble_cells(const Solution<2> &solution)
+{
+  const Scene<2> &scene = solution.scene;
+  const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
+  const double lambda = scene.material.lambda(2), mu = scene.material.mu();
+  const FEValuesExtractors::Vector displacement(0);
+  hp::FEValues<2> hp_values(dofs.get_fe_collection(), quadratures<2>(dofs.get_fe_collection(), 2),
+                            update_values | update_gradients | update_JxW_values |
+                                update_quadrature_points);
+  std::vector<types::global_dof_index> indices;
+  for (const auto &cell : dofs.active_cell_iterators())
+  {
+    hp_values.reinit(cell);
+    const FEValues<2> &values = hp_values.get_present_fe_values();
+    const unsigned int n = values.dofs_per_cell;
+    FullMatrix<double> local(n, n);
+    indices.resize(n);
+    cell->get_dof_indices(indices);
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      std::vector<SymmetricTensor<2, 2>> strain(n);
+      for (unsigned int i = 0; i < n; ++i)
+        strain[i] = values[displacement].symmetric_gradient(i, q);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          local(i, j) +=
+              (lambda * trace(strain[i]) * trace(strain[j]) + 2 * mu * (strain[i] * strain[j])) *
+              values.JxW(q);
+      for (unsigned int c = 0; c < 2; ++c)
+        if (scene.body_force[c])
+          for (unsigned int i = 0; i < n; ++i)
+            F[indices[i]] += scene.body_force[c]->value(values.quadrature_point(q)) *
+                             values.shape_value_component(i, q, c) * values.JxW(q);
+    }
+    K.add(indices, local);
+    constraints.distribute_local_to_global(local, indices, A);
+  }
+}
+
+void Oracle::assemble_tractions(const Solution<2> &solution)
+{
+  const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
+  hp::FEFaceValues<2> hp_values(
+      dofs.get_fe_collection(), quadratures<1>(dofs.get_fe_collection(), 2),
+      update_values | update_JxW_values | update_quadrature_points);
+  std::vector<types::global_dof_index> indices;
+  for (const auto &cell : dofs.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+    {
+      if (!cell->at_boundary(face))
+        continue;
+      const auto &traction = solution.scene.boundaries[cell->face(face)->boundary_id()].traction;
+      hp_values.reinit(cell, face);
+      const FEFaceValues<2> &values = hp_values.get_present_fe_values();
+      indices.resize(values.dofs_per_cell);
+      cell->get_dof_indices(indices);
+      for (const unsigned int q : values.quadrature_point_indices())
+        for (unsigned int c = 0; c < 2; ++c)
+          if (traction[c])
+            for (unsigned int i = 0; i < indices.size(); ++i)
+              F[indices[i]] += traction[c]->value(values.quadrature_point(q)) *
+                               values.shape_value_component(i, q, c) * values.JxW(q);
+    }
+}
+
+void Oracle::assemble_contact(const Solution<2> &solution)
+{
+  const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
+  hp::FEFaceValues<2> hp_values(
+      dofs.get_fe_collection(), quadratures<1>(dofs.get_fe_collection(), 2),
+      update_values | update_JxW_values | update_quadrature_points | update_normal_vectors);
+  std::vector<types::global_dof_index> indices;
+  for (const ContactFace<2> &contact : solution.contact_space.faces())
+  {
+    if (contact.n_multipliers == 0)
+      continue;
+    const auto edge = contact.cell->face(contact.face_no);
+    const auto basis = Polynomials::generate_complete_Lagrange_basis(
+        QGauss<1>(contact.cell->get_fe().degree - 1).get_points());
+    ASSERT_EQ(basis.size(), contact.n_multipliers);
+    hp_values.reinit(contact.cell, contact.face_no);
+    const FEFaceValues<2> &values = hp_values.get_present_fe_values();
+    indices.resize(values.dofs_per_cell);
+    contact.cell->get_dof_indices(indices);
+    for (const unsigned int q : values.quadrature_point_indices())
+    {
+      const Point<2> x = values.quadrature_point(q);
+      const Tensor<1, 2> n = values.normal_vector(q);
+      const double s = x.distance(edge->vertex(0)) / edge->vertex(1).distance(edge->vertex(0));
+      const double g =
+          solution.scene.boundaries[edge->boundary_id()].friction_bound->value(x) * values.JxW(q);
+      for (unsigned int i = 0; i < indices.size(); ++i)
+      {
+        const double v_t = -n[1] * values.shape_value_component(i, q, 0) +
+                           n[0] * values.shape_value_component(i, q, 1);
+        for (unsigned int m = 0; m < basis.size(); ++m)
+          B(contact.first_multiplier + m, indices[i]) += g * basis[m].value(s) * v_t;
+      }
+    }
+  }
+}
+
+Vector<double> Oracle::condense(const Vector<double> &v) const
+{
+  Vector<double> result = v;
+  for (types::global_dof_index i = 0; i < v.size(); ++i)
+    if (constraints.is_constrained(i))
+    {
+      for (const auto &entry : *constraints.get_constraint_entries(i))
+        result[entry.first] += v[i] * entry.second;
+      result[i] = 0.;
+    }
+  return result;
+}
+
+Vector<double> Oracle::residual(const Solution<2> &solution) const
+{
+  Vector<double> r(F.size()), product(F.size());
+  K.vmult(product, solution.u);
+  r = F;
+  r -= product;
+  if (B.m() > 0)
+  {
+    B.Tvmult(product, solution.lambda);
+    r -= product;
+  }
+  return condense(r);
+}
+
+Vector<double> Oracle::schur_product(const Vector<double> &z) const
+{
+  Vector<double> force(F.size());
+  B.Tvmult(force, z);
+  Vector<double> u = condense(force);
+  SparseDirectUMFPACK inverse;
+  inverse.initialize(A);
+  inverse.solve(u);
+  for (types::global_dof_index i = 0; i < u.size(); ++i)
+    if (constraints.is_constrained(i))
+    {
+      u[i] = 0.; // homogeneous: an increment of the displacement
+      for (const auto &entry : *constraints.get_constraint_entries(i))
+        u[i] += u[entry.first] * entry.second;
+    }
+  return tangential_moments(u);
+}
+
+// ---------------------------------------------------------------- equations
+
+class ThesisExample : public ::testing::TestWithParam<std::string>
+{
+protected:
+  const Scene<2> scene = shipped_scene(GetParam(), {{"Adaptivity/Maximum steps", "9"}});
+
+  /** After the first step, some steps later, and at the end. */
+  void for_some_steps(const std::function<void(const Step<2> &)> &action) const
+  {
+    AdaptiveSolver<2>(scene).run(
+        [&](const Step<2> &step)
+        {
+          SCOPED_TRACE("step " + std::to_string(step.number));
+          if (step.number % 4 == 1)
+            action(step);
+        });
+  }
+};
+
+TEST_P(ThesisExample, EquilibriumHoldsOnTheWholeSpace)
+{
+  for_some_steps(
+      [](const Step<2> &step)
+      {
+        const Oracle oracle(step.solution);
+        EXPECT_LE(oracle.residual(step.solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
+      });
+}
+
+TEST_P(ThesisExample, MultiplierStaysInItsBounds)
+{
+  for_some_steps(
+      [](const Step<2> &step)
+      {
+        EXPECT_LE(step.solution.lambda.linfty_norm(), 1.);
+        const ContactSpace<2> &contact = step.solution.contact_space;
+        for (const ContactFace<2> &face : contact.faces())
+          for (const Point<1> &s : std::vector<Point<1>>(QGauss<1>(face.degree - 1).get_points()))
+            EXPECT_LE(std::abs(contact.value(face, step.solution.lambda, s[0])), 1 + 1e-13);
+      });
+}
+
+/** The rows of `B u` in units of the scaled gradient, whose norm the QP solver makes small. */
+TEST_P(ThesisExample, SlipAndStickAreComplementary)
+{
+  for_some_steps(
+      [this](const Step<2> &step)
+      {
+        const Solution<2> &solution = step.solution;
+        const ShapeTables<2> tables;
+        ElementStiffnesses<2> stiffnesses(scene, tables);
+        const ElasticSystem<2> system(scene, solution.displacement_space, solution.contact_space,
+                                      tables, stiffnesses);
+        const SchurComplement reduced(system.A, system.f, system.unknowns, system.contact_unknowns,
+                                      system.B);
+        const Vector<double> moments = Oracle(solution).tangential_moments(solution.u);
+        double violation = 0, load = 0;
+        unsigned int n_slip = 0;
+        for (unsigned int i = 0; i < moments.size(); ++i)
+        {
+          const double scale = 1. / std::sqrt(reduced.S()(i, i)), z = solution.lambda[i];
+          const double wrong = z == 1.    ? std::min(moments[i], 0.)
+                               : z == -1. ? std::max(moments[i], 0.)
+                                          : moments[i];
+          violation += wrong * wrong * scale * scale;
+          load += reduced.d()[i] * reduced.d()[i] * scale * scale;
+          n_slip += std::abs(z) == 1.;
+        }
+        EXPECT_LE(std::sqrt(violation), 1.01 * scene.solver.qp_tolerance * std::sqrt(load));
+        EXPECT_GT(n_slip, 0u);              // both examples have a slip zone
+        EXPECT_LT(n_slip, moments.size()); // and a stick zone
+      });
+}
+
+/** With homogeneous supports, b(u,lambda) = L(u) - a(u,u), so the Lagrangian is -a(u,u)/2. */
+TEST_P(ThesisExample, EnergiesObeyTheirIdentities)
+{
+  for_some_steps(
+      [](const Step<2> &step)
+      {
+        const Energies &e = step.energies;
+        const double a = e.norm * e.norm;
+        EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
+        EXPECT_NEAR(e.energy - e.lagrangian, e.slack, 1e-12 * a);
+        EXPECT_GE(e.slack, -1e-3 * a); // lambda_N may exceed 1 between Gauss points
+        EXPECT_GT(a, 0.);
+      });
+}
+
+TEST_P(ThesisExample, SchurComplementIsThatOfTheWholeSpace)
+{
+  const RandomMesh mesh(scene, 5, 2, 2, 6);
+  const Discretisation discrete(scene, mesh);
+  const SchurComplement reduced = discrete.reduce();
+  std::mt19937 random(1);
+  const Solution<2> field = discrete.random_field(random);
+  Vector<double> product(field.lambda.size());
+  reduced.S().vmult(product, field.lambda);
+  Vector<double> expected = Oracle(field).schur_product(field.lambda);
+  expected -= product;
+  EXPECT_LE(expected.l2_norm(), 1e-10 * product.l2_norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(, ThesisExample, ::testing::Values("han-6-12", "han-6-13"),
+                         [](const auto &info)
+                         { return info.param == "han-6-12" ? "Square" : "Bar"; });
+
+TEST(Equilibrium, HoldsWithEveryKindOfDataOnADistortedRandomMesh)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                                   {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
+                                   {"Geometry/Subdivisions", "2, 2"},
+                                   {"Material/Young's modulus", "7"},
+                                   {"Body force/Expression", "x*y; 1 - x"},
+                                   {"Boundary top/Displacement", "0.1*x; 0.05*y"},
+                                   {"Boundary left/Displacement", "free; 0.05*y"},
+                                   {"Boundary left/Traction", "y; 0"},
+                                   {"Boundary right/Traction", "1 + y; -x"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "0.1 + 0.2*x"}});
+  const RandomMesh mesh(scene, 3, 2);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve(1e-11);
+  const Oracle oracle(solution);
+  // The quadrature of one order less than the oracle's is not exact on distorted cells.
+  EXPECT_LE(oracle.residual(solution).l2_norm(), 1e-4 * oracle.load().l2_norm());
+}
+
+// ---------------------------------------------------------------- patch tests
+
+/** Corners counterclockwise from the bottom left; the contact edge lies on y = 0. */
+struct Block
+{
+  std::string name;
+  std::array<Point<2>, 4> corners;
+  double angle; ///< by which the whole scene is turned about the origin
+
+  Tensor<1, 2> turned(const Tensor<1, 2> &v) const
+  {
+    return Point<2>(std::cos(angle) * v[0] - std::sin(angle) * v[1],
+                    std::sin(angle) * v[0] + std::cos(angle) * v[1]);
+  }
+
+  /** The local y of a point, as an expression of the global x and y. */
+  std::string height() const
+  {
+    return "(" + text(-std::sin(angle)) + "*x + " + text(std::cos(angle)) + "*y)";
+  }
+
+  std::string corner_text() const
+  {
+    std::string result;
+    for (const Point<2> &corner : corners)
+    {
+      const Tensor<1, 2> x = turned(corner);
+      result += (result.empty() ? "" : "; ") + text(x[0]) + ", " + text(x[1]);
+    }
+    return result;
+  }
+};
+
+std::ostream &operator<<(std::ostream &out, const Block &block)
+{
+  return out << block.name;
+}
+
+/** Simple shear in the block's own axes, `u = (foot + strain y) e_x`, shear stress mu strain. */
+struct Shear
+{
+  double foot, strain, friction_bound;
+};
+
+constexpr double young = 2.6, poisson = 0.3, shear_modulus = 1.;
+
+/** The sides carry the traction of the shear stress, the top follows the displacement. */
+Scene<2> shear_scene(const Block &block, const Shear &shear)
+{
+  Overrides entries = {{"Geometry/Shape", "quadrilateral"},
+                       {"Geometry/Corners", block.corner_text()},
+                       {"Geometry/Subdivisions", "2, 2"},
+                       {"Material/Young's modulus", text(young)},
+                       {"Material/Poisson's ratio", text(poisson)},
+                       {"Boundary bottom/Contact", "bilateral"},
+                       {"Boundary bottom/Friction bound", text(shear.friction_bound)}};
+  const Tensor<1, 2> along = block.turned(Point<2>(1., 0.));
+  const std::string u = "(" + text(shear.foot) + " + " + text(shear.strain) + "*" +
+                        block.height() + ")";
+  entries.emplace_back("Boundary top/Displacement",
+                       text(along[0]) + "*" + u + "; " + text(along[1]) + "*" + u);
+  const double tau = shear_modulus * shear.strain;
+  for (const auto &[side, first, second] :
+       {std::make_tuple("right", 1, 2), std::make_tuple("left", 3, 0)})
+  {
+    const Tensor<1, 2> edge = block.corners[second] - block.corners[first];
+    const Tensor<1, 2> n = Point<2>(edge[1], -edge[0]) / edge.norm();
+    const Tensor<1, 2> traction = block.turned(Point<2>(tau * n[1], tau * n[0]));
+    entries.emplace_back(std::string("Boundary ") + side + "/Traction",
+                         text(traction[0]) + "; " + text(traction[1]));
+  }
+  return scene_of(entries);
+}
+
+/** Largest difference of nodal values to a displacement field, with the field's largest value. */
+std::pair<double, double> nodal_error(const Solution<2> &solution,
+                                      const std::function<Tensor<1, 2>(const Point<2> &)> &field)
+{
+  const MappingQ1<2> mapping;
+  double error = 0, largest = 0;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const FiniteElement<2> &fe = cell->get_fe();
+    const auto dofs = solution.displacement_space.cell_dofs(cell->active_cell_index());
+    for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+    {
+      const Point<2> x = mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i));
+      const double expected = field(x)[fe.system_to_component_index(i).first];
+      error = std::max(error, std::abs(solution.u[dofs[i]] - expected));
+      largest = std::max(largest, std::abs(expected));
+    }
+  }
+  return {error, largest};
+}
+
+class PatchTest : public ::testing::TestWithParam<std::tuple<Block, unsigned int>>
+{
+protected:
+  const Block block = std::get<0>(GetParam());
+  const unsigned int seed = std::get<1>(GetParam());
+
+  /** Solve on a random hp mesh; displacement, multiplier and a vanishing indicator. */
+  void expect_exact(const Shear &shear, const double multiplier) const
+  {
+    const Scene<2> scene = shear_scene(block, shear);
+    const RandomMesh mesh(scene, seed, 2);
+    const Discretisation discrete(scene, mesh);
+    const Solution<2> solution = discrete.solve();
+    const auto [error, largest] =
+        nodal_error(solution,
+                    [&](const Point<2> &x)
+                    {
+                      const double height = x * block.turned(Point<2>(0., 1.));
+                      return (shear.foot + shear.strain * height) *
+                             block.turned(Point<2>(1., 0.));
+                    });
+    EXPECT_LE(error, 1e-10 * largest);
+    for (const double lambda : solution.lambda)
+      EXPECT_NEAR(lambda, multiplier, 1e-10);
+    EXPECT_LE(estimate_error(solution, discrete.tables).total(), 1e-9 * young * largest);
+  }
+};
+
+TEST_P(PatchTest, StickBelowTheBound)
+{
+  expect_exact({0., 0.04, 0.1}, 0.4);
+  expect_exact({0., -0.09, 0.1}, -0.9);
+}
+
+TEST_P(PatchTest, SlipAboveTheBound)
+{
+  expect_exact({0.3, 0.1, 0.1}, 1.);
+  expect_exact({-0.2, -0.1, 0.1}, -1.);
+}
+
+TEST_P(PatchTest, ExactThreshold)
+{
+  expect_exact({0., 0.1, 0.1}, 1.);
+}
+
+TEST_P(PatchTest, TinyBound)
+{
+  expect_exact({0.3, 1e-12, 1e-12}, 1.);
+}
+
+TEST_P(PatchTest, WithoutFrictionTheBlockRolls)
+{
+  expect_exact({0.3, 0., 0.}, 0.);
+}
+
+const double thirty_degrees = numbers::PI / 6;
+
+INSTANTIATE_TEST_SUITE_P(
+    , PatchTest,
+    ::testing::Combine(
+        ::testing::Values(
+            Block{"Box", {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, 0.},
+            Block{"TurnedBox", {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, thirty_degrees},
+            Block{"Parallelogram", {{{0, 0}, {2, 0}, {2.7, 1}, {0.7, 1}}}, 0.},
+            Block{"Trapezoid", {{{0, 0}, {2, 0}, {1.6, 1}, {0.5, 1}}}, 0.},
+            Block{"TurnedQuadrilateral", {{{0, 0}, {2, 0}, {2.3, 1.4}, {-0.2, 0.9}}}, 3.5}),
+        ::testing::Values(1u, 2u)),
+    [](const auto &info)
+    { return std::get<0>(info.param).name + std::to_string(std::get<1>(info.param)); });
+
+TEST(ExactThreshold, DoesNotCycle)
+{
+  const Block block{"Box", {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, 0.};
+  const Scene<2> scene = shear_scene(block, {0., 0.1, 0.1});
+  const RandomMesh mesh(scene, 7, 2);
+  const Discretisation discrete(scene, mesh);
+  Vector<double> lambda(discrete.contact_space.n_multipliers());
+  Mprgp::Settings settings;
+  settings.tolerance = scene.solver.qp_tolerance;
+  const QpReport report = Mprgp(settings).solve(
+      discrete.quadratic_program(discrete.reduce()), lambda);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.multiplications, 500u);
+}
+
+/** `u_t` is orthogonal to the multiplier space, and no multiplier is at its bound. */
+TEST(LargeFrictionBound, TheWholeContactBoundarySticks)
+{
+  const Scene<2> scene =
+      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5e6"}});
+  const RandomMesh mesh(scene, 11, 2);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve(1e-12);
+  const Vector<double> moments = Oracle(solution).tangential_moments(solution.u);
+  EXPECT_LT(solution.lambda.linfty_norm(), 1e-3);
+  EXPECT_LE(moments.linfty_norm(), 1e-10 * 4.5e6 * solution.u.linfty_norm());
+}
+
+// ---------------------------------------------------------------- rotation
+
+/** Example 5.2, turned by @p angle about the origin. */
+Scene<2> turned_square(const double angle)
+{
+  const Block block{"", {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}, angle};
+  const std::string pressure = "(1.5*(5 - " + block.height() + "))";
+  const auto component = [&](const unsigned int c)
+  {
+    return pressure + "*" + text(block.turned(Point<2>(1., 0.))[c]) + " - 0.75*" +
+           text(block.turned(Point<2>(0., 1.))[c]);
+  };
+  return shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
+                                    {"Geometry/Lower corner", "0, 0"},
+                                    {"Geometry/Upper corner", "1, 1"},
+                                    {"Geometry/Corners", block.corner_text()},
+                                    {"Boundary left/Traction", component(0) + "; " + component(1)}});
+}
+
+TEST(Rotation, TurnsTheSolutionOfTheSquare)
+{
+  const double angle = thirty_degrees;
+  const Scene<2> straight = shipped_scene("han-6-12"), turned = turned_square(angle);
+  const RandomMesh straight_mesh(straight, 13, 2), turned_mesh(turned, 13, 2);
+  const Discretisation first(straight, straight_mesh), second(turned, turned_mesh);
+  const Solution<2> u = first.solve(), v = second.solve();
+  ASSERT_EQ(u.u.size(), v.u.size());
+
+  double error = 0;
+  for (unsigned int cell = 0; cell < straight_mesh.degrees.size(); ++cell)
+  {
+    const LocalNumbering &numbering = first.tables.numbering(straight_mesh.degrees[cell]);
+    const auto a = u.coefficients(cell, numbering), b = v.coefficients(cell, numbering);
+    const unsigned int n = a.size() / 2;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      error = std::max(error, std::abs(std::cos(angle) * b[i] + std::sin(angle) * b[n + i] - a[i]));
+      error = std::max(
+          error, std::abs(-std::sin(angle) * b[i] + std::cos(angle) * b[n + i] - a[n + i]));
+    }
+  }
+  EXPECT_LE(error, 1e-10 * u.u.linfty_norm());
+  for (unsigned int i = 0; i < u.lambda.size(); ++i)
+    EXPECT_NEAR(u.lambda[i], v.lambda[i], 1e-9);
+  const double eta = estimate_error(u, first.tables).total();
+  EXPECT_NEAR(estimate_error(v, second.tables).total(), eta, 1e-9 * eta);
+}
+
+// ---------------------------------------------------------------- random hp meshes
+
+/** The largest jump of @p field over any interior edge, from values on both sides. */
+double largest_jump(const Solution<2> &field)
+{
+  const DoFHandler<2> &dofs = field.displacement_space.dof_handler();
+  const auto &elements = dofs.get_fe_collection();
+  const hp::QCollection<1> quadrature(QGauss<1>(10));
+  const hp::MappingCollection<2> mapping((MappingQ1<2>()));
+  hp::FEFaceValues<2> faces(mapping, elements, quadrature, update_values);
+  hp::FESubfaceValues<2> subfaces(mapping, elements, quadrature, update_values);
+  std::vector<Vector<double>> here(10, Vector<double>(2)), there(10, Vector<double>(2));
+  double largest = 0;
+  for (const auto &cell : dofs.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+    {
+      if (cell->at_boundary(face) || cell->face(face)->has_children())
+        continue;
+      faces.reinit(cell, face, 0, 0);
+      faces.get_present_fe_values().get_function_values(field.u, here);
+      const auto neighbor = cell->neighbor(face);
+      if (cell->neighbor_is_coarser(face))
+      {
+        const auto [other, subface] = cell->neighbor_of_coarser_neighbor(face);
+        subfaces.reinit(neighbor, other, subface, 0, 0);
+        subfaces.get_present_fe_values().get_function_values(field.u, there);
+      }
+      else
+      {
+        faces.reinit(neighbor, cell->neighbor_of_neighbor(face), 0, 0);
+        faces.get_present_fe_values().get_function_values(field.u, there);
+      }
+      for (unsigned int q = 0; q < here.size(); ++q)
+      {
+        there[q] -= here[q];
+        largest = std::max(largest, there[q].linfty_norm());
+      }
+    }
+  return largest;
+}
+
+class RandomHpMesh : public ::testing::TestWithParam<unsigned int>
+{
+protected:
+  const unsigned int seed = GetParam();
+};
+
+TEST_P(RandomHpMesh, IsConforming)
+{
+  const Scene<2> scene = shipped_scene("han-6-13");
+  const RandomMesh mesh(scene, seed, 3, 1 + seed % 2, 8);
+  ASSERT_TRUE(mesh.mesh.has_hanging_nodes());
+  // Degree 1 is not for contact, but the displacement space alone must cope with it.
+  const ShapeTables<2> tables;
+  const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  Vector<double> u(space.n_dofs());
+  for (double &value : u)
+    value = uniform(random);
+  space.constraints().distribute(u);
+  const Scene<2> bare = scene_of({{"Boundary top/Displacement", "0; 0"}});
+  const ContactSpace<2> no_contact(bare, space);
+  EXPECT_LE(largest_jump({scene, space, no_contact, u, {}}), 1e-12 * u.linfty_norm());
+}
+
+TEST_P(RandomHpMesh, ReproducesLinearDisplacements)
+{
+  const std::string linear = "0.3 + 0.1*x - 0.2*y; 0.05*x + 0.4*y - 0.1";
+  Overrides entries = {{"Geometry/Shape", "quadrilateral"},
+                       {"Geometry/Corners", "0, 0; 3, 0.2; 2.6, 2; -0.3, 1.5"},
+                       {"Geometry/Subdivisions", "3, 2"}};
+  for (const std::string side : {"left", "right", "bottom", "top"})
+    entries.emplace_back("Boundary " + side + "/Displacement", linear);
+  const Scene<2> scene = scene_of(entries);
+  const RandomMesh mesh(scene, seed, 3);
+  const Discretisation discrete(scene, mesh);
+  const auto [error, largest] =
+      nodal_error(discrete.solve(),
+                  [](const Point<2> &x) {
+                    return Point<2>(0.3 + 0.1 * x[0] - 0.2 * x[1], 0.05 * x[0] + 0.4 * x[1] - 0.1);
+                  });
+  EXPECT_LE(error, 1e-10 * largest);
+}
+
+TEST_P(RandomHpMesh, SchurComplementIsPositiveDefinite)
+{
+  for (const std::string name : {"han-6-12", "han-6-13"}) // the first meets a clamped edge
+  {
+    const Scene<2> scene = shipped_scene(name);
+    const RandomMesh mesh(scene, seed, 2);
+    const Discretisation discrete(scene, mesh);
+    const SchurComplement reduced = discrete.reduce();
+    EXPECT_EQ(reduced.S().m(), discrete.contact_space.n_multipliers());
+    EXPECT_LE(condition_number(scaled_by_diagonal(reduced.S())), 1e6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, RandomHpMesh, ::testing::Range(1u, 6u));
+
+// ---------------------------------------------------------------- stages that do not run
+
+const Overrides pushed_block = {{"Geometry/Subdivisions", "2, 2"},
+                                {"Boundary top/Displacement", "0.1; 0"},
+                                {"Boundary left/Traction", "1; 0"},
+                                {"Adaptivity/Maximum steps", "3"}};
+
+Overrides pushed_block_with(const Overrides &more)
+{
+  Overrides entries = pushed_block;
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+void expect_no_quadratic_program(const Scene<2> &scene, const bool has_contact)
+{
+  unsigned int n_steps = 0;
+  AdaptiveSolver<2>(scene).run(
+      [&](const Step<2> &step)
+      {
+        ++n_steps;
+        EXPECT_EQ(step.solution.contact_space.faces().empty(), !has_contact);
+        EXPECT_EQ(step.solution.contact_space.n_multipliers(), 0u);
+        EXPECT_EQ(step.solution.lambda.size(), 0u);
+        EXPECT_EQ(step.qp.multiplications, 0u);
+        EXPECT_EQ(step.times.qp, 0.);
+        EXPECT_EQ(step.energies.slack, 0.);
+      });
+  EXPECT_EQ(n_steps, 3u);
+}
+
+void expect_empty_reduction(const Scene<2> &scene)
+{
+  const RandomMesh mesh(scene, 1, 1);
+  const Discretisation discrete(scene, mesh);
+  EXPECT_TRUE(discrete.system.contact_unknowns.empty());
+  EXPECT_EQ(discrete.system.B.m(), 0u);
+  const SchurComplement reduced = discrete.reduce();
+  EXPECT_EQ(reduced.S().m(), 0u);
+  EXPECT_EQ(reduced.d().size(), 0u);
+}
+
+TEST(StagesNotNamed, WithoutFrictionThereIsNoMultiplier)
+{
+  for (const std::string bound : {"", "0", "0.0"})
+  {
+    const Scene<2> scene = scene_of(pushed_block_with(
+        {{"Boundary bottom/Contact", "bilateral"}, {"Boundary bottom/Friction bound", bound}}));
+    EXPECT_FALSE(scene.has_friction());
+    expect_no_quadratic_program(scene, true);
+    expect_empty_reduction(scene);
+  }
+}
+
+TEST(StagesNotNamed, AFrictionBoundThatVanishesEverywhereIsNoFriction)
+{
+  const Scene<2> scene = scene_of(pushed_block_with(
+      {{"Boundary bottom/Contact", "bilateral"}, {"Boundary bottom/Friction bound", "0*x"}}));
+  expect_no_quadratic_program(scene, true);
+  expect_empty_reduction(scene);
+}
+
+TEST(StagesNotNamed, WithoutContactItIsOneLinearSolve)
+{
+  const Scene<2> scene = scene_of(pushed_block);
+  EXPECT_FALSE(scene.has_contact());
+  expect_no_quadratic_program(scene, false);
+  expect_empty_reduction(scene);
+}
+
+TEST(StagesNotNamed, NoMultiplierWhereTheBoundVanishes)
+{
+  const Scene<2> scene =
+      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "(x < 2) ? 0 : 4.5"}});
+  const RandomMesh mesh(scene, 1, 1);
+  const Discretisation discrete(scene, mesh);
+  unsigned int n_multipliers = 0;
+  for (const ContactFace<2> &face : discrete.contact_space.faces())
+  {
+    const unsigned int expected = face.point(0.5)[0] < 2. ? 0 : face.degree - 1;
+    EXPECT_EQ(face.n_multipliers, expected);
+    n_multipliers += expected;
+  }
+  EXPECT_EQ(discrete.contact_space.n_multipliers(), n_multipliers);
+  EXPECT_GT(n_multipliers, 0u);
+  const Solution<2> solution = discrete.solve(1e-11);
+  const Oracle oracle(solution);
+  EXPECT_LE(oracle.residual(solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
+}
+
+TEST(StagesNotNamed, OnlyABodyForceKeepsTheInteriorBlock)
+{
+  const auto interior_block = [](const Overrides &entries)
+  {
+    const Scene<2> scene = scene_of(entries);
+    const ShapeTables<2> tables;
+    ElementStiffnesses<2> stiffnesses(scene, tables);
+    const CellMap<2> map({Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, 1)});
+    return stiffnesses.get(map, 4)->K_ii.m();
+  };
+  EXPECT_EQ(interior_block(pushed_block), 0u);
+  EXPECT_EQ(interior_block(pushed_block_with({{"Body force/Expression", "0; 0"}})), 0u);
+  EXPECT_EQ(interior_block(pushed_block_with({{"Body force/Expression", "0; -1"}})), 18u);
+}
+} // namespace
