@@ -152,7 +152,7 @@ void add_program_entries(std::vector<Entry> &entries)
   const std::string yes_no = "true or false";
   entries.insert(
       entries.end(),
-      {{"Solver", "QP tolerance", "1e-9",
+      {{"Solver", "QP tolerance", "1e-12",
         matching(Patterns::Double(std::numeric_limits<double>::min(), 1)), "a number in (0, 1]",
         "Stop where the projected gradient is below this, relative to the right-hand side."},
        {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),

@@ -1,0 +1,649 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The stages between two solutions - smoothness, marking, refinement - and the reduction to the
+// multiplier, each by itself on synthetic data.
+#include "discretisation.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_series.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <hpvi/refinement_strategy.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace
+{
+using namespace verification;
+
+// ---------------------------------------------------------------- Legendre smoothness
+
+using Field = std::function<double(const Point<2> &)>;
+
+constexpr std::array<SmoothnessReading, 2> readings = {SmoothnessReading::plain,
+                                                       SmoothnessReading::joint};
+
+/** Nodal values of two components in deal.II's numbering of FE_Q(degree), one after the other. */
+std::vector<double> nodal(const unsigned int degree, const Field &first, const Field &second)
+{
+  const FE_Q<2> fe(degree);
+  std::vector<double> values;
+  for (const Field &field : {first, second})
+    for (const Point<2> &x : fe.get_unit_support_points())
+      values.push_back(field(x));
+  return values;
+}
+
+Field times(const double factor, const Field &field)
+{
+  return [=](const Point<2> &x) { return factor * field(x); };
+}
+
+const Field zero = [](const Point<2> &) { return 0.; };
+const Field constant = [](const Point<2> &) { return 3.; };
+const Field linear = [](const Point<2> &x) { return 2 * x[0] - 5 * x[1] + 1; };
+
+/** `sum_ij c_ij L_i(x) L_j(y)` on the unit square. */
+Field series(const unsigned int degree,
+             const std::function<double(unsigned int, unsigned int)> &coefficient)
+{
+  return [=](const Point<2> &x)
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i <= degree; ++i)
+      for (unsigned int j = 0; j <= degree; ++j)
+        sum += coefficient(i, j) * std::legendre(i, 2 * x[0] - 1) * std::legendre(j, 2 * x[1] - 1);
+    return sum;
+  };
+}
+
+TEST(LegendreSmoothness, CoefficientsAreThoseOfTheSeries)
+{
+  const LegendreSmoothness<2> smoothness(SmoothnessReading::plain);
+  for (const unsigned int p : {1u, 2u, 5u, 9u})
+  {
+    const auto c = [](const unsigned int i, const unsigned int j)
+    { return std::sin(1. + 3 * i + 7 * j); };
+    const std::vector<double> values = nodal(p, series(p, c), zero);
+    const std::vector<double> result = smoothness.legendre_coefficients(values.data(), p);
+    ASSERT_EQ(result.size(), (p + 1) * (p + 1));
+    for (unsigned int i = 0; i <= p; ++i)
+      for (unsigned int j = 0; j <= p; ++j)
+        EXPECT_NEAR(result[i + (p + 1) * j], c(i, j), 1e-12) << p << ": " << i << ", " << j;
+  }
+}
+
+/** deal.II normalises the polynomials differently, which is one factor for all coefficients. */
+TEST(LegendreSmoothness, CoefficientsAreThoseOfDealIIUpToOneFactor)
+{
+  for (const unsigned int p : {2u, 4u, 7u})
+  {
+    hp::FECollection<2> elements;
+    elements.push_back(FESystem<2>(FE_Q<2>(p), 2));
+    const hp::QCollection<2> quadrature(QGauss<2>(p + 2));
+    const LocalNumbering numbering = ShapeTables<2>().numbering(p);
+    std::mt19937 random(p);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    const unsigned int n = (p + 1) * (p + 1);
+    std::vector<double> values(2 * n);
+    for (double &value : values)
+      value = uniform(random);
+    Vector<double> local(2 * n);
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      local[i] = values[numbering.component[i] * n + numbering.shape[i]];
+    for (unsigned int component = 0; component < 2; ++component)
+    {
+      FESeries::Legendre<2> legendre({p + 1}, elements, quadrature, component);
+      Table<2, double> expected(p + 1, p + 1);
+      legendre.calculate(local, 0, expected);
+      const std::vector<double> result =
+          LegendreSmoothness<2>(SmoothnessReading::plain)
+              .legendre_coefficients(&values[component * n], p);
+      const double factor = result[0] / expected(0, 0);
+      EXPECT_NEAR(std::abs(factor), 2., 1e-10);
+      for (unsigned int i = 0; i <= p; ++i)
+        for (unsigned int j = 0; j <= p; ++j)
+          EXPECT_NEAR(result[i + (p + 1) * j], factor * expected(i, j), 1e-12);
+    }
+  }
+}
+
+TEST(LegendreSmoothness, FindsAnExactDecayRate)
+{
+  for (const double b : {0.2, 0.9, 1.1, 2.5})
+    for (const unsigned int p : {2u, 3u, 4u})
+    {
+      const auto plain = [b](const unsigned int i, const unsigned int j)
+      { return ((i * j) % 2 ? -1. : 1.) * std::exp(-b * (i + j)); };
+      const auto joint = [b](const unsigned int i, const unsigned int j)
+      { return std::exp(-b * (i + j)) / std::sqrt((2 * i + 1) * (2 * j + 1)); };
+      const Field slow = series(p, plain), scaled = series(p, joint);
+      const Field fast = series(p, [b](const unsigned int i, const unsigned int j)
+                                { return std::exp(-(b + 0.5) * (i + j)); });
+      const LegendreSmoothness<2> by_component(SmoothnessReading::plain),
+          by_norm(SmoothnessReading::joint);
+      // The smaller slope counts, in whatever component it is.
+      EXPECT_NEAR(by_component.decay_rate(nodal(p, slow, fast), p), b, 1e-6);
+      EXPECT_NEAR(by_component.decay_rate(nodal(p, fast, slow), p), b, 1e-6);
+      EXPECT_NEAR(by_norm.decay_rate(nodal(p, scaled, times(-3., scaled)), p), b, 1e-6);
+    }
+}
+
+struct TestFunction
+{
+  std::string name;
+  Field field;
+  bool smooth; ///< is p to be raised?
+};
+
+/** Problem B6: analytic; two corner singularities; a kink inside the cell. */
+const std::vector<TestFunction> test_functions = {
+    {"exp", [](const Point<2> &x) { return std::exp(x[0] + 0.5 * x[1]); }, true},
+    {"r^1.5", [](const Point<2> &x) { return std::pow(x.norm(), 1.5); }, false},
+    {"r^0.6", [](const Point<2> &x) { return std::pow(x.norm(), 0.6); }, false},
+    {"kink", [](const Point<2> &x) { return std::abs(x[0] - 0.5); }, false},
+    {"oblique kink", [](const Point<2> &x) { return std::abs(x[0] + 0.3 * x[1] - 0.6); }, false}};
+
+TEST(LegendreSmoothness, DecidesOnAnalyticAndOnSingularFunctions)
+{
+  const double threshold = shipped_scene("han-6-12").adaptivity.hpa2_decay;
+  for (const TestFunction &f : test_functions)
+    for (const SmoothnessReading reading : readings)
+      for (unsigned int p = 3; p <= 8; ++p)
+      {
+        const LegendreSmoothness<2> smoothness(reading);
+        const double b = smoothness.decay_rate(nodal(p, f.field, times(-2, f.field)), p);
+        EXPECT_EQ(b > threshold, f.smooth)
+            << f.name << ", p = " << p << ", reading " << int(reading) << ", b = " << b;
+      }
+}
+
+TEST(LegendreSmoothness, DoesNotDependOnUnits)
+{
+  for (const TestFunction &f : test_functions)
+    for (const SmoothnessReading reading : readings)
+      for (unsigned int p = 2; p <= 8; ++p)
+      {
+        const LegendreSmoothness<2> smoothness(reading);
+        const double b = smoothness.decay_rate(nodal(p, f.field, linear), p);
+        for (const double unit : {1e-9, 1e9, 1e-150})
+          EXPECT_NEAR(smoothness.decay_rate(nodal(p, times(unit, f.field), times(unit, linear)), p),
+                      b, 1e-3)
+              << f.name << ", p = " << p << ", unit " << unit;
+      }
+}
+
+/** Fewer than two different orders say nothing about decay: the answer is 0, bisect. */
+TEST(LegendreSmoothness, TooFewModesAreAnsweredByZero)
+{
+  for (const SmoothnessReading reading : readings)
+    for (const double unit : {1., 1e-9, 1e-200})
+      for (unsigned int p = 1; p <= 8; ++p)
+      {
+        const LegendreSmoothness<2> smoothness(reading);
+        for (const Field &first : {zero, constant, linear})
+          for (const Field &second : {zero, constant, linear})
+            EXPECT_EQ(
+                smoothness.decay_rate(nodal(p, times(unit, first), times(unit, second)), p), 0.)
+                << "p = " << p << ", unit " << unit;
+      }
+}
+
+TEST(LegendreSmoothness, AComponentThatVanishesHasNoSay)
+{
+  for (const SmoothnessReading reading : readings)
+    for (const TestFunction &f : test_functions)
+      for (unsigned int p = 3; p <= 8; ++p)
+      {
+        const LegendreSmoothness<2> smoothness(reading);
+        const double b = smoothness.decay_rate(nodal(p, f.field, f.field), p);
+        EXPECT_NEAR(smoothness.decay_rate(nodal(p, f.field, zero), p), b, 1e-3) << f.name;
+        EXPECT_NEAR(smoothness.decay_rate(nodal(p, zero, f.field), p), b, 1e-3) << f.name;
+      }
+}
+
+// ---------------------------------------------------------------- marking
+
+/** An estimate with these indicators, spread over its parts. */
+ErrorEstimate with_indicators(const std::vector<double> &eta)
+{
+  ErrorEstimate estimate;
+  for (const double value : eta)
+  {
+    estimate.volume.push_back(0.25 * value * value);
+    estimate.jumps.push_back(0.25 * value * value);
+    estimate.neumann.push_back(0.5 * value * value);
+    estimate.contact.push_back(0.);
+  }
+  return estimate;
+}
+
+class Marking : public ::testing::Test
+{
+protected:
+  Adaptivity adaptivity = shipped_scene("han-6-12").adaptivity;
+
+  Refinement mark_with(const Method method, const std::vector<double> &eta, const Degrees &degrees,
+                       const std::vector<double> &decay = {})
+  {
+    adaptivity.method = method;
+    return mark(adaptivity, degrees, with_indicators(eta),
+                [&](const unsigned int cell)
+                {
+                  asked.insert(cell);
+                  return decay.at(cell);
+                });
+  }
+
+  std::set<unsigned int> asked; ///< cells whose decay rate was wanted
+};
+
+std::vector<unsigned int> bisected(const Refinement &refinement)
+{
+  std::vector<unsigned int> cells;
+  for (unsigned int cell = 0; cell < refinement.bisect.size(); ++cell)
+    if (refinement.bisect[cell])
+      cells.push_back(cell);
+  return cells;
+}
+
+std::vector<unsigned int> raised(const Refinement &refinement, const Degrees &degrees)
+{
+  std::vector<unsigned int> cells;
+  for (unsigned int cell = 0; cell < degrees.size(); ++cell)
+    if (refinement.degrees[cell] != degrees[cell])
+    {
+      EXPECT_EQ(refinement.degrees[cell], degrees[cell] + 1);
+      cells.push_back(cell);
+    }
+  return cells;
+}
+
+using Cells = std::vector<unsigned int>;
+
+/** Equal indicators whose squares round differently would break ties: powers of two do not. */
+const std::vector<double> ten = {1, 8, 2, 8, 0.5, 4, 4, 4, 16, 0};
+const Degrees degrees_of_ten = {2, 3, 4, 5, 6, 2, 3, 4, 5, 6};
+
+TEST_F(Marking, UniformBisectionTakesEveryCell)
+{
+  for (const Method method : {Method::hup2, Method::hup3, Method::hup4})
+  {
+    const Refinement result = mark_with(method, ten, degrees_of_ten);
+    EXPECT_EQ(bisected(result).size(), ten.size());
+    EXPECT_TRUE(raised(result, degrees_of_ten).empty());
+  }
+  EXPECT_TRUE(asked.empty());
+}
+
+TEST_F(Marking, AdaptiveBisectionTakesCellsAboveTheThreshold)
+{
+  // The mean of ten is 4.75.
+  for (const Method method : {Method::hap2, Method::hap3, Method::hap4})
+  {
+    adaptivity.hap_threshold = 0.5;
+    EXPECT_EQ(bisected(mark_with(method, ten, degrees_of_ten)), (Cells{1, 3, 5, 6, 7, 8}));
+    adaptivity.hap_threshold = 1.;
+    const Refinement result = mark_with(method, ten, degrees_of_ten);
+    EXPECT_EQ(bisected(result), (Cells{1, 3, 8}));
+    EXPECT_TRUE(raised(result, degrees_of_ten).empty());
+  }
+  // Exactly at the threshold is not above it.
+  adaptivity.hap_threshold = 1.;
+  EXPECT_TRUE(bisected(mark_with(Method::hap2, {4, 4, 4}, {2, 2, 2})).empty());
+}
+
+TEST_F(Marking, UniformRaisingStopsAtTheMaximum)
+{
+  adaptivity.maximum_degree = 5;
+  const Refinement result = mark_with(Method::pu, {1, 2, 3}, {4, 5, 2});
+  EXPECT_EQ(result.degrees, (Degrees{5, 5, 3}));
+  EXPECT_TRUE(bisected(result).empty());
+  EXPECT_TRUE(mark_with(Method::pu, {1, 2}, {5, 5}).is_empty({5, 5}));
+  EXPECT_FALSE(result.is_empty({4, 5, 2}));
+}
+
+TEST_F(Marking, FirstMethodBisectsTheLargestAndRaisesTheNext)
+{
+  adaptivity.hpa1_bisected = 0.1;
+  adaptivity.hpa1_raised = 0.1;
+  Refinement result = mark_with(Method::hpa1, ten, degrees_of_ten);
+  EXPECT_EQ(bisected(result), (Cells{8}));
+  EXPECT_EQ(raised(result, degrees_of_ten), (Cells{1})); // as large as 3, but of lower index
+
+  // Both fractions are rounded up: 2 and 3 of ten.
+  adaptivity.hpa1_bisected = 0.11;
+  adaptivity.hpa1_raised = 0.21;
+  result = mark_with(Method::hpa1, ten, degrees_of_ten);
+  EXPECT_EQ(bisected(result), (Cells{1, 8}));
+  EXPECT_EQ(raised(result, degrees_of_ten), (Cells{3, 5, 6}));
+  EXPECT_TRUE(asked.empty());
+}
+
+TEST_F(Marking, FirstMethodBisectsCellsOfMaximumDegreeInstead)
+{
+  adaptivity.hpa1_bisected = 0.1;
+  adaptivity.hpa1_raised = 0.2;
+  adaptivity.maximum_degree = 5;
+  const Refinement result = mark_with(Method::hpa1, ten, {5, 5, 5, 4, 5, 5, 5, 5, 5, 5});
+  EXPECT_EQ(bisected(result), (Cells{1, 8}));
+  EXPECT_EQ(result.degrees, (Degrees{5, 5, 5, 5, 5, 5, 5, 5, 5, 5}));
+}
+
+TEST_F(Marking, SecondMethodRaisesWhereTheFieldIsSmooth)
+{
+  adaptivity.hpa2_marked = 0.2;
+  adaptivity.hpa2_decay = 1.;
+  const std::vector<double> decay = {9, 1.5, 9, 9, 9, 9, 9, 9, 1., 9};
+  Refinement result = mark_with(Method::hpa2, ten, degrees_of_ten, decay);
+  EXPECT_EQ(bisected(result), (Cells{8})); // b = 1 is not above the threshold
+  EXPECT_EQ(raised(result, degrees_of_ten), (Cells{1}));
+  EXPECT_EQ(asked, (std::set<unsigned int>{1, 8})); // nobody else's decay costs time
+
+  adaptivity.maximum_degree = 3;
+  result = mark_with(Method::hpa2, ten, Degrees(10, 3), decay);
+  EXPECT_EQ(bisected(result), (Cells{1, 8}));
+  EXPECT_TRUE(raised(result, Degrees(10, 3)).empty());
+}
+
+TEST_F(Marking, FractionsAreRoundedUp)
+{
+  adaptivity.hpa2_marked = 0.2;
+  // ceil(n/5); 0.2 n is not representable, yet 15 cells mark 3 and not 4.
+  for (unsigned int n = 1; n <= 1000; ++n)
+  {
+    const Refinement result = mark_with(Method::hpa2, std::vector<double>(n, 1.), Degrees(n, 3),
+                                        std::vector<double>(n, 0.));
+    Cells expected((n + 4) / 5); // all indicators are equal: the first ones
+    std::iota(expected.begin(), expected.end(), 0);
+    ASSERT_EQ(bisected(result), expected) << n;
+  }
+}
+
+TEST_F(Marking, DefaultsAreTheNumbersOfTheThesis)
+{
+  const Adaptivity defaults = scene_of({{"Boundary top/Displacement", "0; 0"}}).adaptivity;
+  EXPECT_EQ(defaults.hap_threshold, 0.5);
+  EXPECT_EQ(defaults.hpa1_bisected, 0.1);
+  EXPECT_EQ(defaults.hpa1_raised, 0.1);
+  EXPECT_EQ(defaults.hpa2_marked, 0.2);
+  EXPECT_EQ(defaults.hpa2_decay, 1.);
+}
+
+TEST_F(Marking, EveryMethodStartsAtItsOwnDegree)
+{
+  const std::vector<std::pair<std::string, unsigned int>> degrees = {
+      {"hup2", 2}, {"hup3", 3}, {"hup4", 4}, {"hap2", 2}, {"hap3", 3},
+      {"hap4", 4}, {"pu", 2},   {"hpa1", 2}, {"hpa2", 3}};
+  for (const auto &[name, degree] : degrees)
+    EXPECT_EQ(shipped_scene("han-6-13", {{"Adaptivity/Method", name}}).adaptivity.start_degree,
+              degree)
+        << name;
+}
+
+// ---------------------------------------------------------------- refinement
+
+/** Active cell index of the cell around @p x. */
+unsigned int cell_at(const Triangulation<2> &mesh, const Point<2> &x)
+{
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->point_inside(x))
+      return cell->active_cell_index();
+  return numbers::invalid_unsigned_int;
+}
+
+TEST(RefineMesh, CellsAreEitherBisectedOrRaised)
+{
+  Triangulation<2> mesh;
+  GridGenerator::subdivided_hyper_rectangle(mesh, {2, 1}, Point<2>(0, 0), Point<2>(2, 1));
+  Refinement refinement{{true, false}, {4, 6}};
+  Degrees degrees = refine_mesh(mesh, {3, 5}, refinement);
+  ASSERT_EQ(mesh.n_active_cells(), 5u);
+  EXPECT_EQ(degrees[cell_at(mesh, {1.5, 0.5})], 6u);
+  for (const Point<2> &x : {Point<2>(0.2, 0.2), Point<2>(0.7, 0.2), Point<2>(0.7, 0.7)})
+    EXPECT_EQ(degrees[cell_at(mesh, x)], 3u); // children keep their parent's old degree
+
+  // Bisecting beside the large cell makes the closure bisect that, too: it is not raised then.
+  refinement = {std::vector<bool>(5, false), degrees};
+  refinement.bisect[cell_at(mesh, {0.7, 0.2})] = true;
+  ++refinement.degrees[cell_at(mesh, {1.5, 0.5})];
+  ++refinement.degrees[cell_at(mesh, {0.2, 0.7})];
+  degrees = refine_mesh(mesh, degrees, refinement);
+  ASSERT_EQ(mesh.n_active_cells(), 11u);
+  EXPECT_EQ(degrees[cell_at(mesh, {1.2, 0.2})], 6u);
+  EXPECT_EQ(degrees[cell_at(mesh, {1.7, 0.7})], 6u);
+  EXPECT_EQ(degrees[cell_at(mesh, {0.2, 0.7})], 4u);
+  EXPECT_EQ(degrees[cell_at(mesh, {0.6, 0.1})], 3u);
+  EXPECT_EQ(degrees[cell_at(mesh, {0.2, 0.2})], 3u);
+}
+
+TEST(RefineMesh, LeavesMeshAndDegreesAloneWhereNothingIsMarked)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  RandomMesh random(scene, 4, 3);
+  const unsigned int n = random.mesh.n_active_cells();
+  const Degrees degrees = refine_mesh(random.mesh, random.degrees,
+                                      {std::vector<bool>(n, false), random.degrees});
+  EXPECT_EQ(random.mesh.n_active_cells(), n);
+  EXPECT_EQ(degrees, random.degrees);
+}
+
+TEST(RefineMesh, DegreesFollowTheirCellsThroughManySteps)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  RandomMesh current(scene, 4, 1);
+  std::mt19937 random(9);
+  for (unsigned int step = 0; step < 4; ++step)
+  {
+    Triangulation<2> old_mesh;
+    old_mesh.copy_triangulation(current.mesh);
+    const Degrees old_degrees = current.degrees;
+    const unsigned int n = old_degrees.size();
+    Refinement refinement{std::vector<bool>(n), old_degrees};
+    for (unsigned int cell = 0; cell < n; ++cell)
+      if (random() % 5 == 0)
+        refinement.bisect[cell] = true;
+      else if (random() % 3 == 0)
+        ++refinement.degrees[cell];
+    current.degrees = refine_mesh(current.mesh, old_degrees, refinement);
+    auto old_cells = old_mesh.active_cell_iterators();
+    for (const auto &cell : current.mesh.active_cell_iterators())
+    {
+      const unsigned int old = cell_at(old_mesh, cell->center());
+      const auto same = std::find_if(old_cells.begin(), old_cells.end(), [&](const auto &candidate)
+                                     { return candidate->active_cell_index() == old; });
+      const bool kept = (*same)->level() == cell->level();
+      EXPECT_EQ(current.degrees[cell->active_cell_index()],
+                kept ? refinement.degrees[old] : old_degrees[old]);
+      EXPECT_TRUE(!kept || !refinement.bisect[old]);
+    }
+  }
+}
+
+// ---------------------------------------------------------------- Schur complement
+
+using Indices = SchurComplement::Indices;
+
+/** A sparse symmetric matrix with a dominant diagonal; rows of different parts do not meet. */
+struct SparseSystem
+{
+  SparsityPattern pattern;
+  SparseMatrix<double> A;
+  Vector<double> f;
+
+  SparseSystem(const unsigned int n, const unsigned int n_parts, std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    DynamicSparsityPattern dynamic_pattern(n);
+    std::vector<std::pair<unsigned int, unsigned int>> edges;
+    for (unsigned int k = 0; k < 3 * n; ++k)
+    {
+      const unsigned int i = random() % n, j = random() % n;
+      if (i != j && i % n_parts == j % n_parts)
+        edges.emplace_back(i, j);
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      dynamic_pattern.add(i, i);
+    for (const auto &[i, j] : edges)
+    {
+      dynamic_pattern.add(i, j);
+      dynamic_pattern.add(j, i);
+    }
+    pattern.copy_from(dynamic_pattern);
+    A.reinit(pattern);
+    f.reinit(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      A.add(i, i, 0.1 + std::abs(uniform(random)));
+      f[i] = uniform(random);
+    }
+    for (const auto &[i, j] : edges) // adds v v' with v = e_i + s e_j
+    {
+      const double s = uniform(random);
+      A.add(i, i, 1.);
+      A.add(i, j, s);
+      A.add(j, i, s);
+      A.add(j, j, s * s);
+    }
+  }
+};
+
+FullMatrix<double> random_matrix(const unsigned int m, const unsigned int n, std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  FullMatrix<double> matrix(m, n);
+  for (unsigned int i = 0; i < m; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      matrix(i, j) = uniform(random);
+  return matrix;
+}
+
+/** A random subset of @p size, ascending. */
+Indices choose(const Indices &from, const unsigned int size, std::mt19937 &random)
+{
+  Indices result;
+  std::sample(from.begin(), from.end(), std::back_inserter(result), size, random);
+  return result;
+}
+
+Indices all_of(const unsigned int n)
+{
+  Indices indices(n);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+/** S, d and u by dense inversion. */
+void expect_right_reduction(const SparseSystem &system, const Indices &unknowns,
+                            const Indices &contact, const FullMatrix<double> &B)
+{
+  const SchurComplement reduced(system.A, system.f, unknowns, contact, B);
+  const unsigned int n = unknowns.size();
+  FullMatrix<double> inverse(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      inverse(i, j) = system.A.el(unknowns[i], unknowns[j]);
+  inverse.gauss_jordan();
+  FullMatrix<double> B_all(B.m(), n);
+  for (unsigned int k = 0; k < contact.size(); ++k)
+    for (unsigned int m = 0; m < B.m(); ++m)
+      B_all(m, std::lower_bound(unknowns.begin(), unknowns.end(), contact[k]) -
+                   unknowns.begin()) = B(m, k);
+
+  Vector<double> lambda(B.m()), load(n), u(n);
+  for (unsigned int m = 0; m < B.m(); ++m)
+    lambda[m] = std::cos(m + 1.);
+  for (unsigned int i = 0; i < n; ++i)
+    load[i] = system.f[unknowns[i]];
+
+  ASSERT_EQ(reduced.S().m(), B.m());
+  ASSERT_EQ(reduced.d().size(), B.m());
+  if (B.m() > 0)
+  {
+    FullMatrix<double> BA(B.m(), n), S(B.m(), B.m());
+    B_all.mmult(BA, inverse);
+    BA.mTmult(S, B_all);
+    Vector<double> d(B.m());
+    BA.vmult(d, load);
+    for (unsigned int m = 0; m < B.m(); ++m)
+    {
+      EXPECT_NEAR(reduced.d()[m], d[m], 1e-10);
+      for (unsigned int k = 0; k < B.m(); ++k)
+        EXPECT_NEAR(reduced.S()(m, k), S(m, k), 1e-10);
+    }
+    Vector<double> force(n);
+    B_all.Tvmult(force, lambda);
+    load -= force;
+  }
+  inverse.vmult(u, load);
+  Vector<double> displacement = reduced.displacement(lambda);
+  ASSERT_EQ(displacement.size(), system.A.m());
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    EXPECT_NEAR(displacement[unknowns[i]], u[i], 1e-10);
+    displacement[unknowns[i]] = 0.;
+  }
+  EXPECT_EQ(displacement.linfty_norm(), 0.); // zero at all others
+}
+
+TEST(SchurComplement, IsThatOfDenseAlgebra)
+{
+  std::mt19937 random(1);
+  for (const unsigned int n : {1u, 2u, 7u, 40u, 90u})
+    for (const unsigned int n_parts : {1u, 3u}) // connected, then at least three graphs
+    {
+      const SparseSystem system(n, n_parts, random);
+      for (const unsigned int n_contact : {0u, 1u, n / 3, n})
+      {
+        const unsigned int n_multipliers = (n_contact + 1) / 2;
+        expect_right_reduction(system, all_of(n), choose(all_of(n), n_contact, random),
+                               random_matrix(n_multipliers, n_contact, random));
+      }
+    }
+}
+
+TEST(SchurComplement, TakesASubsetOfTheRows)
+{
+  std::mt19937 random(2);
+  for (unsigned int trial = 0; trial < 10; ++trial)
+  {
+    const SparseSystem system(60, 1 + trial % 3, random);
+    const Indices unknowns = choose(all_of(60), 5 + 5 * trial, random);
+    const Indices contact = choose(unknowns, 4, random);
+    expect_right_reduction(system, unknowns, contact, random_matrix(6, 4, random));
+  }
+}
+
+TEST(SchurComplement, WithoutUnknownsThereIsNothingToSolve)
+{
+  std::mt19937 random(3);
+  const SparseSystem system(5, 1, random);
+  const SchurComplement reduced(system.A, system.f, {}, {}, FullMatrix<double>());
+  EXPECT_EQ(reduced.S().m(), 0u);
+  EXPECT_EQ(reduced.displacement({}).linfty_norm(), 0.);
+}
+
+TEST(SchurComplement, RefusesAMatrixThatIsNotPositiveDefinite)
+{
+  std::mt19937 random(4);
+  for (const double diagonal : {-1., 0.})
+    for (const unsigned int row : {0u, 11u, 29u})
+      for (const unsigned int n_contact : {0u, 5u, 30u})
+      {
+        SparseSystem system(30, 1, random);
+        for (auto entry = system.A.begin(row); entry != system.A.end(row); ++entry)
+        {
+          system.A.set(entry->column(), row, 0.);
+          entry->value() = entry->column() == row ? diagonal : 0.;
+        }
+        const Indices contact = choose(all_of(30), n_contact, random);
+        EXPECT_THROW(SchurComplement(system.A, system.f, all_of(30), contact,
+                                     random_matrix(3, n_contact, random)),
+                     NumericalFailure)
+            << "row " << row << ", diagonal " << diagonal << ", " << n_contact << " in contact";
+      }
+}
+} // namespace
