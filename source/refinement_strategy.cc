@@ -48,6 +48,28 @@ void bisect_above_mean(Refinement &refinement, const std::vector<double> &eta,
   for (unsigned int cell = 0; cell < eta.size(); ++cell)
     refinement.bisect[cell] = eta[cell] > threshold * mean;
 }
+
+std::vector<unsigned int> above_share_of_maximum(const std::vector<double> &eta, const double share)
+{
+  const double largest = *std::max_element(eta.begin(), eta.end());
+  std::vector<unsigned int> marked;
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    if (eta[cell] > share * largest)
+      marked.push_back(cell);
+  return marked;
+}
+
+/** The decision of Section 4.3 on each marked cell. */
+void raise_where_smooth(Refinement &refinement, const std::vector<unsigned int> &marked,
+                        const std::function<double(unsigned int)> &decay_rate, const double smooth,
+                        const unsigned int maximum)
+{
+  for (const unsigned int cell : marked)
+    if (decay_rate(cell) > smooth)
+      raise_or_bisect(refinement, cell, maximum);
+    else
+      refinement.bisect[cell] = true;
+}
 } // namespace
 
 Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
@@ -84,14 +106,16 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const Erro
   }
   case Method::hpa2:
   {
-    const auto order = by_falling_indicator(indicators(estimate));
-    for (unsigned int k = 0; k < share_of(adaptivity.hpa2_marked, n); ++k)
-      if (decay_rate(order[k]) > adaptivity.hpa2_decay)
-        raise_or_bisect(result, order[k], maximum);
-      else
-        result.bisect[order[k]] = true;
+    auto marked = by_falling_indicator(indicators(estimate));
+    marked.resize(share_of(adaptivity.hpa2_marked, n));
+    raise_where_smooth(result, marked, decay_rate, adaptivity.hpa2_decay, maximum);
     break;
   }
+  case Method::hpa3:
+    raise_where_smooth(result,
+                       above_share_of_maximum(indicators(estimate), adaptivity.hpa3_threshold),
+                       decay_rate, adaptivity.hpa3_decay, maximum);
+    break;
   }
   return result;
 }

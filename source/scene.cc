@@ -249,6 +249,7 @@ unsigned int own_start_degree(const Method method)
   case Method::hup3:
   case Method::hap3:
   case Method::hpa2:
+  case Method::hpa3:
     return 3;
   case Method::hup4:
   case Method::hap4:
@@ -283,6 +284,8 @@ Adaptivity read_adaptivity(Parameters &parameters, const bool has_contact)
   adaptivity.hpa1_raised = parameters.number(section, "hpa1 raised fraction");
   adaptivity.hpa2_marked = parameters.number(section, "hpa2 marked fraction");
   adaptivity.hpa2_decay = parameters.number(section, "hpa2 decay threshold");
+  adaptivity.hpa3_threshold = parameters.number(section, "hpa3 threshold");
+  adaptivity.hpa3_decay = parameters.number(section, "hpa3 decay threshold");
   adaptivity.maximum_steps = parameters.integer(section, "Maximum steps");
   adaptivity.maximum_unknowns = parameters.integer(section, "Maximum unknowns");
   adaptivity.maximum_seconds = parameters.number(section, "Maximum seconds");

@@ -112,18 +112,20 @@ void add_method_entries(std::vector<Entry> &entries)
 
   entries.insert(
       entries.end(),
-      {{section, "Method", "hpa2", matching(Patterns::Selection(joined(method_names, "|"))),
+      {{section, "Method", "hpa3", matching(Patterns::Selection(joined(method_names, "|"))),
         "one of " + joined(method_names, " "),
         "hup2, hup3, hup4: bisect every cell, p = 2, 3, 4. hap2, hap3, hap4: bisect cells with "
         "large indicator. pu: raise p everywhere. hpa1: bisect the first cells by indicator, raise "
-        "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients."},
-       {section, "Smoothness reading", "joint", matching(Patterns::Selection("plain|joint")),
+        "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
+        "the same where the indicator exceeds a share of the largest."},
+       {section, "Smoothness reading", "plain", matching(Patterns::Selection("plain|joint")),
         "plain or joint",
-        "How hpa2 reads the decay rate (4.81): plain: one fit per displacement component, the "
+        "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
+        "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
        {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
         "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
-        "hpa2: 3)."},
+        "hpa2, hpa3: 3)."},
        {section, "Maximum degree", "12", degree, "an integer from 1 to 20",
         "Cells of this degree are bisected where p would rise."},
        {section, "hap threshold", "0.5", fraction, "a number in (0, 1]",
@@ -136,6 +138,10 @@ void add_method_entries(std::vector<Entry> &entries)
         "hpa2: fraction of cells refined."},
        {section, "hpa2 decay threshold", "1", matching(Patterns::Double(0)), "a number >= 0",
         "hpa2: raise p where the decay rate b exceeds this, bisect elsewhere."},
+       {section, "hpa3 threshold", "0.2", fraction, "a number in (0, 1]",
+        "hpa3: refine cells where eta_K > threshold * max(eta_K)."},
+       {section, "hpa3 decay threshold", "0.8", matching(Patterns::Double(0)), "a number >= 0",
+        "hpa3: raise p where the decay rate b exceeds this, bisect elsewhere."},
        {section, "Maximum steps", "16", positive, "a positive integer",
         "Number of adaptive steps, the first on the coarse mesh."},
        {section, "Maximum unknowns", "1000000", positive, "a positive integer",

@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /**
- * MARK of the methods of Chapter 5:
+ * MARK of the methods of Chapter 5, and of hpa3:
  *
  * | method | rule |
  * |---|---|
@@ -20,6 +20,7 @@ namespace hpvi
  * | pu | raise p everywhere |
  * | hpa1 | by falling eta_K: bisect the first fraction, raise p on the next |
  * | hpa2 | the fraction with the largest eta_K: raise p where `b > hpa2_decay`, else bisect |
+ * | hpa3 | where `eta_K > hpa3_threshold * max(eta_K)`: raise p where `b > hpa3_decay`, else bisect |
  *
  * Fractions of n cells are rounded up; cells of equal eta_K come in the order of their index. A
  * cell of maximum degree is bisected where its p would rise, except by pu, which then has nothing

@@ -34,7 +34,7 @@ struct BoundaryCondition
   bool has_traction() const;     ///< is any component given?
 };
 
-/** The methods of Chapter 5. */
+/** The methods of Chapter 5, and one that needs fewer unknowns and less time. */
 enum class Method
 {
   hup2,
@@ -45,7 +45,8 @@ enum class Method
   hap4,
   pu,
   hpa1,
-  hpa2
+  hpa2,
+  hpa3 ///< not in the thesis: the winner of doc/accuracy.md
 };
 
 /** How the decay rate of (4.81) is read from the coefficients; doc/chapter5.md compares the two. */
@@ -67,6 +68,8 @@ struct Adaptivity
   double hpa1_raised;          ///< hpa1: fraction of elements, next in order, whose p is raised
   double hpa2_marked;          ///< hpa2: fraction of elements refined
   double hpa2_decay;           ///< hpa2: raise p where b > this, else bisect
+  double hpa3_threshold;       ///< hpa3: refine where eta_K > threshold * max(eta_K)
+  double hpa3_decay;           ///< hpa3: raise p where b > this, else bisect
   unsigned int maximum_steps;
   unsigned int maximum_unknowns; ///< no step is started after one with more dofs_free
   double maximum_seconds;        ///< no step is started after this time; 0: no limit

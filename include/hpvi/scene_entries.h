@@ -15,7 +15,7 @@ inline const std::vector<std::string> boundary_names = {"left", "right", "bottom
 
 /** In the order of the enumerators of Method. */
 inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
-                                                      "hap4", "pu",   "hpa1", "hpa2"};
+                                                      "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
 /**
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible
