@@ -271,8 +271,7 @@ TEST_P(Stiffness, IsThatOfFEValues)
   for (const unsigned int p : {1u, 2u, 4u, 7u})
   {
     const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p);
-    const FullMatrix<double> K =
-        stiffness_by_fe_values(GetParam().vertices, p, scene.material);
+    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.material);
     EXPECT_LE(largest_difference(element->K, K), 1e-12 * K.linfty_norm());
   }
 }
@@ -284,8 +283,7 @@ TEST_P(Stiffness, IsCondensedToTheBoundary)
   for (const unsigned int p : {1u, 2u, 4u, 7u})
   {
     const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p);
-    const FullMatrix<double> K =
-        stiffness_by_fe_values(GetParam().vertices, p, scene.material);
+    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.material);
     const unsigned int n_b = 8 * p, n_i = K.m() - n_b;
     FullMatrix<double> condensed(n_b, n_b), extension(n_i, n_b);
     condensed.fill(K);
@@ -304,8 +302,7 @@ TEST_P(Stiffness, IsCondensedToTheBoundary)
     ASSERT_EQ(element->extension.m(), n_i);
     if (n_i > 0)
     {
-      EXPECT_LE(largest_difference(element->extension, extension),
-                1e-11 * extension.linfty_norm());
+      EXPECT_LE(largest_difference(element->extension, extension), 1e-11 * extension.linfty_norm());
     }
     EXPECT_EQ(element->K_ii.m(), n_i);
   }
@@ -446,9 +443,8 @@ void ResidualOracle::add_volume(const Cell &cell)
   result.volume[cell->active_cell_index()] = std::pow(weight(cell), 2) * sum;
 }
 
-std::vector<Tensor<1, 2>>
-ResidualOracle::tractions(const FEValuesBase<2> &values,
-                          const std::vector<Tensor<1, 2>> &normals) const
+std::vector<Tensor<1, 2>> ResidualOracle::tractions(const FEValuesBase<2> &values,
+                                                    const std::vector<Tensor<1, 2>> &normals) const
 {
   std::vector<Tensor<2, 2>> gradients(normals.size());
   values[FEValuesExtractors::Vector(0)].get_function_gradients(solution.u, gradients);
@@ -456,8 +452,8 @@ ResidualOracle::tractions(const FEValuesBase<2> &values,
   for (unsigned int q = 0; q < normals.size(); ++q)
   {
     const SymmetricTensor<2, 2> strain = symmetrize(gradients[q]);
-    result[q] = (lambda * trace(strain) * unit_symmetric_tensor<2>() + 2 * mu * strain) *
-                normals[q];
+    result[q] =
+        (lambda * trace(strain) * unit_symmetric_tensor<2>() + 2 * mu * strain) * normals[q];
   }
   return result;
 }
@@ -531,9 +527,10 @@ void ResidualOracle::add_neumann(const Cell &cell, const unsigned int face)
 void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
 {
   const auto &faces = solution.contact_space.faces();
-  const auto contact =
-      std::find_if(faces.begin(), faces.end(), [&](const ContactFace<2> &candidate)
-                   { return candidate.cell == cell && candidate.face_no == face; });
+  const auto contact = std::find_if(faces.begin(), faces.end(),
+                                    [&](const ContactFace<2> &candidate) {
+                                      return candidate.cell == cell && candidate.face_no == face;
+                                    });
   ASSERT_NE(contact, faces.end());
   FEFaceValues<2> values(cell->get_fe(), edge_gauss(cell->get_fe().degree),
                          update_gradients | update_JxW_values | update_normal_vectors |
@@ -547,9 +544,8 @@ void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
     const Tensor<1, 2> n = values.normal_vector(q), t = Point<2>(-n[1], n[0]);
     const double s = x.distance(cell->face(face)->vertex(0)) /
                      cell->face(face)->vertex(0).distance(cell->face(face)->vertex(1));
-    double residual =
-        own[q] * t + contact->condition->friction_bound->value(x) *
-                         solution.contact_space.value(*contact, solution.lambda, s);
+    double residual = own[q] * t + contact->condition->friction_bound->value(x) *
+                                       solution.contact_space.value(*contact, solution.lambda, s);
     for (unsigned int c = 0; c < 2; ++c)
       if (contact->condition->traction[c])
         residual -= contact->condition->traction[c]->value(x) * t[c];

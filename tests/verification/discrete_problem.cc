@@ -95,10 +95,9 @@ void Oracle::assemble_cells(const Solution<2> &solution, const unsigned int extr
   const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
   const double lambda = scene.material.lambda(2), mu = scene.material.mu();
   const FEValuesExtractors::Vector displacement(0);
-  hp::FEValues<2> hp_values(dofs.get_fe_collection(),
-                            quadratures<2>(dofs.get_fe_collection(), extra),
-                            update_values | update_gradients | update_JxW_values |
-                                update_quadrature_points);
+  hp::FEValues<2> hp_values(
+      dofs.get_fe_collection(), quadratures<2>(dofs.get_fe_collection(), extra),
+      update_values | update_gradients | update_JxW_values | update_quadrature_points);
   std::vector<types::global_dof_index> indices;
   for (const auto &cell : dofs.active_cell_iterators())
   {
@@ -132,9 +131,9 @@ void Oracle::assemble_cells(const Solution<2> &solution, const unsigned int extr
 void Oracle::assemble_tractions(const Solution<2> &solution)
 {
   const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
-  hp::FEFaceValues<2> hp_values(
-      dofs.get_fe_collection(), quadratures<1>(dofs.get_fe_collection(), 2),
-      update_values | update_JxW_values | update_quadrature_points);
+  hp::FEFaceValues<2> hp_values(dofs.get_fe_collection(),
+                                quadratures<1>(dofs.get_fe_collection(), 2),
+                                update_values | update_JxW_values | update_quadrature_points);
   std::vector<types::global_dof_index> indices;
   for (const auto &cell : dofs.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
@@ -287,8 +286,7 @@ TEST_P(ThesisExample, MultiplierStaysInItsBounds)
 unsigned int expect_complementary(const Solution<2> &solution, const ElasticSystem<2> &system,
                                   const double tolerance)
 {
-  const SchurComplement reduced(system.A, system.f, system.unknowns, system.contact_unknowns,
-                                system.B);
+  const SchurComplement reduced(system.A, system.f, system.contact_unknowns, system.B);
   const Vector<double> moments = Oracle(solution).tangential_moments(solution.u);
   double violation = 0, load = 0;
   unsigned int n_slip = 0;
@@ -439,8 +437,8 @@ Scene<2> shear_scene(const Block &block, const Shear &shear)
                        {"Boundary bottom/Contact", "bilateral"},
                        {"Boundary bottom/Friction bound", text(shear.friction_bound)}};
   const Tensor<1, 2> along = block.turned(Point<2>(1., 0.));
-  const std::string u = "(" + text(shear.foot) + " + " + text(shear.strain) + "*" +
-                        block.height() + ")";
+  const std::string u =
+      "(" + text(shear.foot) + " + " + text(shear.strain) + "*" + block.height() + ")";
   entries.emplace_back("Boundary top/Displacement",
                        text(along[0]) + "*" + u + "; " + text(along[1]) + "*" + u);
   const double tau = shear_modulus * shear.strain;
@@ -495,8 +493,7 @@ protected:
                     [&](const Point<2> &x)
                     {
                       const double height = x * block.turned(Point<2>(0., 1.));
-                      return (shear.foot + shear.strain * height) *
-                             block.turned(Point<2>(1., 0.));
+                      return (shear.foot + shear.strain * height) * block.turned(Point<2>(1., 0.));
                     });
     EXPECT_LE(error, 1e-10 * largest);
     for (const double lambda : solution.lambda)
@@ -556,8 +553,8 @@ TEST(ExactThreshold, DoesNotCycle)
   Vector<double> lambda(discrete.contact_space.n_multipliers());
   Mprgp::Settings settings;
   settings.tolerance = scene.solver.qp_tolerance;
-  const QpReport report = Mprgp(settings).solve(
-      discrete.quadratic_program(discrete.reduce()), lambda);
+  const QpReport report =
+      Mprgp(settings).solve(discrete.quadratic_program(discrete.reduce()), lambda);
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.multiplications, 500u);
 }
@@ -565,8 +562,7 @@ TEST(ExactThreshold, DoesNotCycle)
 /** `u_t` is orthogonal to the multiplier space, and no multiplier is at its bound. */
 TEST(LargeFrictionBound, TheWholeContactBoundarySticks)
 {
-  const Scene<2> scene =
-      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5e6"}});
+  const Scene<2> scene = shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5e6"}});
   const RandomMesh mesh(scene, 11, 2);
   const Discretisation discrete(scene, mesh);
   const Solution<2> solution = discrete.solve(1e-12);
@@ -587,11 +583,12 @@ Scene<2> turned_square(const double angle)
     return pressure + "*" + text(block.turned(Point<2>(1., 0.))[c]) + " - 0.75*" +
            text(block.turned(Point<2>(0., 1.))[c]);
   };
-  return shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
-                                    {"Geometry/Lower corner", "0, 0"},
-                                    {"Geometry/Upper corner", "1, 1"},
-                                    {"Geometry/Corners", block.corner_text()},
-                                    {"Boundary left/Traction", component(0) + "; " + component(1)}});
+  return shipped_scene("han-6-12",
+                       {{"Geometry/Shape", "quadrilateral"},
+                        {"Geometry/Lower corner", "0, 0"},
+                        {"Geometry/Upper corner", "1, 1"},
+                        {"Geometry/Corners", block.corner_text()},
+                        {"Boundary left/Traction", component(0) + "; " + component(1)}});
 }
 
 TEST(Rotation, TurnsTheSolutionOfTheSquare)
@@ -612,8 +609,8 @@ TEST(Rotation, TurnsTheSolutionOfTheSquare)
     for (unsigned int i = 0; i < n; ++i)
     {
       error = std::max(error, std::abs(std::cos(angle) * b[i] + std::sin(angle) * b[n + i] - a[i]));
-      error = std::max(
-          error, std::abs(-std::sin(angle) * b[i] + std::cos(angle) * b[n + i] - a[n + i]));
+      error = std::max(error,
+                       std::abs(-std::sin(angle) * b[i] + std::cos(angle) * b[n + i] - a[n + i]));
     }
   }
   EXPECT_LE(error, 1e-10 * u.u.linfty_norm());
@@ -700,11 +697,9 @@ TEST_P(RandomHpMesh, ReproducesLinearDisplacements)
   const Scene<2> scene = scene_of(entries);
   const RandomMesh mesh(scene, seed, 3);
   const Discretisation discrete(scene, mesh);
-  const auto [error, largest] =
-      nodal_error(discrete.solve(),
-                  [](const Point<2> &x) {
-                    return Point<2>(0.3 + 0.1 * x[0] - 0.2 * x[1], 0.05 * x[0] + 0.4 * x[1] - 0.1);
-                  });
+  const auto [error, largest] = nodal_error(
+      discrete.solve(), [](const Point<2> &x)
+      { return Point<2>(0.3 + 0.1 * x[0] - 0.2 * x[1], 0.05 * x[0] + 0.4 * x[1] - 0.1); });
   EXPECT_LE(error, 1e-10 * largest);
 }
 

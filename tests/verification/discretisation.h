@@ -118,7 +118,7 @@ public:
 
   SchurComplement reduce() const
   {
-    return SchurComplement(system.A, system.f, system.unknowns, system.contact_unknowns, system.B);
+    return SchurComplement(system.A, system.f, system.contact_unknowns, system.B);
   }
 
   QuadraticProgram quadratic_program(const SchurComplement &schur_complement) const
@@ -141,8 +141,7 @@ public:
       const QpReport report = Mprgp(settings).solve(quadratic_program(schur_complement), lambda);
       EXPECT_TRUE(report.converged) << "projected gradient " << report.projected_gradient;
     }
-    Vector<double> u = schur_complement.displacement(lambda);
-    system.recover(u);
+    Vector<double> u = system.recover(schur_complement.displacement(lambda));
     return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
   }
 

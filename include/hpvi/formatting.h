@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_formatting_h
+#define hpvi_formatting_h
+
+#include <string>
+
+namespace hpvi
+{
+/** The shortest decimal that reads back as the same number; the locale has no say. */
+std::string text(double value);
+
+/** Rounded to @p digits significant digits, for pictures and times. */
+std::string text(double value, int digits);
+
+std::string text(unsigned int value);
+
+/** @p content in quotes, as JSON wants it. */
+std::string json_string(const std::string &content);
+
+/** @p content with the characters escaped that XML reserves. */
+std::string xml_text(const std::string &content);
+} // namespace hpvi
+
+#endif
