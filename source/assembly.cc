@@ -3,6 +3,7 @@
 #include <hpvi/assembly.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace hpvi
 {
@@ -72,51 +73,79 @@ Vector<double> ElasticSystem<dim>::interior_load(const unsigned int cell) const
   return inside;
 }
 
+namespace
+{
+/** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
+struct Part
+{
+  unsigned int local, target;
+  double weight;
+};
+
+/** T' M, row by row: T is nearly the identity. */
+FullMatrix<double> times_transpose(const std::vector<Part> &T, const unsigned int n_targets,
+                                   const FullMatrix<double> &M)
+{
+  FullMatrix<double> result(n_targets, M.n());
+  for (const Part &part : T)
+  {
+    double *const sum = &result(part.target, 0);
+    const double *const row = &M(part.local, 0);
+    for (unsigned int j = 0; j < M.n(); ++j)
+      sum[j] += part.weight * row[j];
+  }
+  return result;
+}
+} // namespace
+
 /**
- * `T' K T` of one cell, where T expresses the unknowns on its boundary by free ones. T is nearly
- * the identity, so it is applied entry by entry. Adds the cell's part of f as well: the load
- * inside the cell, and what prescribed displacements h leave on the right, -T' K h.
+ * `T' K T` of one cell, where T expresses the unknowns on its boundary by free ones. Adds the
+ * cell's part of f as well: the load inside the cell, and what prescribed displacements h leave on
+ * the right, -T' K h.
  */
 template <int dim>
 typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsigned int cell)
 {
   const FullMatrix<double> &K = elements[cell]->condensed;
   const unsigned int n = K.m();
+  const auto dofs = space.cell_dofs(cell);
   Contribution result;
-  struct Part
-  {
-    unsigned int local, target;
-    double weight;
-  };
   std::vector<Part> T;
-  Vector<double> local_load(n), prescribed(n);
-  bool has_prescribed = false;
+  Vector<double> prescribed(n);
+  bool is_identity = true, has_prescribed = false;
   for (unsigned int i = 0; i < n; ++i)
   {
-    const auto dof = space.cell_dofs(cell)[i];
-    for_each_free_part(space.constraints(), dof,
-                       [&](const auto free_dof, const double weight)
-                       {
-                         const unsigned int unknown = number[free_dof];
-                         const auto found =
-                             std::find(result.targets.begin(), result.targets.end(), unknown);
-                         T.push_back({i, unsigned(found - result.targets.begin()), weight});
-                         if (found == result.targets.end())
-                           result.targets.push_back(unknown);
-                       });
-    prescribed[i] = space.constraints().get_inhomogeneity(dof);
+    if (!space.constraints().is_constrained(dofs[i]))
+    {
+      // A free unknown of the cell may have been met before, as the master of a constrained one.
+      const unsigned int target = is_identity ? i : result.add_target(number[dofs[i]]);
+      if (is_identity)
+        result.targets.push_back(number[dofs[i]]);
+      T.push_back({i, target, 1.});
+      continue;
+    }
+    is_identity = false;
+    for (const auto &entry : *space.constraints().get_constraint_entries(dofs[i]))
+      T.push_back({i, result.add_target(number[entry.first]), entry.second});
+    prescribed[i] = space.constraints().get_inhomogeneity(dofs[i]);
     has_prescribed = has_prescribed || prescribed[i] != 0.;
   }
+  if (is_identity)
+    result.matrix = &K;
+  else
+  {
+    const unsigned int n_targets = result.targets.size();
+    const FullMatrix<double> TK = times_transpose(T, n_targets, K);
+    FullMatrix<double> KT(n, n_targets); // copy_transposed() divides for every entry
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n_targets; ++j)
+        KT(i, j) = TK(j, i);
+    result.own_matrix = times_transpose(T, n_targets, KT);
+  }
 
-  FullMatrix<double> TK(result.targets.size(), n);
-  for (const Part &part : T)
-    for (unsigned int j = 0; j < n; ++j)
-      TK(part.target, j) += part.weight * K(part.local, j);
-  result.matrix.reinit(result.targets.size(), result.targets.size());
-  for (unsigned int i = 0; i < result.targets.size(); ++i)
-    for (const Part &part : T)
-      result.matrix(i, part.target) += part.weight * TK(i, part.local);
-
+  if (!interior_loads && !has_prescribed)
+    return result;
+  Vector<double> local_load(n);
   if (interior_loads && elements[cell]->extension.m() > 0)
     elements[cell]->extension.Tvmult(local_load, interior_load(cell));
   if (has_prescribed)
@@ -125,51 +154,71 @@ typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsig
     K.vmult(reaction, prescribed);
     local_load -= reaction;
   }
-  if (interior_loads || has_prescribed)
-    for (const Part &part : T)
-      f[result.targets[part.target]] += part.weight * local_load[part.local];
+  for (const Part &part : T)
+    f[result.targets[part.target]] += part.weight * local_load[part.local];
   return result;
+}
+
+template <int dim>
+unsigned int ElasticSystem<dim>::Contribution::add_target(const unsigned int unknown)
+{
+  const auto found = std::find(targets.begin(), targets.end(), unknown);
+  const unsigned int target = found - targets.begin();
+  if (found == targets.end())
+    targets.push_back(unknown);
+  return target;
 }
 
 /** Column by column, so that one marker array finds equal entries of neighbouring cells. */
 template <int dim>
 void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
 {
+  // Where each unknown stands in the contributions: a list per unknown, one after the other.
   struct Place
   {
-    unsigned int cell, local;
+    const Contribution *contribution;
+    unsigned int local;
   };
-  std::vector<std::vector<Place>> places(unknowns.size());
+  std::vector<unsigned int> first(unknowns.size() + 1, 0);
   std::size_t n_entries = 0;
-  for (unsigned int cell = 0; cell < contributions.size(); ++cell)
+  for (const Contribution &contribution : contributions)
   {
-    const auto &targets = contributions[cell].targets;
-    for (unsigned int i = 0; i < targets.size(); ++i)
-      places[targets[i]].push_back({cell, i});
-    n_entries += targets.size() * (targets.size() + 1) / 2;
+    for (const unsigned int target : contribution.targets)
+      ++first[target + 1];
+    n_entries += contribution.targets.size() * (contribution.targets.size() + 1) / 2;
   }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Place> places(first.back());
+  std::vector<unsigned int> next(first);
+  for (const Contribution &contribution : contributions)
+    for (unsigned int i = 0; i < contribution.targets.size(); ++i)
+      places[next[contribution.targets[i]]++] = {&contribution, i};
+
   A.row.reserve(n_entries);
   A.value.reserve(n_entries);
   A.column_start.reserve(unknowns.size() + 1);
   std::vector<int> position(unknowns.size(), -1);
   for (unsigned int column = 0; column < unknowns.size(); ++column)
   {
-    const int first = A.row.size();
-    for (const Place &place : places[column])
+    const int start = A.row.size();
+    for (unsigned int place = first[column]; place < first[column + 1]; ++place)
     {
-      const Contribution &contribution = contributions[place.cell];
+      const Contribution &contribution = *places[place].contribution;
+      const double *const values =
+          &(contribution.matrix ? *contribution.matrix
+                                : contribution.own_matrix)(places[place].local, 0);
       for (unsigned int i = 0; i < contribution.targets.size(); ++i)
       {
         const unsigned int row = contribution.targets[i];
         if (row > column)
           continue;
-        if (position[row] < first)
+        if (position[row] < start)
         {
           position[row] = A.row.size();
           A.row.push_back(row);
           A.value.push_back(0.);
         }
-        A.value[position[row]] += contribution.matrix(place.local, i);
+        A.value[position[row]] += values[i];
       }
     }
     A.column_start.push_back(A.row.size());
@@ -263,7 +312,7 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
   const unsigned int n_gauss = face.degree + 1;
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
   const LocalNumbering &numbering = tables.numbering(face.degree);
-  const QGauss<1> gauss(n_gauss);
+  const QGauss<1> &gauss = tables.gauss(n_gauss);
   FullMatrix<double> local(face.n_multipliers, numbering.shape.size());
   for (unsigned int q = 0; q < n_gauss; ++q)
   {

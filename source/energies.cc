@@ -40,9 +40,7 @@ class TangentialDisplacement
 public:
   TangentialDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution,
                          const ShapeTables<dim> &tables)
-      : basis(
-            Polynomials::generate_complete_Lagrange_basis(QGauss<1>(face.degree + 1).get_points())),
-        nodal(face.degree + 1)
+      : basis(tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
   {
     const std::vector<double> values = evaluate(
         tables.face(face.degree, face.face_no, face.degree + 1).values,
@@ -61,16 +59,15 @@ public:
   }
 
 private:
-  const std::vector<Polynomials::Polynomial<double>> basis;
+  const std::vector<Polynomials::Polynomial<double>> &basis;
   std::vector<double> nodal;
 };
 
 /** int weight(s, u_t) over one face by Gauss quadrature between consecutive cuts. */
 template <class F, class Weight>
-double integrate(const F &u_t, const std::vector<double> &cuts, const unsigned int n_gauss,
+double integrate(const F &u_t, const std::vector<double> &cuts, const QGauss<1> &gauss,
                  const Weight &weight)
 {
-  const QGauss<1> gauss(n_gauss);
   double sum = 0;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -93,11 +90,11 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
       const TangentialDisplacement<dim> u_t(face, solution, tables);
       const auto g = [&](const double s) { return face.friction_bound(face.point(s)); };
       friction += face.length() *
-                  integrate(u_t, sign_changes(u_t, 8 * face.degree), face.degree + 2,
+                  integrate(u_t, sign_changes(u_t, 8 * face.degree), tables.gauss(face.degree + 2),
                             [&](const double s, const double u) { return g(s) * std::abs(u); });
       coupling +=
           face.length() *
-          integrate(u_t, {0., 1.}, face.degree + 1,
+          integrate(u_t, {0., 1.}, tables.gauss(face.degree + 1),
                     [&](const double s, const double u)
                     { return g(s) * u * solution.contact_space.value(face, solution.lambda, s); });
     }

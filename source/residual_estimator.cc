@@ -239,7 +239,7 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
 {
   const unsigned int index = face.cell->active_cell_index(), n_gauss = face.degree + 1;
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
-  const QGauss<1> gauss(n_gauss);
+  const QGauss<1> &gauss = tables.gauss(n_gauss);
   const auto own = tractions(face.cell, table, face.normal);
   double sum = 0;
   for (unsigned int q = 0; q < n_gauss; ++q)

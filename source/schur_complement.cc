@@ -144,8 +144,9 @@ SchurComplement::SchurComplement(const SymmetricMatrix &A, const Vector<double> 
   if (n == 0)
     return;
   std::vector<int> is_contact(n, 0);
-  for (const unsigned int unknown : contact)
-    is_contact[unknown] = 1;
+  if (n_contact < n) // else all are in one group, and CAMD wants its number to be below n
+    for (const unsigned int unknown : contact)
+      is_contact[unknown] = 1;
   cholmod_sparse matrix = as_cholmod(A);
   factor->compute(&matrix, is_contact);
 

@@ -171,6 +171,25 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
   return found->second;
 }
 
+template <int dim>
+const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
+{
+  return gauss_rules.try_emplace(n_gauss, n_gauss).first->second;
+}
+
+template <int dim>
+const std::vector<Polynomials::Polynomial<double>> &
+ShapeTables<dim>::gauss_lagrange(const unsigned int n_gauss) const
+{
+  auto found = lagrange_bases.find(n_gauss);
+  if (found == lagrange_bases.end())
+    found = lagrange_bases
+                .emplace(n_gauss,
+                         Polynomials::generate_complete_Lagrange_basis(gauss(n_gauss).get_points()))
+                .first;
+  return found->second;
+}
+
 std::vector<double> evaluate(const FullMatrix<double> &table,
                              const std::vector<double> &coefficients)
 {

@@ -45,7 +45,10 @@ private:
   struct Contribution
   {
     std::vector<unsigned int> targets;
-    dealii::FullMatrix<double> matrix; ///< targets x targets
+    const dealii::FullMatrix<double> *matrix = nullptr; ///< the element's, without constraints
+    dealii::FullMatrix<double> own_matrix;              ///< else: targets x targets
+
+    unsigned int add_target(unsigned int unknown); ///< its place among the targets
   };
 
   void number_unknowns();

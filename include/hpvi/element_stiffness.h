@@ -19,7 +19,6 @@ namespace hpvi
  */
 struct ElementStiffness
 {
-  dealii::FullMatrix<double> K;          ///< a(v_j, v_i), n x n
   dealii::FullMatrix<double> condensed;  ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
   dealii::FullMatrix<double> extension;  ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
   dealii::LAPACKFullMatrix<double> K_ii; ///< factored; empty unless loads act in the interior

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -59,9 +61,19 @@ public:
 
   const LocalNumbering &numbering(unsigned int degree) const;
 
+  /** The Gauss rule on [0,1]: deal.II computes its points anew for each object. */
+  const dealii::QGauss<1> &gauss(unsigned int n_gauss) const;
+
+  /** Lagrange polynomials at the Gauss points. */
+  const std::vector<dealii::Polynomials::Polynomial<double>> &
+  gauss_lagrange(unsigned int n_gauss) const;
+
 private:
   mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
   mutable std::map<unsigned int, LocalNumbering> numberings;
+  mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
+  mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
+      lagrange_bases;
 };
 
 /**

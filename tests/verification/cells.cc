@@ -265,17 +265,6 @@ protected:
   const ShapeTables<2> tables;
 };
 
-TEST_P(Stiffness, IsThatOfFEValues)
-{
-  ElementStiffnesses<2> stiffnesses(scene, tables);
-  for (const unsigned int p : {1u, 2u, 4u, 7u})
-  {
-    const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p);
-    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.material);
-    EXPECT_LE(largest_difference(element->K, K), 1e-12 * K.linfty_norm());
-  }
-}
-
 /** Condensation and extension by plain inversion of the interior block. */
 TEST_P(Stiffness, IsCondensedToTheBoundary)
 {

@@ -309,7 +309,7 @@ double exponential_rate(const History &history)
 struct ExpectedRate
 {
   std::string example, method;
-  double rate; ///< of the thesis
+  double at_least; ///< the thesis's rate less 0.07; hap3 on the square reaches the full rate
   unsigned int maximum_unknowns;
 };
 
@@ -322,7 +322,6 @@ class MethodRates : public ::testing::TestWithParam<ExpectedRate>
 {
 };
 
-/** No worse than the thesis within 0.07. */
 TEST_P(MethodRates, AreThoseOfTheThesisOrBetter)
 {
   const History history =
@@ -330,16 +329,16 @@ TEST_P(MethodRates, AreThoseOfTheThesisOrBetter)
           {{"Adaptivity/Method", GetParam().method},
            {"Adaptivity/Maximum unknowns", std::to_string(GetParam().maximum_unknowns)},
            {"Adaptivity/Maximum steps", GetParam().method == "pu" ? "11" : "100"}});
-  EXPECT_GE(algebraic_rate(history), GetParam().rate - 0.07);
+  EXPECT_GE(algebraic_rate(history), GetParam().at_least);
 }
 
 INSTANTIATE_TEST_SUITE_P(, MethodRates,
-                         ::testing::Values(ExpectedRate{"han-6-12", "hup2", 0.45, 10000},
+                         ::testing::Values(ExpectedRate{"han-6-12", "hup2", 0.38, 10000},
                                            ExpectedRate{"han-6-12", "hap3", 0.9, 8000},
-                                           ExpectedRate{"han-6-12", "pu", 0.35, 100000},
-                                           ExpectedRate{"han-6-13", "hup3", 0.38, 20000},
-                                           ExpectedRate{"han-6-13", "hap2", 0.6, 8000},
-                                           ExpectedRate{"han-6-13", "pu", 0.3, 100000}),
+                                           ExpectedRate{"han-6-12", "pu", 0.28, 100000},
+                                           ExpectedRate{"han-6-13", "hup3", 0.31, 20000},
+                                           ExpectedRate{"han-6-13", "hap2", 0.53, 8000},
+                                           ExpectedRate{"han-6-13", "pu", 0.23, 100000}),
                          [](const auto &info)
                          {
                            const std::string &example = info.param.example;
@@ -351,7 +350,7 @@ TEST(ExponentialConvergence, OfTheSecondMethodIsThatOfTheThesis)
   for (const auto &[example, beta] :
        {std::make_pair("han-6-12", 0.34), std::make_pair("han-6-13", 0.31)})
   {
-    const History history = run(example, {{"Adaptivity/Maximum steps", "17"}});
+    const History history = run(example, {{"Adaptivity/Maximum steps", "16"}});
     EXPECT_GE(history.unknowns.size(), 15u);
     EXPECT_GE(history.unknowns.back(), 19000.) << example;
     EXPECT_GE(exponential_rate(history), beta) << example;

@@ -22,8 +22,8 @@ using namespace verification;
 
 using Field = std::function<double(const Point<2> &)>;
 
-constexpr std::array<SmoothnessReading, 2> readings = {SmoothnessReading::plain,
-                                                       SmoothnessReading::joint};
+const std::vector<SmoothnessReading> readings = {SmoothnessReading::plain,
+                                                 SmoothnessReading::joint};
 
 /** Nodal values of two components in deal.II's numbering of FE_Q(degree), one after the other. */
 std::vector<double> nodal(const unsigned int degree, const Field &first, const Field &second)

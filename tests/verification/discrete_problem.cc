@@ -47,6 +47,16 @@ public:
     return condense(F);
   }
 
+  double energy_product(const Vector<double> &u) const
+  {
+    return K.matrix_norm_square(u);
+  }
+
+  double work(const Vector<double> &u) const
+  {
+    return F * u;
+  }
+
   /** (B u)_i, with prescribed displacements */
   Vector<double> tangential_moments(const Vector<double> &u) const
   {
@@ -377,6 +387,9 @@ TEST(Equilibrium, HoldsWithEveryKindOfDataOnADistortedRandomMesh)
   const Oracle oracle(solution, 1);
   EXPECT_LE(oracle.residual(solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
   EXPECT_GT(discrete.system.B_prescribed.linfty_norm(), 0.);
+  const double a = oracle.energy_product(solution.u);
+  EXPECT_NEAR(discrete.system.energy_product(solution.u), a, 1e-10 * a);
+  EXPECT_NEAR(discrete.system.work(solution.u), oracle.work(solution.u), 1e-10 * a);
   expect_complementary(solution, discrete.system, tolerance);
 }
 
@@ -815,8 +828,8 @@ TEST(StagesNotNamed, OnlyABodyForceKeepsTheInteriorBlock)
     const Scene<2> scene = scene_of(entries);
     const ShapeTables<2> tables;
     ElementStiffnesses<2> stiffnesses(scene, tables);
-    const CellMap<2> map({Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, 1)});
-    return stiffnesses.get(map, 4)->K_ii.m();
+    const CellMap<2>::Vertices square = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+    return stiffnesses.get(CellMap<2>(square), 4)->K_ii.m();
   };
   EXPECT_EQ(interior_block(pushed_block), 0u);
   EXPECT_EQ(interior_block(pushed_block_with({{"Body force/Expression", "0; 0"}})), 0u);
