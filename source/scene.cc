@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 
 namespace hpvi
@@ -400,6 +401,10 @@ Scene<dim> Scene<dim>::read(const std::string &file,
   check_supports(scene);
   check_exact_solution(parameters, scene);
   scene.reference_solution = parameters.text("Error", "Reference solution");
+  if (!scene.reference_solution.empty() && !std::ifstream(scene.reference_solution))
+    parameters.reject("Error", "Reference solution",
+                      "cannot be read; make the file by a run with Output/Reference solution = "
+                      "true, or leave the entry empty");
 
   scene.adaptivity = read_adaptivity(parameters, scene.has_contact());
   scene.solver = read_solver(parameters);

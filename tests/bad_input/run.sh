@@ -206,7 +206,7 @@ invalid "Adaptivity/Smoothness reading = both" "plain or joint" -- "Adaptivity/S
 invalid "Adaptivity/Start degree = 1" "contact" "at least 2" -- "Adaptivity/Start degree=1"
 invalid "Adaptivity/Start degree = -1" "from 0 to 20" -- "Adaptivity/Start degree=-1"
 invalid "Adaptivity/Start degree = 4" "Maximum degree = 3" "raise" -- "Adaptivity/Start degree=4" "Adaptivity/Maximum degree=3"
-for entry in "hap threshold" "hpa1 bisected fraction" "hpa1 raised fraction" "hpa2 marked fraction"; do
+for entry in "hap threshold" "hpa1 bisected fraction" "hpa1 raised fraction" "hpa2 marked fraction" "hpa3 threshold"; do
   for value in 0 -0.1 1.5 nan; do
     invalid "Adaptivity/$entry = $value" "(0, 1]" -- "Adaptivity/$entry=$value"
   done
@@ -215,6 +215,11 @@ invalid "Adaptivity/hpa1 raised fraction = 0.6" "sum to at most 1" -- \
   "Adaptivity/hpa1 raised fraction=0.6" "Adaptivity/hpa1 bisected fraction=0.5"
 invalid "Adaptivity/Maximum steps = 0" "positive integer" -- "Adaptivity/Maximum steps=0"
 invalid "Adaptivity/Maximum unknowns = 99999999999" "positive integer" -- "Adaptivity/Maximum unknowns=99999999999"
+for entry in "Tolerance" "Maximum seconds" "hpa2 decay threshold" "hpa3 decay threshold"; do
+  invalid "Adaptivity/$entry = -1" ">= 0" -- "Adaptivity/$entry=-1"
+done
+invalid "Error/Reference solution = nowhere.dat" "cannot be read" "Output/Reference solution" -- \
+  "Error/Reference solution=nowhere.dat"
 invalid "Solver/QP tolerance = 0" "(0, 1]" -- "Solver/QP tolerance=0"
 invalid "Solver/Diagonal scaling = maybe" "true or false" -- "Solver/Diagonal scaling=maybe"
 
