@@ -7,7 +7,6 @@
 #include <hpvi/schur_complement.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -37,9 +36,7 @@ inline std::string text(const double value)
 /** One of the scenes that come with the program. */
 inline Scene<2> shipped_scene(const std::string &name, const Overrides &overrides = {})
 {
-  const char *directory = std::getenv("HPVI_SCENES");
-  return Scene<2>::read(std::string(directory ? directory : "prm") + "/" + name + ".prm",
-                        overrides);
+  return Scene<2>::read("prm/" + name + ".prm", overrides);
 }
 
 /** A scene that consists of @p entries alone. */
