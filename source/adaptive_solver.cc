@@ -38,8 +38,9 @@ struct Discretisation
   std::unique_ptr<const ElasticSystem<dim>> system;
 
   Discretisation(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
-                 const Degrees &degrees)
-      : displacement_space(scene, triangulation, degrees), contact_space(scene, displacement_space)
+                 const Degrees &degrees, const ShapeTables<dim> &tables)
+      : displacement_space(scene, triangulation, degrees, tables),
+        contact_space(scene, displacement_space)
   {
   }
 };
@@ -92,7 +93,7 @@ void AdaptiveSolver<dim>::Stages::discretise()
   std::unique_ptr<Discretisation<dim>> next;
   {
     StageTimer timer(times.setup);
-    next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees);
+    next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees, tables);
   }
   StageTimer timer(times.assemble);
   next->system = std::make_unique<const ElasticSystem<dim>>(

@@ -82,17 +82,24 @@ struct Part
   double weight;
 };
 
-/** T' M, row by row: T is nearly the identity. */
-FullMatrix<double> times_transpose(const std::vector<Part> &T, const unsigned int n_targets,
-                                   const FullMatrix<double> &M)
+/** T' K T, first its rows, then its columns: T is nearly the identity. */
+FullMatrix<double> congruence(const std::vector<Part> &T, const unsigned int n_targets,
+                              const FullMatrix<double> &K)
 {
-  FullMatrix<double> result(n_targets, M.n());
+  FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
   for (const Part &part : T)
   {
-    double *const sum = &result(part.target, 0);
-    const double *const row = &M(part.local, 0);
-    for (unsigned int j = 0; j < M.n(); ++j)
+    double *const sum = &rows(part.target, 0);
+    const double *const row = &K(part.local, 0);
+    for (unsigned int j = 0; j < K.n(); ++j)
       sum[j] += part.weight * row[j];
+  }
+  for (unsigned int i = 0; i < n_targets; ++i)
+  {
+    double *const sum = &result(i, 0);
+    const double *const row = &rows(i, 0);
+    for (const Part &part : T)
+      sum[part.target] += part.weight * row[part.local];
   }
   return result;
 }
@@ -133,15 +140,7 @@ typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsig
   if (is_identity)
     result.matrix = &K;
   else
-  {
-    const unsigned int n_targets = result.targets.size();
-    const FullMatrix<double> TK = times_transpose(T, n_targets, K);
-    FullMatrix<double> KT(n, n_targets); // copy_transposed() divides for every entry
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n_targets; ++j)
-        KT(i, j) = TK(j, i);
-    result.own_matrix = times_transpose(T, n_targets, KT);
-  }
+    result.own_matrix = congruence(T, result.targets.size(), K);
 
   if (!interior_loads && !has_prescribed)
     return result;

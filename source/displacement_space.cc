@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 #include <deal.II/numerics/vector_tools_constraints.h>
 #include <hpvi/displacement_space.h>
@@ -45,17 +43,13 @@ private:
 template <int dim>
 DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
                                           const Triangulation<dim> &triangulation,
-                                          const Degrees &degrees)
+                                          const Degrees &degrees, const ShapeTables<dim> &tables)
     : cell_degrees(degrees), dofs(triangulation)
 {
-  const unsigned int p_max = *std::max_element(degrees.begin(), degrees.end());
-  for (unsigned int p = 1; p <= p_max; ++p)
-    finite_elements.push_back(FESystem<dim>(FE_Q<dim>(p), dim));
-
   for (const auto &cell : dofs.active_cell_iterators())
     if (cell->is_locally_owned())
       cell->set_active_fe_index(degrees[cell->active_cell_index()] - 1);
-  dofs.distribute_dofs(finite_elements);
+  dofs.distribute_dofs(tables.elements(*std::max_element(degrees.begin(), degrees.end())));
 
   make_constraints(scene);
   store_cell_dofs();
@@ -94,7 +88,7 @@ void DisplacementSpace<dim>::store_cell_dofs()
   first_stored_dof.assign(1, 0);
   for (unsigned int cell = 0; cell < n_cells; ++cell)
     first_stored_dof.push_back(first_stored_dof.back() +
-                               finite_elements[cell_degrees[cell] - 1].n_dofs_per_cell());
+                               dofs.get_fe(cell_degrees[cell] - 1).n_dofs_per_cell());
   stored_dofs.resize(first_stored_dof.back());
 
   std::vector<types::global_dof_index> indices;

@@ -9,25 +9,6 @@ using namespace dealii;
 
 namespace
 {
-/** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
-template <int dim>
-std::vector<long> congruence_class(const typename CellMap<dim>::Vertices &vertices,
-                                   const unsigned int degree)
-{
-  double size = 1.;
-  if (dim == 2)
-  {
-    size = 0;
-    for (const Point<dim> &v : vertices)
-      size = std::max(size, (v - vertices[0]).norm());
-  }
-  std::vector<long> key{degree};
-  for (const Point<dim> &v : vertices)
-    for (unsigned int d = 0; d < dim; ++d)
-      key.push_back(std::lround((v[d] - vertices[0][d]) / size * 1e11));
-  return key;
-}
-
 /** Matrices P_ab = int d_a phi_i d_b phi_j over the cell, for all pairs of directions. */
 template <int dim>
 std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const CellMap<dim> &map,
@@ -62,6 +43,28 @@ template <int dim>
 ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables)
     : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
 {
+}
+
+/** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
+template <int dim>
+typename ElementStiffnesses<dim>::Key
+ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices &vertices,
+                                          const unsigned int degree)
+{
+  double size = 1.;
+  if (dim == 2)
+  {
+    size = 0;
+    for (const Point<dim> &v : vertices)
+      size = std::max(size, (v - vertices[0]).norm());
+  }
+  Key key;
+  auto entry = key.begin();
+  *entry++ = degree;
+  for (const Point<dim> &v : vertices)
+    for (unsigned int d = 0; d < dim; ++d)
+      *entry++ = std::lround((v[d] - vertices[0][d]) / size * 1e11);
+  return key;
 }
 
 template <int dim>
@@ -122,7 +125,7 @@ template <int dim>
 std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellMap<dim> &map,
                                                                      const unsigned int degree)
 {
-  auto &entry = known[congruence_class<dim>(map.vertices(), degree)];
+  auto &entry = known[congruence_class(map.vertices(), degree)];
   std::shared_ptr<const ElementStiffness> element = entry.lock();
   if (!element)
   {

@@ -83,7 +83,7 @@ template <int dim>
 Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
                   const ShapeTables<dim> &tables)
 {
-  double friction = 0, coupling = 0;
+  double friction = 0, coupling = 0, resultant = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
     {
@@ -97,10 +97,15 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
           integrate(u_t, {0., 1.}, tables.gauss(face.degree + 1),
                     [&](const double s, const double u)
                     { return g(s) * u * solution.contact_space.value(face, solution.lambda, s); });
+      resultant -= face.length() *
+                   integrate(u_t, {0., 1.}, tables.gauss(face.degree + 1),
+                             [&](const double s, double) {
+                               return g(s) * solution.contact_space.value(face, solution.lambda, s);
+                             });
     }
   const double a = system.energy_product(solution.u);
   const double potential = 0.5 * a - system.work(solution.u);
-  return {potential + coupling, potential + friction, std::sqrt(a), friction - coupling};
+  return {potential + coupling, potential + friction, std::sqrt(a), resultant, friction - coupling};
 }
 
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
 #include <hpvi/legendre_smoothness.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ LegendreSmoothness<dim>::projection(const unsigned int degree) const
         Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
     const QGauss<1> gauss(degree + 1);
     Projection result{FullMatrix<double>(degree + 1, degree + 1),
-                      FE_Q<dim>(degree).get_poly_space_numbering()};
+                      FETools::hierarchic_to_lexicographic_numbering<dim>(degree)};
     for (unsigned int k = 0; k <= degree; ++k)
       for (unsigned int i = 0; i <= degree; ++i)
         for (unsigned int q = 0; q < gauss.size(); ++q)

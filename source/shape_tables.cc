@@ -4,6 +4,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/shape_tables.h>
 
@@ -24,13 +25,17 @@ public:
   explicit TensorElement(const unsigned int degree)
       : polynomials(Polynomials::generate_complete_Lagrange_basis(
             QGaussLobatto<1>(degree + 1).get_points())),
-        lexicographic(FE_Q<dim>(degree).get_poly_space_numbering())
+        index(FETools::hierarchic_to_lexicographic_numbering<dim>(degree).size())
   {
+    const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<dim>(degree);
+    for (unsigned int shape = 0; shape < index.size(); ++shape)
+      for (unsigned int d = 0, rest = lexicographic[shape]; d < dim; ++d, rest /= degree + 1)
+        index[shape][d] = rest % (degree + 1);
   }
 
   unsigned int n_shapes() const
   {
-    return lexicographic.size();
+    return index.size();
   }
 
   void locate(const Point<dim> &point)
@@ -47,18 +52,14 @@ public:
   double derivative(const unsigned int shape, const std::array<unsigned int, dim> &order) const
   {
     double product = 1.;
-    unsigned int index = lexicographic[shape];
     for (unsigned int d = 0; d < dim; ++d)
-    {
-      product *= factors[d][index % polynomials.size()][order[d]];
-      index /= polynomials.size();
-    }
+      product *= factors[d][index[shape][d]][order[d]];
     return product;
   }
 
 private:
   const std::vector<Polynomials::Polynomial<double>> polynomials;
-  const std::vector<unsigned int> lexicographic;
+  std::vector<std::array<unsigned int, dim>> index; ///< of the factors of each shape function
   std::array<Derivatives1D, dim> factors;
 };
 
@@ -153,12 +154,20 @@ ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
 }
 
 template <int dim>
+const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highest) const
+{
+  while (finite_elements.size() < highest)
+    finite_elements.push_back(FESystem<dim>(FE_Q<dim>(finite_elements.size() + 1), dim));
+  return finite_elements;
+}
+
+template <int dim>
 const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) const
 {
   auto found = numberings.find(degree);
   if (found == numberings.end())
   {
-    const FESystem<dim> fe(FE_Q<dim>(degree), dim);
+    const FiniteElement<dim> &fe = elements(degree)[degree - 1];
     LocalNumbering numbering;
     numbering.n_boundary = fe.n_dofs_per_cell() - fe.template n_dofs_per_object<dim>();
     for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)

@@ -4,10 +4,10 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/hp/fe_collection.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <hpvi/mesh.h>
 #include <hpvi/scene.h>
+#include <hpvi/shape_tables.h>
 
 namespace hpvi
 {
@@ -20,9 +20,12 @@ template <int dim>
 class DisplacementSpace
 {
 public:
-  /** @p degrees by active cell index; the triangulation must outlive the space. */
+  /**
+   * @p degrees by active cell index; the triangulation must outlive the space. The finite elements
+   * are those of @p tables.
+   */
   DisplacementSpace(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
-                    const Degrees &degrees);
+                    const Degrees &degrees, const ShapeTables<dim> &tables);
 
   const dealii::Triangulation<dim> &triangulation() const;
   const dealii::DoFHandler<dim> &dof_handler() const;
@@ -43,7 +46,6 @@ private:
   void store_cell_dofs();
 
   Degrees cell_degrees;
-  dealii::hp::FECollection<dim> finite_elements; ///< degree p at index p - 1
   dealii::DoFHandler<dim> dofs;
   dealii::AffineConstraints<double> affine_constraints;
   std::vector<dealii::types::global_dof_index> stored_dofs; ///< of all cells, one after the other

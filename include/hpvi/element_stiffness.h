@@ -7,6 +7,7 @@
 #include <hpvi/scene.h>
 #include <hpvi/shape_tables.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -38,7 +39,8 @@ public:
   std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree);
 
 private:
-  using Key = std::vector<long>;
+  using Key = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
+  static Key congruence_class(const typename CellMap<dim>::Vertices &vertices, unsigned int degree);
   dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
   std::shared_ptr<ElementStiffness> condense(const dealii::FullMatrix<double> &K,
                                              unsigned int n_boundary) const;

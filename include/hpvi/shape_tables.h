@@ -7,6 +7,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/hp/fe_collection.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <array>
@@ -59,6 +60,9 @@ public:
   const ShapeTable<dim> &subface(unsigned int degree, unsigned int face_no, unsigned int subface_no,
                                  unsigned int n_gauss) const;
 
+  /** FESystem(FE_Q(p), dim) at index p - 1, for p up to @p highest and maybe beyond. */
+  const dealii::hp::FECollection<dim> &elements(unsigned int highest) const;
+
   const LocalNumbering &numbering(unsigned int degree) const;
 
   /** The Gauss rule on [0,1]: deal.II computes its points anew for each object. */
@@ -70,6 +74,7 @@ public:
 
 private:
   mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
+  mutable dealii::hp::FECollection<dim> finite_elements;
   mutable std::map<unsigned int, LocalNumbering> numberings;
   mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>

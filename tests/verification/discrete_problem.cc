@@ -687,7 +687,7 @@ TEST_P(RandomHpMesh, IsConforming)
   ASSERT_TRUE(mesh.mesh.has_hanging_nodes());
   // Degree 1 is not for contact, but the displacement space alone must cope with it.
   const ShapeTables<2> tables;
-  const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees);
+  const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees, tables);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   Vector<double> u(space.n_dofs());

@@ -102,7 +102,7 @@ public:
   const ElasticSystem<2> system;
 
   Discretisation(const Scene<2> &scene, const Triangulation<2> &mesh, const Degrees &degrees)
-      : scene(scene), stiffnesses(scene, tables), displacement_space(scene, mesh, degrees),
+      : scene(scene), stiffnesses(scene, tables), displacement_space(scene, mesh, degrees, tables),
         contact_space(scene, displacement_space),
         system(scene, displacement_space, contact_space, tables, stiffnesses)
   {

@@ -204,8 +204,7 @@ TEST(StickSlip, EnergyOfTheStandardRun)
 
 std::string scene_file(const std::string &name)
 {
-  const char *directory = std::getenv("HPVI_SCENES");
-  return (directory == nullptr ? "prm" : std::string(directory)) + "/" + name;
+  return "prm/" + name;
 }
 
 TEST(ExactSolution, BoundariesTakeItByName)
