@@ -12,11 +12,10 @@ namespace
 {
 /** Does g vanish at every point where an integral over the face would ask for it? */
 template <int dim>
-bool friction_vanishes(const ContactFace<dim> &face)
+bool friction_vanishes(const ContactFace<dim> &face, const QGauss<1> &gauss)
 {
   if (face.condition->friction_bound == nullptr)
     return true;
-  const QGauss<1> gauss(face.degree + 1);
   for (const Point<1> &s : gauss.get_points())
     if (face.friction_bound(face.point(s[0])) != 0.)
       return false;
@@ -88,13 +87,16 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
 template <int dim>
 void ContactSpace<dim>::number_multipliers()
 {
+  // deal.II computes the points of a Gauss rule anew for each object, so the rules are kept.
+  std::map<unsigned int, QGauss<1>> gauss;
   for (ContactFace<dim> &face : contact_faces)
   {
+    const QGauss<1> &rule = gauss.try_emplace(face.degree, face.degree + 1).first->second;
     face.first_multiplier = n_unknowns;
-    face.n_multipliers = friction_vanishes(face) ? 0 : face.degree - 1;
+    face.n_multipliers = friction_vanishes(face, rule) ? 0 : face.degree - 1;
     n_unknowns += face.n_multipliers;
-    if (face.n_multipliers > 0)
-      elements.try_emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));
+    if (face.n_multipliers > 0 && elements.count(face.n_multipliers) == 0)
+      elements.emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));
   }
 }
 
