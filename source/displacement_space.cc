@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 #include <deal.II/numerics/vector_tools_constraints.h>
-#include <hpvi/displacement_space.h>
+#include <hpvi/hanging_nodes.h>
 
 #include <algorithm>
 #include <set>
@@ -51,14 +50,15 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
       cell->set_active_fe_index(degrees[cell->active_cell_index()] - 1);
   dofs.distribute_dofs(tables.elements(*std::max_element(degrees.begin(), degrees.end())));
 
-  make_constraints(scene);
   store_cell_dofs();
+  make_constraints(scene, tables);
 }
 
 template <int dim>
-void DisplacementSpace<dim>::make_constraints(const Scene<dim> &scene)
+void DisplacementSpace<dim>::make_constraints(const Scene<dim> &scene,
+                                              const ShapeTables<dim> &tables)
 {
-  DoFTools::make_hanging_node_constraints(dofs, affine_constraints);
+  constrain_hanging_nodes(*this, tables, affine_constraints);
 
   // Unknowns that are constrained already are left alone, so the order settles shared corners:
   // supports first, then the sliding condition of the contact boundary.

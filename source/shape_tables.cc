@@ -8,6 +8,9 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/shape_tables.h>
 
+#include <cmath>
+#include <numeric>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -161,6 +164,26 @@ const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highe
   return finite_elements;
 }
 
+namespace
+{
+/** deal.II lists the ends of an edge before the nodes between them. */
+template <int dim>
+void number_edges(const FiniteElement<dim> &fe, LocalNumbering &numbering)
+{
+  const unsigned int n_nodes = fe.degree + 1;
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+  {
+    numbering.edge.emplace_back(dim * n_nodes);
+    for (unsigned int i = 0; i < fe.n_dofs_per_face(face); ++i)
+    {
+      const auto [component, shape] = fe.face_system_to_component_index(i, face);
+      const unsigned int node = shape == 0 ? 0 : shape == 1 ? fe.degree : shape - 1;
+      numbering.edge.back()[component * n_nodes + node] = fe.face_to_cell_index(i, face);
+    }
+  }
+}
+} // namespace
+
 template <int dim>
 const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) const
 {
@@ -175,9 +198,76 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
       numbering.component.push_back(fe.system_to_component_index(i).first);
       numbering.shape.push_back(fe.system_to_component_index(i).second);
     }
+    if (dim == 2)
+      number_edges(fe, numbering);
     found = numberings.emplace(degree, std::move(numbering)).first;
   }
   return found->second;
+}
+
+namespace
+{
+/** 1 / prod_k (x_i - x_k) of node i among @p nodes. */
+double barycentric_weight(const std::vector<Point<1>> &x, const std::vector<unsigned int> &nodes,
+                          const unsigned int i)
+{
+  double product = 1.;
+  for (const unsigned int k : nodes)
+    if (k != nodes[i])
+      product *= x[nodes[i]][0] - x[k][0];
+  return 1. / product;
+}
+
+/**
+ * @p n of the nodes @p x, its ends among them. The one of the largest barycentric weight goes first:
+ * its value follows from the others by quotients of these weights, none above 1.
+ */
+std::vector<unsigned int> select_nodes(const std::vector<Point<1>> &x, const unsigned int n)
+{
+  std::vector<unsigned int> nodes(x.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  while (nodes.size() > n)
+  {
+    unsigned int largest = 1;
+    for (unsigned int i = 2; i + 1 < nodes.size(); ++i)
+      if (std::abs(barycentric_weight(x, nodes, i)) >
+          std::abs(barycentric_weight(x, nodes, largest)) * (1 + 1e-9))
+        largest = i;
+    nodes.erase(nodes.begin() + largest);
+  }
+  return nodes;
+}
+} // namespace
+
+template <int dim>
+const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int source_degree,
+                                                              const unsigned int trace_degree,
+                                                              const unsigned int target_degree,
+                                                              const unsigned int part) const
+{
+  const auto [found, is_new] = interpolations.try_emplace(
+      std::array<unsigned int, 4>{{source_degree, trace_degree, target_degree, part}});
+  EdgeInterpolation &result = found->second;
+  if (is_new)
+  {
+    const std::vector<Point<1>> x = QGaussLobatto<1>(source_degree + 1).get_points();
+    const std::vector<Point<1>> targets = QGaussLobatto<1>(target_degree + 1).get_points();
+    result.nodes = select_nodes(x, trace_degree + 1);
+    result.weights.reinit(targets.size(), result.nodes.size());
+    for (unsigned int i = 0; i < targets.size(); ++i)
+    {
+      const double t = part == whole_edge ? targets[i][0] : (part + targets[i][0]) / 2;
+      for (unsigned int j = 0; j < result.nodes.size(); ++j)
+      {
+        double product = barycentric_weight(x, result.nodes, j);
+        for (const unsigned int k : result.nodes)
+          if (k != result.nodes[j])
+            product *= t - x[k][0];
+        result.weights(i, j) = product;
+      }
+    }
+  }
+  return result;
 }
 
 template <int dim>

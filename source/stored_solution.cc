@@ -26,22 +26,38 @@ namespace
                    "; make the reference solution anew from a scene with the same coarse mesh");
 }
 
+/**
+ * A cell by its coarse cell and the children on the way to it. (deal.II's CellId holds 30 levels,
+ * and meshes that close in on a transition go deeper.)
+ */
+template <int dim>
+std::string path(typename Triangulation<dim>::cell_iterator cell)
+{
+  std::string children;
+  for (; cell->level() > 0; cell = cell->parent())
+    for (unsigned int c = 0; c < GeometryInfo<dim>::max_children_per_cell; ++c)
+      if (cell->parent()->child(c) == cell)
+        children.insert(children.begin(), '0' + c);
+  return std::to_string(cell->index()) + ':' + children;
+}
+
 struct CellRecord
 {
   unsigned int degree;
   std::vector<double> coefficients;
 };
 
-std::map<CellId, CellRecord> read_records(const std::string &file, const int dim, double &energy)
+std::map<std::string, CellRecord> read_records(const std::string &file, const int dim,
+                                               double &energy)
 {
   std::ifstream in(file);
   if (!in)
     does_not_fit(file, "the reference solution cannot be read");
   if (!(in >> energy))
     does_not_fit(file, "not a reference solution");
-  std::map<CellId, CellRecord> records;
-  std::string path;
-  while (in >> path)
+  std::map<std::string, CellRecord> records;
+  std::string cell;
+  while (in >> cell)
   {
     CellRecord record;
     if (!(in >> record.degree) || record.degree == 0 || record.degree > 100)
@@ -50,7 +66,7 @@ std::map<CellId, CellRecord> read_records(const std::string &file, const int dim
     for (double &value : record.coefficients)
       if (!(in >> value))
         does_not_fit(file, "the reference solution is incomplete");
-    records.emplace(CellId(path), std::move(record));
+    records.emplace(cell, std::move(record));
   }
   return records;
 }
@@ -61,14 +77,14 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
     : mesh(&own_mesh)
 {
   static_assert(dim == 2, "the number of coefficients of a cell");
-  const std::map<CellId, CellRecord> records = read_records(file, dim, energy_value);
+  const std::map<std::string, CellRecord> records = read_records(file, dim, energy_value);
   make_mesh(scene, own_mesh);
   // Bisect every cell that is not in the file until all active cells are.
   for (bool complete = false; !complete;)
   {
     complete = true;
     for (const auto &cell : own_mesh.active_cell_iterators())
-      if (records.count(cell->id()) == 0)
+      if (records.count(path<dim>(cell)) == 0)
       {
         if (own_mesh.n_active_cells() > records.size())
           does_not_fit(file, "the reference solution has another coarse mesh");
@@ -81,7 +97,7 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
     does_not_fit(file, "the reference solution has another coarse mesh");
   for (const auto &cell : own_mesh.active_cell_iterators())
   {
-    const CellRecord &record = records.at(cell->id());
+    const CellRecord &record = records.at(path<dim>(cell));
     degrees.push_back(record.degree);
     cell_coefficients.push_back(record.coefficients);
   }
@@ -94,7 +110,7 @@ void StoredSolution<dim>::write(std::ostream &out) const
   out << energy_value << '\n';
   for (const auto &cell : mesh->active_cell_iterators())
   {
-    out << cell->id() << ' ' << degrees[cell->active_cell_index()];
+    out << path<dim>(cell) << ' ' << degrees[cell->active_cell_index()];
     for (const double value : cell_coefficients[cell->active_cell_index()])
       out << ' ' << value;
     out << '\n';

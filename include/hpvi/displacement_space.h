@@ -42,7 +42,7 @@ public:
   dealii::ArrayView<const dealii::types::global_dof_index> cell_dofs(unsigned int cell) const;
 
 private:
-  void make_constraints(const Scene<dim> &scene);
+  void make_constraints(const Scene<dim> &scene, const ShapeTables<dim> &tables);
   void store_cell_dofs();
 
   Degrees cell_degrees;

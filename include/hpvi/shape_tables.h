@@ -38,6 +38,21 @@ struct LocalNumbering
   unsigned int n_boundary;             ///< unknowns on vertices and faces; they come first
   std::vector<unsigned int> component; ///< of each unknown
   std::vector<unsigned int> shape;     ///< scalar shape function of each unknown
+  /** In 2D, those of each edge: component by component, each along the edge. */
+  std::vector<std::vector<unsigned int>> edge;
+};
+
+/** In @p part: the edge itself, not its first (0) or second (1) half. */
+constexpr unsigned int whole_edge = dealii::numbers::invalid_unsigned_int;
+
+/**
+ * A polynomial on an edge, given at some of the Gauss-Lobatto nodes there, at the Gauss-Lobatto
+ * nodes of another degree on the edge or on one half of it.
+ */
+struct EdgeInterpolation
+{
+  std::vector<unsigned int> nodes;    ///< where it is given, counted along the edge
+  dealii::FullMatrix<double> weights; ///< new nodes x given nodes
 };
 
 /**
@@ -65,6 +80,13 @@ public:
 
   const LocalNumbering &numbering(unsigned int degree) const;
 
+  /**
+   * From @p trace_degree + 1 of the nodes of @p source_degree, both ends among them, to all nodes of
+   * @p target_degree on @p part of the edge.
+   */
+  const EdgeInterpolation &edge_interpolation(unsigned int source_degree, unsigned int trace_degree,
+                                              unsigned int target_degree, unsigned int part) const;
+
   /** The Gauss rule on [0,1]: deal.II computes its points anew for each object. */
   const dealii::QGauss<1> &gauss(unsigned int n_gauss) const;
 
@@ -76,6 +98,7 @@ private:
   mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
   mutable dealii::hp::FECollection<dim> finite_elements;
   mutable std::map<unsigned int, LocalNumbering> numberings;
+  mutable std::map<std::array<unsigned int, 4>, EdgeInterpolation> interpolations;
   mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
       lagrange_bases;

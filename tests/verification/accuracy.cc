@@ -90,6 +90,19 @@ TEST(TrueError, FewUnknownsForAMillionth)
   FAIL() << "1e-6 is never reached";
 }
 
+/** Far below what users ask for: no stage may lose digits that its successors need. */
+TEST(TrueError, FallsToRoundOffWithTheIndicator)
+{
+  const auto rows = run(shipped_scene(
+      "stick-slip", {{"Adaptivity/Maximum degree", "14"}, {"Adaptivity/Maximum steps", "20"}}));
+  EXPECT_LT(rows.back().errors.energy, 2e-10 * rows.back().errors.energy_norm);
+  for (unsigned int k = 8; k < rows.size(); ++k)
+  {
+    EXPECT_LT(rows[k].errors.energy, rows[k - 1].errors.energy);
+    EXPECT_GT(rows[k].scaled, 2 * rows[k].errors.energy);
+  }
+}
+
 TEST(TrueError, EffectivityIsNearlyConstant)
 {
   for (const Row &row : run(shipped_scene("stick-slip", adaptivity("hpa3", 14))))
@@ -154,6 +167,21 @@ TEST(StoredSolution, MeasuresWhatTheExactSolutionMeasures)
     EXPECT_NEAR(stored[k].errors.energy, exact[k].errors.energy, 1e-3 * exact[k].errors.energy);
     EXPECT_NEAR(stored[k].errors.l2, exact[k].errors.l2, 1e-3 * exact[k].errors.l2);
   }
+}
+
+/** deal.II's CellId ends at 30 levels; a reference that closes in on a transition goes deeper. */
+TEST(StoredSolution, KeepsCellsOfAnyDepth)
+{
+  const Overrides overrides = {{"Adaptivity/Maximum steps", "1"},
+                               {"Geometry/Graded towards", "0, 0"},
+                               {"Geometry/Grading levels", "36"}};
+  const ReferenceFile file(shipped_scene("stick-slip", overrides));
+  Scene<2> scene = shipped_scene("stick-slip", overrides);
+  scene.exact_solution = nullptr;
+  scene.reference_solution = file.path;
+  const auto rows = run(scene);
+  EXPECT_GT(rows.back().errors.energy_norm, 0.6);
+  EXPECT_LT(rows.back().errors.energy, 1e-12);
 }
 
 TEST(StoredSolution, RejectsWhatDoesNotFit)

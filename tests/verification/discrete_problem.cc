@@ -9,6 +9,7 @@
 #include <deal.II/hp/fe_values.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_direct.h>
+#include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
 
@@ -697,6 +698,44 @@ TEST_P(RandomHpMesh, IsConforming)
   const Scene<2> bare = scene_of({{"Boundary top/Displacement", "0; 0"}});
   const ContactSpace<2> no_contact(bare, space);
   EXPECT_LE(largest_jump({scene, space, no_contact, u, {}}), 1e-12 * u.linfty_norm());
+}
+
+/** A random displacement under the constraints of deal.II meets ours, and their number is the same. */
+TEST_P(RandomHpMesh, IsTheSpaceOfDealII)
+{
+  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"}});
+  const RandomMesh mesh(scene, seed, 3, 2, 8);
+  const ShapeTables<2> tables;
+  const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees, tables);
+  AffineConstraints<double> dealii_constraints;
+  DoFTools::make_hanging_node_constraints(space.dof_handler(), dealii_constraints);
+  VectorTools::interpolate_boundary_values(space.dof_handler(), scene.boundaries[3].id,
+                                           Functions::ZeroFunction<2>(2), dealii_constraints);
+  dealii_constraints.close();
+  EXPECT_EQ(space.constraints().n_constraints(), dealii_constraints.n_constraints());
+
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  Vector<double> u(space.n_dofs());
+  for (double &value : u)
+    value = uniform(random);
+  dealii_constraints.distribute(u);
+  Vector<double> ours(u);
+  space.constraints().distribute(ours);
+  ours -= u;
+  EXPECT_LE(ours.linfty_norm(), 1e-10 * u.linfty_norm());
+}
+
+/** Their squares multiply the round-off of the stiffness; deal.II's own weights reach thousands. */
+TEST_P(RandomHpMesh, ConstraintsDoNotMultiplyRoundOff)
+{
+  const Scene<2> scene = shipped_scene("han-6-13");
+  const RandomMesh mesh(scene, seed, 3, 3, 14);
+  const ShapeTables<2> tables;
+  const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees, tables);
+  for (const auto &line : space.constraints().get_lines())
+    for (const auto &[unknown, weight] : line.entries)
+      EXPECT_LE(std::abs(weight), 10.) << "unknown " << unknown;
 }
 
 TEST_P(RandomHpMesh, ReproducesLinearDisplacements)
