@@ -219,29 +219,64 @@ void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueE
 
 namespace
 {
-/** |lambda - lambda_N|^2 over one straight contact face, graded towards the transitions. */
-template <int dim>
-double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &face,
-                         const ExactSolution<dim> &exact)
+/** int f(s, x) over the straight edge from @p a to @p b, graded towards singular points of @p exact. */
+template <int dim, class F>
+double integrate_along(const Point<dim> &a, const Point<dim> &b, const ExactSolution<dim> &exact,
+                       const unsigned int n_gauss, const F &f)
 {
-  CellMap<1>::Vertices ends{{Point<1>(0.), Point<1>(face.length())}};
+  const double length = a.distance(b);
+  const CellMap<1>::Vertices ends{{Point<1>(0.), Point<1>(length)}};
   std::vector<Point<1>> singular;
-  const Tensor<1, dim> along = (face.point(1.) - face.point(0.)) / face.length();
   for (const Point<dim> &x : exact.singularities())
-    singular.emplace_back((x - face.point(0.)) * along);
+    singular.emplace_back((x - a) * (b - a) / length);
   std::vector<Box<1>> boxes;
   add_graded_boxes<1>(CellMap<1>(ends), {}, singular, 40, boxes);
-  const QGauss<1> gauss(face.degree + 8);
+  const QGauss<1> gauss(n_gauss);
   double sum = 0;
   for (const Box<1> &box : boxes)
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double s = box.point(gauss.point(q))[0];
-      const double difference =
-          exact.multiplier(face.point(s)) - solution.contact_space.value(face, solution.lambda, s);
-      sum += gauss.weight(q) * box.size * face.length() * difference * difference;
+      sum += gauss.weight(q) * box.size * length * f(s, a + s * (b - a));
     }
   return sum;
+}
+
+/** |lambda - lambda_N|^2 over one contact face. */
+template <int dim>
+double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &face,
+                         const ExactSolution<dim> &exact)
+{
+  return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
+                         [&](const double s, const Point<dim> &x)
+                         {
+                           const double difference =
+                               exact.multiplier(x) -
+                               solution.contact_space.value(face, solution.lambda, s);
+                           return difference * difference;
+                         });
+}
+
+/** -L(u) + int g |u_t| of the exact solution on one edge of the boundary. */
+template <int dim>
+double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<dim> &a,
+                          const Point<dim> &b, const ExactSolution<dim> &exact)
+{
+  const Tensor<1, dim> tangent = (b - a) / a.distance(b);
+  if (!boundary.has_traction() && !boundary.friction_bound)
+    return 0.;
+  return integrate_along(a, b, exact, 12,
+                         [&](double, const Point<dim> &x)
+                         {
+                           const Tensor<1, dim> u = exact.displacement(x);
+                           double density = 0;
+                           for (unsigned int c = 0; c < dim; ++c)
+                             if (boundary.traction[c])
+                               density -= boundary.traction[c]->value(x) * u[c];
+                           if (boundary.friction_bound)
+                             density += boundary.friction_bound->value(x) * std::abs(u * tangent);
+                           return density;
+                         });
 }
 
 /** Largest distance of an exact transition to the nearest one of u_N; NaN where there is none. */
@@ -298,6 +333,13 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueError
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
+  errors.reference_energy = 0.5 * sums.norm;
+  for (const auto &cell : stored.triangulation().active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+      if (cell->at_boundary(f))
+        errors.reference_energy +=
+            boundary_potential(scene.boundaries[cell->face(f)->boundary_id()],
+                               cell->face(f)->vertex(0), cell->face(f)->vertex(1), exact);
   if (solution.contact_space.n_multipliers() == 0)
     return;
   double square = 0;

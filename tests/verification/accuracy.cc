@@ -90,6 +90,20 @@ TEST(TrueError, FewUnknownsForAMillionth)
   FAIL() << "1e-6 is never reached";
 }
 
+/** J(u_N) - J(u) = 1/2 |u-u_N|_a^2 + slack, where u_N meets the Dirichlet data well enough. */
+TEST(TrueError, EnergyDifferenceObeysItsIdentity)
+{
+  AdaptiveSolver<2>(shipped_scene("stick-slip", adaptivity("hpa3", 14)))
+      .run(
+          [](const Step<2> &step)
+          {
+            const double half_square = 0.5 * std::pow(step.errors.energy, 2);
+            const double expected = half_square + step.energies.slack;
+            const double difference = step.energies.energy - step.errors.reference_energy;
+            EXPECT_NEAR(difference, expected, 1e-3 * expected + half_square) << step.number;
+          });
+}
+
 /** Far below what users ask for: no stage may lose digits that its successors need. */
 TEST(TrueError, FallsToRoundOffWithTheIndicator)
 {
