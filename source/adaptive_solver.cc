@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/augmented_lagrangian.h>
 #include <hpvi/refinement_strategy.h>
 #include <hpvi/schur_complement.h>
 
@@ -49,6 +50,7 @@ struct Discretisation
 struct Reduction
 {
   Vector<double> lambda;
+  double translation = 0; ///< length by which a body moves that friction alone holds
   QpReport qp;
   double condition_raw = 0, condition_scaled = 0;
 };
@@ -116,8 +118,11 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
     solve_for_multiplier(*schur_complement, reduction);
 
   StageTimer timer(times.recover);
+  Vector<double> x = schur_complement->displacement(reduction.lambda);
+  if (scene.free_translation)
+    x.add(reduction.translation, system.translation);
   return {scene, discretisation->displacement_space, discretisation->contact_space,
-          system.recover(schur_complement->displacement(reduction.lambda)), reduction.lambda};
+          system.recover(x), reduction.lambda};
 }
 
 namespace
@@ -130,6 +135,34 @@ std::string not_converged(const QpReport &report, const unsigned int size, const
        << report.projected_gradient << ", tolerance " << tolerance
        << "; raise Solver/QP maximum multiplications or Solver/QP tolerance";
   return line.str();
+}
+} // namespace
+
+namespace
+{
+/** The balance of forces along the free translation, `R'(f - B' lambda) = 0`. */
+template <int dim>
+EqualityConstraint balance_of_forces(const ElasticSystem<dim> &system)
+{
+  EqualityConstraint result{Vector<double>(system.B.m()), system.translation * system.f};
+  for (unsigned int m = 0; m < system.B.m(); ++m)
+    for (unsigned int k = 0; k < system.B.n(); ++k)
+      result.G[m] += system.B(m, k) * system.translation[system.contact_unknowns[k]];
+  return result;
+}
+
+/** Friction can carry |G|_1 at most: where the loads ask for more there is no equilibrium. */
+template <int dim>
+void check_equilibrium(const Scene<dim> &scene, const EqualityConstraint &balance)
+{
+  const double applied = std::abs(balance.e), available = balance.G.l1_norm();
+  if (applied <= available * (1 + 1e-10))
+    return;
+  std::ostringstream line;
+  line << "no equilibrium: the loads push the body along (" << *scene.free_translation << ") with "
+       << applied << ", friction can resist with " << available
+       << " at most; add a support, raise Friction bound or lower the loads";
+  throw NumericalFailure(line.str());
 }
 } // namespace
 
@@ -147,7 +180,18 @@ void AdaptiveSolver<dim>::Stages::solve_for_multiplier(const SchurComplement &sc
   settings.maximum_multiplications = scene.solver.qp_maximum_multiplications;
   settings.diagonal_scaling = scene.solver.diagonal_scaling;
   reduction.lambda.reinit(qp.d.size());
-  reduction.qp = Mprgp(settings).solve(qp, reduction.lambda);
+  const Mprgp mprgp(settings);
+  if (scene.free_translation)
+  {
+    const EqualityConstraint balance = balance_of_forces(*discretisation->system);
+    check_equilibrium(scene, balance);
+    // The inner problems leave noise of their own tolerance in the balance.
+    reduction.qp =
+        AugmentedLagrangian(mprgp, 1 / discretisation->system->spring, 100 * settings.tolerance)
+            .solve(qp, balance, reduction.lambda, reduction.translation);
+  }
+  else
+    reduction.qp = mprgp.solve(qp, reduction.lambda);
   if (!reduction.qp.converged)
     throw NumericalFailure(not_converged(reduction.qp, qp.d.size(), settings.tolerance));
   if (scene.solver.condition_number)

@@ -398,7 +398,7 @@ Scene<dim> Scene<dim>::read(const std::string &file,
   for (types::boundary_id b = 0; b < GeometryInfo<dim>::faces_per_cell; ++b)
     scene.boundaries.push_back(read_boundary(parameters, expressions, scene, b));
   check_corners(parameters, scene);
-  check_supports(scene);
+  scene.free_translation = hpvi::free_translation(scene);
   check_exact_solution(parameters, scene);
   scene.reference_solution = parameters.text("Error", "Reference solution");
   if (!scene.reference_solution.empty() && !std::ifstream(scene.reference_solution))

@@ -92,52 +92,70 @@ void check_corner(const Parameters &parameters, const Scene<2> &scene, const Poi
   }
 }
 
-/**
- * The rigid-body motion `(a - c (y - y_0)/length, b + c (x - x_0)/length)` in words; of a, b, c
- * those behind @p last vanish, and that one is 1.
- */
-std::string describe_motion(const std::array<double, 3> &motion, const unsigned int last,
-                            const Point<2> &centre, const double length)
+/** The motion `(a - c (y - y_0)/length, b + c (x - x_0)/length)`: its coefficients a, b, c. */
+using RigidMotion = std::array<double, 3>;
+
+bool is_translation(const RigidMotion &motion)
 {
-  if (last == 0)
-    return "translation in x";
-  if (last == 1 && std::abs(motion[0]) < 1e-8)
-    return "translation in y";
-  if (last == 1)
-    return "translation along " + to_string(Point<2>(motion[0], motion[1]));
-  return "rotation about " + to_string(centre + length * Point<2>(-motion[1], motion[0]));
+  return std::abs(motion[2]) < 1e-8;
 }
 
-/**
- * A rigid-body motion of which the supports say nothing, in words; empty if there is none. Each of
- * @p rows is a condition on (a, b, c) above.
- */
-std::string free_motion(std::vector<std::array<double, 3>> rows, const Point<2> &centre,
-                        const double length)
+std::string describe(const RigidMotion &motion, const Point<2> &centre, const double length)
 {
-  // Gauss and Jordan: the first column without pivot is a motion that earlier columns can balance.
+  if (!is_translation(motion))
+    return "rotation about " +
+           to_string(centre + length / motion[2] * Point<2>(-motion[1], motion[0]));
+  if (std::abs(motion[1]) < 1e-8)
+    return "translation in x";
+  if (std::abs(motion[0]) < 1e-8)
+    return "translation in y";
+  return "translation along " + to_string(Point<2>(motion[0], motion[1]));
+}
+
+/** A basis of the rigid-body motions that satisfy all @p rows, conditions on (a, b, c). */
+std::vector<RigidMotion> free_motions(std::vector<RigidMotion> rows)
+{
+  // Gauss and Jordan: each column without pivot is a motion that earlier columns can balance.
+  std::vector<unsigned int> pivots;
+  std::vector<RigidMotion> motions;
   for (unsigned int column = 0; column < 3; ++column)
   {
-    const auto pivot = std::max_element(rows.begin() + column, rows.end(),
+    const unsigned int rank = pivots.size();
+    const auto pivot = std::max_element(rows.begin() + rank, rows.end(),
                                         [column](const auto &a, const auto &b)
                                         { return std::abs(a[column]) < std::abs(b[column]); });
     if (pivot == rows.end() || std::abs((*pivot)[column]) < 1e-8)
     {
-      std::array<double, 3> motion = {{0, 0, 0}};
+      RigidMotion motion = {{0, 0, 0}};
       motion[column] = 1;
-      for (unsigned int c = 0; c < column; ++c)
-        motion[c] = -rows[c][column] / rows[c][c];
-      return describe_motion(motion, column, centre, length);
+      for (unsigned int k = 0; k < rank; ++k)
+        motion[pivots[k]] = -rows[k][column] / rows[k][pivots[k]];
+      motions.push_back(motion);
+      continue;
     }
-    std::swap(*pivot, rows[column]);
+    std::swap(*pivot, rows[rank]);
     for (unsigned int r = 0; r < rows.size(); ++r)
     {
-      const double factor = r == column ? 0. : rows[r][column] / rows[column][column];
+      const double factor = r == rank ? 0. : rows[r][column] / rows[rank][column];
       for (unsigned int c = 0; c < 3; ++c)
-        rows[r][c] -= factor * rows[column][c];
+        rows[r][c] -= factor * rows[rank][c];
     }
+    pivots.push_back(column);
   }
-  return "";
+  return motions;
+}
+
+/** Does friction act against a translation along @p direction? */
+bool friction_resists(const Scene<2> &scene, const std::vector<Edge> &edges,
+                      const Tensor<1, 2> &direction)
+{
+  for (unsigned int f = 0; f < edges.size(); ++f)
+    if (scene.boundaries[f].friction_bound &&
+        (direction - (direction * edges[f].normal) * edges[f].normal).norm() > 1e-8)
+      for (const Point<2> &point : edges[f].sample())
+        if (scene.boundaries[f].friction_bound->value(point) > 0)
+          return true;
+  return false;
 }
 
 // ---------------------------------------------------------------- the exact solution
@@ -265,7 +283,7 @@ void check_corners(const Parameters &parameters, const Scene<2> &scene)
   }
 }
 
-void check_supports(const Scene<2> &scene)
+std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
 {
   const std::vector<Edge> edges = edges_of(scene.geometry);
   const Point<2> centre = centre_of(scene.geometry);
@@ -273,7 +291,7 @@ void check_supports(const Scene<2> &scene)
   for (const Point<2> &corner : scene.geometry.corners)
     length = std::max(length, corner.distance(centre));
 
-  std::vector<std::array<double, 3>> rows;
+  std::vector<RigidMotion> rows;
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &end : edges[f].ends) // rigid-body motions are linear along an edge
       for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], end))
@@ -281,13 +299,20 @@ void check_supports(const Scene<2> &scene)
         const Tensor<1, 2> &n = condition.direction, arm = (end - centre) / length;
         rows.push_back({{n[0], n[1], n[1] * arm[0] - n[0] * arm[1]}});
       }
-  const std::string motion = free_motion(rows, centre, length);
-  if (!motion.empty())
-    throw InputError(scene.file +
-                     ": Boundary left, right, bottom, top/Displacement: the supports " +
-                     "leave a rigid-body motion free, " + motion +
-                     "; prescribe a displacement component or contact that stops it (friction "
-                     "alone does not count)");
+  std::optional<Tensor<1, 2>> translation;
+  for (const RigidMotion &motion : free_motions(rows))
+  {
+    const Tensor<1, 2> direction({motion[0], motion[1]});
+    if (translation || !is_translation(motion) || !friction_resists(scene, edges, direction))
+      throw InputError(scene.file +
+                       ": Boundary left, right, bottom, top/Displacement: the supports leave a "
+                       "rigid-body motion free, " +
+                       describe(motion, centre, length) +
+                       ", and no friction resists it; prescribe a displacement component or "
+                       "contact that stops it");
+    translation = direction / direction.norm();
+  }
+  return translation;
 }
 
 void check_exact_solution(const Parameters &parameters, const Scene<2> &scene)

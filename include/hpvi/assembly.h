@@ -34,6 +34,14 @@ public:
   dealii::FullMatrix<double> B;        ///< B_mk = b(v_k, w_m), n_multipliers x contact_unknowns
   dealii::Vector<double> B_prescribed; ///< b(u_D, w_m), the part of prescribed displacements
 
+  /**
+   * Where the scene leaves a translation free, its values R at the unknowns; else empty. A is then
+   * regularised by a spring at one contact unknown, stiffness @p spring for the translation R. It carries no
+   * force where R'(f - B' lambda) = 0, so that A^-1 is a generalised inverse of the true stiffness.
+   */
+  dealii::Vector<double> translation;
+  double spring = 0;
+
   /** All displacement unknowns from values at the unknowns of A. */
   dealii::Vector<double> recover(const dealii::Vector<double> &x) const;
 
@@ -57,6 +65,7 @@ private:
   Contribution reduce(unsigned int cell);
   void sum_up(const std::vector<Contribution> &contributions);
   void assemble_contact(const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
+  void hold(const dealii::Tensor<1, dim> &free_translation);
   dealii::Vector<double> interior_load(unsigned int cell) const;
 
   const DisplacementSpace<dim> &space;

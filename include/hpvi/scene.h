@@ -11,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,8 @@ struct Scene
   Material material;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
+  /** The unit vector of a translation that friction alone resists; most scenes have none. */
+  std::optional<dealii::Tensor<1, dim>> free_translation;
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;

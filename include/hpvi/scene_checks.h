@@ -5,13 +5,18 @@
 #include <hpvi/parameters.h>
 #include <hpvi/scene.h>
 
+#include <optional>
+
 namespace hpvi
 {
 /** Throws InputError where the supports of two edges contradict each other at their corner. */
 void check_corners(const Parameters &parameters, const Scene<2> &scene);
 
-/** Throws InputError where a rigid-body motion stays free: the stiffness matrix were singular. */
-void check_supports(const Scene<2> &scene);
+/**
+ * The direction in which supports and contact leave the body free to move and friction alone
+ * resists (a semicoercive problem), if there is one. Throws InputError where nothing resists.
+ */
+std::optional<dealii::Tensor<1, 2>> free_translation(const Scene<2> &scene);
 
 /**
  * Throws InputError where the scene's data or its friction law contradict its exact solution, so

@@ -165,12 +165,12 @@ invalid "Boundary right/Displacement = 0; 0.1" "Boundary bottom/Contact = bilate
 invalid "Boundary right/Displacement = 0; 0" "Boundary top/Displacement = free; 1" "corner (4, 4) by 1" "agree" -- \
   "Boundary top/Displacement=free; 1"
 broken no_support.prm "Boundary" "Displacement" "rigid-body motion" "translation in x" "prescribe"
-invalid "rigid-body motion" "translation in x" "friction alone" -- "Boundary right/Displacement="
+invalid "rigid-body motion" "translation in x" "no friction resists" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound="
 frictionless=("Boundary bottom/Contact=none" "Boundary bottom/Friction bound=")
 invalid "rigid-body motion" "translation in y" "prescribe" -- "${frictionless[@]}" "Boundary right/Displacement=0; free"
 invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionless[@]}" \
   "Boundary right/Displacement=free; 0" "Boundary bottom/Displacement=0; free"
-invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" \
+invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound=" \
   "Geometry/Shape=quadrilateral" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
 
 # --- the exact solution: named, on y = 0, with a constant bound, and not contradicted

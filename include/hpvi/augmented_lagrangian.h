@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_augmented_lagrangian_h
+#define hpvi_augmented_lagrangian_h
+
+#include <hpvi/mprgp.h>
+
+namespace hpvi
+{
+/** `G'z = e`, one equation. */
+struct EqualityConstraint
+{
+  dealii::Vector<double> G;
+  double e;
+};
+
+/**
+ * `min 1/2 z'Sz - d'z` over a box and `G'z = e`, where S and d contain a penalty already:
+ * `S = S_0 + c G G'`, `d = d_0 + c e G`. The method of multipliers repeats the problem in the box
+ * with `d + alpha G` and moves alpha by `c (e - G'z)`, or farther where a secant shows how far (Dostal,
+ * Optimal Quadratic Programming Algorithms, 2009, chapter 6).
+ *
+ * For a body that only friction holds, G'z = e is the balance of forces along its free translation and
+ * alpha the length by which it moves.
+ */
+class AugmentedLagrangian
+{
+public:
+  /** @p penalty is c; the equation holds to @p tolerance |G|_1 at the end. */
+  AugmentedLagrangian(const Mprgp &inner, double penalty, double tolerance);
+
+  /**
+   * z holds the starting value and receives the minimiser; @p alpha likewise. The report adds up
+   * the inner problems.
+   */
+  QpReport solve(QuadraticProgram qp, const EqualityConstraint &constraint,
+                 dealii::Vector<double> &z, double &alpha) const;
+
+private:
+  const Mprgp &inner;
+  double penalty, tolerance;
+};
+} // namespace hpvi
+
+#endif
