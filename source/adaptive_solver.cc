@@ -4,6 +4,7 @@
 #include <hpvi/augmented_lagrangian.h>
 #include <hpvi/refinement_strategy.h>
 #include <hpvi/schur_complement.h>
+#include <hpvi/warnings.h>
 
 #include <sstream>
 
@@ -258,6 +259,7 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
           reduction.condition_scaled,
           times,
           seconds,
+          {},
           {}};
 }
 
@@ -282,6 +284,7 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
 {
+  std::vector<double> estimates;
   for (bool finished = false; !finished;)
   {
     stages->discretise();
@@ -293,7 +296,10 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     step.stopped_by = reached_limit(stages->scene.adaptivity, step);
     if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
       step.stopped_by = "Maximum degree";
+    estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
+    if (finished)
+      step.warnings = warnings(solution, stages->tables, estimates);
     finished_step(step);
     stages->times = StageTimes();
     if (!finished)

@@ -96,6 +96,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   Output<dim> output(scene, directory);
   StageTimes times;
   std::string stopped_by;
+  std::vector<std::string> warnings;
   std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
@@ -106,6 +107,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
           print_row(step);
           times += step.times;
           stopped_by = step.stopped_by;
+          warnings = step.warnings;
           output.write_step(step);
         });
   }
@@ -116,8 +118,10 @@ void run(const Scene<dim> &scene, const std::string &directory)
   }
   output.finish("done");
   print_stages(times);
-  std::cout << "\nstopped by Adaptivity/" << stopped_by << "\nresults in " << directory
-            << std::endl;
+  for (const std::string &warning : warnings)
+    std::cout << "\nwarning: " << warning;
+  std::cout << (warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/" << stopped_by
+            << "\nresults in " << directory << std::endl;
 }
 
 void obey(const CommandLine &command_line)

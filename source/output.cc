@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/formatting.h>
 #include <hpvi/mesh_picture.h>
 #include <hpvi/output.h>
+#include <hpvi/stress.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -166,15 +166,6 @@ std::string degree_table(const std::vector<std::vector<unsigned int>> &degrees)
 
 // ---------------------------------------------------------------- stress
 
-/** Hooke's law `sigma = lambda tr(eps) I + 2 mu eps`; row c of @p gradient belongs to u_c. */
-template <int dim>
-SymmetricTensor<2, dim> stress(const Material &material, const Tensor<2, dim> &gradient)
-{
-  const SymmetricTensor<2, dim> strain = symmetrize(gradient);
-  return material.lambda(dim) * trace(strain) * unit_symmetric_tensor<dim>() +
-         2 * material.mu() * strain;
-}
-
 /** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well. */
 template <int dim>
 double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma)
@@ -240,46 +231,6 @@ private:
 };
 
 // ---------------------------------------------------------------- the contact boundary
-
-/** u_N and sigma(u_N) at the points of one contact face. */
-template <int dim>
-class ContactTraces
-{
-public:
-  ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
-                const Solution<dim> &solution, const ShapeTables<dim> &tables)
-      : material(solution.scene.material), map(map_of<dim>(face.cell)),
-        table(tables.face(face.degree, face.face_no, n_gauss))
-  {
-    const std::vector<double> coefficients =
-        solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree));
-    values = evaluate(table.values, coefficients);
-    derivatives = evaluate(table.derivatives, coefficients);
-  }
-
-  Tensor<1, dim> displacement(const unsigned int q) const
-  {
-    Tensor<1, dim> u;
-    for (unsigned int c = 0; c < dim; ++c)
-      u[c] = values[c * table.points.size() + q];
-    return u;
-  }
-
-  SymmetricTensor<2, dim> sigma(const unsigned int q) const
-  {
-    Tensor<2, dim> reference;
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int j = 0; j < dim; ++j)
-        reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    return stress(material, reference * invert(map.jacobian(table.points[q])));
-  }
-
-private:
-  const Material &material;
-  const CellMap<dim> map;
-  const ShapeTable<dim> &table;
-  std::vector<double> values, derivatives; ///< component by component
-};
 
 /** How near to 1 |lambda| counts as slip: the QP puts what slips on the wall up to round-off. */
 constexpr double slip_tolerance = 1e-8;
@@ -431,6 +382,7 @@ void Output<dim>::write_step(const Step<dim> &step)
     write("reference.dat", file.str());
   }
   stopped_by = step.stopped_by;
+  warnings = step.warnings;
   add_rows(step); // last: the tables name no step whose files are missing
   write_tables();
   write_summary("running", "");
@@ -483,6 +435,13 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
       list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_value(value);
     return "{" + list + "\n  }";
   };
+  const auto list = [](const std::vector<std::string> &lines) -> std::string
+  {
+    std::string result;
+    for (const std::string &line : lines)
+      result += (result.empty() ? "\n    " : ",\n    ") + json_string(line);
+    return result.empty() ? "" : result + "\n  ";
+  };
   std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
   if (!stopped_by.empty())
     json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
@@ -497,7 +456,8 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
           ",\n    \"stress\": " + json_string(scene.stress_unit) +
           "\n  },\n  \"steps\": " + std::to_string(convergence.size()) +
           ",\n  \"final\": " + (convergence.empty() ? "null" : object(convergence.back())) +
-          ",\n  \"seconds\": " + object(stage_record(times)) + ",\n  \"warnings\": []\n}\n";
+          ",\n  \"seconds\": " + object(stage_record(times)) + ",\n  \"warnings\": [" +
+          list(warnings) + "]\n}\n";
   write("summary.json", json);
 }
 

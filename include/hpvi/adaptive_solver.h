@@ -79,8 +79,9 @@ struct Step
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
   StageTimes times;
-  double seconds = 0;     ///< since the start of the run, without output and true errors
-  std::string stopped_by; ///< empty, or the limit that makes this the last step
+  double seconds = 0;                ///< since the start of the run, without output and true errors
+  std::string stopped_by;            ///< empty, or the limit that makes this the last step
+  std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
 };
 
 /**

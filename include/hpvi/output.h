@@ -25,7 +25,7 @@ namespace hpvi
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
  * | `reference.dat` | the last displacement, to measure other runs against |
- * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage |
+ * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings |
  *
  * Numbers are written with as many digits as it takes to read the same number back. The units are
  * those of the scene. What the scene switches off is neither built nor written.
@@ -63,10 +63,11 @@ private:
   const Scene<dim> &scene;
   const std::filesystem::path directory;
   const ShapeTables<dim> tables;
-  std::vector<Record> convergence;                       ///< a record per step
-  std::vector<std::vector<unsigned int>> degrees;        ///< elements by step and degree
-  StageTimes times;                                      ///< sums over the steps
-  std::string stopped_by;                                ///< the limit that ended the run
+  std::vector<Record> convergence;                ///< a record per step
+  std::vector<std::vector<unsigned int>> degrees; ///< elements by step and degree
+  StageTimes times;                               ///< sums over the steps
+  std::string stopped_by;                         ///< the limit that ended the run
+  std::vector<std::string> warnings;
   std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
 };
 } // namespace hpvi

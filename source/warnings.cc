@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <hpvi/stress.h>
+#include <hpvi/true_error.h>
+#include <hpvi/warnings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Text made of numbers with three digits. */
+template <class... Parts>
+std::string line(const Parts &...parts)
+{
+  std::ostringstream out;
+  out.precision(3);
+  (out << ... << parts);
+  return out.str();
+}
+
+/** The pulling part of sigma_nn is compared with the whole; a corner alone is not worth a word. */
+template <int dim>
+std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+{
+  double tension = 0, all = 0, highest = 0;
+  Point<dim> where;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  {
+    const unsigned int n = face.degree + 1;
+    const ContactTraces<dim> traces(face, n, solution, tables);
+    for (unsigned int q = 0; q < n; ++q)
+    {
+      const double weight = tables.gauss(n).weight(q) * face.length();
+      const double normal_stress = face.normal * (traces.sigma(q) * face.normal);
+      all += weight * std::abs(normal_stress);
+      tension += weight * std::max(normal_stress, 0.);
+      if (normal_stress > highest)
+      {
+        highest = normal_stress;
+        where = face.point(tables.gauss(n).point(q)[0]);
+      }
+    }
+  }
+  if (!(tension > 0.01 * all))
+    return {};
+  return line("bilateral contact pulls: ", 100 * tension / all,
+              " % of the normal traction is tensile, up to ", highest, " ",
+              solution.scene.stress_unit, " at (", where,
+              "); a body that may lift off needs unilateral contact");
+}
+
+/** Gauss points obey |lambda_i| <= 1, the polynomial through them need not. */
+template <int dim>
+std::string overshooting_multiplier(const Solution<dim> &solution)
+{
+  double highest = 0;
+  Point<dim> where;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
+    {
+      const double s = k / (4. * face.n_multipliers);
+      const double value = std::abs(solution.contact_space.value(face, solution.lambda, s));
+      if (value > highest)
+      {
+        highest = value;
+        where = face.point(s);
+      }
+    }
+  if (highest <= 1.05)
+    return {};
+  return line("|lambda| reaches ", highest, " between Gauss points, at (", where,
+              "); it obeys |lambda| <= 1 at the Gauss points only: refine there");
+}
+
+template <int dim>
+std::string coarse_transition(const Solution<dim> &solution)
+{
+  double whole = 0;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    whole += face.length();
+  std::string list;
+  for (const Point<dim> &x : transitions(solution))
+    for (const ContactFace<dim> &face : solution.contact_space.faces())
+    {
+      const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
+      const double s = (x - face.point(0.)) * edge / edge.norm_square();
+      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
+          face.length() > 0.01 * whole)
+        list += line(list.empty() ? "" : ", ", "(", x, ") to +-", face.length(), " ",
+                     solution.scene.length_unit);
+    }
+  if (list.empty())
+    return {};
+  return "stick and slip meet at " + list +
+         " only: more than 1 % of the contact boundary; take more steps of an adaptive method";
+}
+
+/** Three steps in a row that bring less than a tenth each. */
+std::string stagnating_estimate(const std::vector<double> &estimates)
+{
+  const unsigned int n = estimates.size(), steps = 3;
+  if (n <= steps)
+    return {};
+  for (unsigned int k = n - steps; k < n; ++k)
+    if (!(estimates[k] > 0.9 * estimates[k - 1]))
+      return {};
+  return line("the error indicator stagnates: ", estimates[n - 1 - steps], " three steps ago, ",
+              estimates[n - 1], " now; the data may hold what no refinement resolves");
+}
+
+template <int dim>
+std::string elongated_elements(const Solution<dim> &solution)
+{
+  double worst = 1;
+  Point<dim> where;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    double longest = 0, shortest = std::numeric_limits<double>::max();
+    for (const unsigned int l : cell->line_indices())
+    {
+      longest = std::max(longest, cell->line(l)->diameter());
+      shortest = std::min(shortest, cell->line(l)->diameter());
+    }
+    if (longest / shortest > worst)
+    {
+      worst = longest / shortest;
+      where = cell->center();
+    }
+  }
+  if (worst <= 20)
+    return {};
+  return line("elements up to ", worst, " times as long as wide, at (", where,
+              "): constants of the error indicator grow with that; choose other "
+              "Geometry/Subdivisions");
+}
+
+/** With lambda/mu large, low degrees lock: doc/stability.md shows by how much. */
+template <int dim>
+std::string locking(const Solution<dim> &solution)
+{
+  const Material &material = solution.scene.material;
+  const Degrees &degrees = solution.displacement_space.degrees();
+  const unsigned int lowest = *std::min_element(degrees.begin(), degrees.end());
+  const double ratio = material.lambda(dim) / material.mu();
+  if (ratio < 50 || lowest >= 4)
+    return {};
+  return line("Poisson's ratio ", std::setprecision(8), material.poisson,
+              " is near 1/2 (lambda/mu = ", std::setprecision(3), ratio,
+              ") and elements of degree ", lowest,
+              " may lock; use Adaptivity/Start degree = 4 or more");
+}
+
+template <int dim>
+std::string whole_body_slips(const Solution<dim> &solution)
+{
+  if (!solution.scene.free_translation ||
+      std::any_of(solution.lambda.begin(), solution.lambda.end(),
+                  [](const double z) { return std::abs(z) < 1 - 1e-8; }))
+    return {};
+  return line("the loads reach what friction can resist: the whole body slips along (",
+              *solution.scene.free_translation,
+              ") and its place is not unique; lower the loads or add a support");
+}
+} // namespace
+
+template <int dim>
+std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
+                                  const std::vector<double> &estimates)
+{
+  std::vector<std::string> result;
+  for (const std::string &warning :
+       {tensile_contact(solution, tables), overshooting_multiplier(solution),
+        coarse_transition(solution), stagnating_estimate(estimates), elongated_elements(solution),
+        locking(solution), whole_body_slips(solution)})
+    if (!warning.empty())
+      result.push_back(warning);
+  return result;
+}
+
+template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
+                                           const std::vector<double> &);
+} // namespace hpvi

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies that friction alone holds: balance of forces, the friction limit, and what lies beyond.
+#include "discretisation.h"
+
+#include <hpvi/numerical_failure.h>
+
+namespace
+{
+using namespace verification;
+
+struct LastStep
+{
+  double resultant, slack, largest_u, norm;
+  std::vector<double> lambda;
+  std::vector<std::string> warnings;
+};
+
+LastStep run(const Scene<2> &scene)
+{
+  LastStep last;
+  AdaptiveSolver<2>(scene).run(
+      [&](const Step<2> &step)
+      {
+        const Solution<2> &solution = step.solution;
+        last = {step.energies.resultant,
+                step.energies.slack,
+                solution.u.linfty_norm(),
+                step.energies.norm,
+                {solution.lambda.begin(), solution.lambda.end()},
+                step.warnings};
+      });
+  return last;
+}
+
+bool mentions(const std::vector<std::string> &warnings, const std::string &words)
+{
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string &warning)
+                     { return warning.find(words) != std::string::npos; });
+}
+
+/** A block on friction g = 0.3 in pure shear tau, by tractions on the three other sides. */
+Scene<2> sheared_block(const double tau, const Overrides &more = {})
+{
+  Overrides entries = {{"Geometry/Upper corner", "2, 1"},
+                       {"Geometry/Subdivisions", "4, 2"},
+                       {"Material/Young's modulus", "1"},
+                       {"Material/Poisson's ratio", "0.25"},
+                       {"Boundary left/Traction", "0; " + text(-tau)},
+                       {"Boundary right/Traction", "0; " + text(tau)},
+                       {"Boundary top/Traction", text(tau) + "; 0"},
+                       {"Boundary bottom/Contact", "bilateral"},
+                       {"Boundary bottom/Friction bound", "0.3"},
+                       {"Adaptivity/Method", "hpa2"},
+                       {"Adaptivity/Maximum steps", "2"}};
+  entries.insert(entries.end(), more.begin(), more.end());
+  return scene_of(entries);
+}
+
+TEST(Semicoercive, StickingBlockShearsAndStays)
+{
+  const double tau = 0.2, mu = 0.4; // E/(2(1+nu))
+  const LastStep last = run(sheared_block(tau));
+  EXPECT_NEAR(last.largest_u, tau / mu, 1e-9);
+  EXPECT_NEAR(last.resultant, -2 * tau, 1e-10);
+  for (const double z : last.lambda)
+    EXPECT_NEAR(z, tau / 0.3, 1e-8);
+  EXPECT_FALSE(mentions(last.warnings, "not unique"));
+}
+
+TEST(Semicoercive, AtTheFrictionLimitThePlaceIsNotUnique)
+{
+  const LastStep last = run(sheared_block(0.3));
+  for (const double z : last.lambda)
+    EXPECT_NEAR(z, 1, 1e-8);
+  EXPECT_TRUE(mentions(last.warnings, "not unique"));
+}
+
+TEST(Semicoercive, BeyondTheFrictionLimitThereIsNoEquilibrium)
+{
+  try
+  {
+    run(sheared_block(0.31));
+    FAIL() << "a huge displacement passed as a result";
+  }
+  catch (const NumericalFailure &failure)
+  {
+    const std::string line = failure.what();
+    EXPECT_NE(line.find("no equilibrium"), std::string::npos) << line;
+    EXPECT_NE(line.find("0.62"), std::string::npos) << line; // applied
+    EXPECT_NE(line.find("0.6 "), std::string::npos) << line; // available
+  }
+}
+
+/** The bar of Example 5.3 without its clamp: t along the top is all that friction has to carry. */
+class UnclampedBar : public ::testing::TestWithParam<double>
+{
+};
+
+TEST_P(UnclampedBar, FrictionBalancesTheLoads)
+{
+  const double t = GetParam() * 1.75;
+  const LastStep last =
+      run(shipped_scene("semicoercive", {{"Boundary top/Traction", text(t) + "; 0"}}));
+  EXPECT_NEAR(last.resultant, -10 * t, 1e-8);
+  for (const double z : last.lambda)
+    EXPECT_LE(std::abs(z), 1.);
+  // The translation is right where slipping points slip with friction, not against it.
+  EXPECT_GE(last.slack, -1e-3 * last.norm * last.norm);
+  EXPECT_LE(last.slack, 1e-4 * last.norm * last.norm);
+}
+
+INSTANTIATE_TEST_SUITE_P(, UnclampedBar, ::testing::Values(-0.9, 0., 0.9, 0.999, 1.));
+
+/** The same bar turned by 30 degrees: the free translation follows the contact boundary. */
+TEST(Semicoercive, DoesNotDependOnTheAxes)
+{
+  const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+  const auto turned = [&](const double x, const double y)
+  { return text(c * x - s * y) + ", " + text(s * x + c * y); };
+  const std::string corners =
+      turned(0, 0) + "; " + turned(2, 0) + "; " + turned(2, 1) + "; " + turned(0, 1);
+  const double tau = 0.2, mu = 0.4;
+  const auto force = [&](const double x, const double y)
+  { return text(c * x - s * y) + "; " + text(s * x + c * y); };
+  const LastStep last = run(sheared_block(tau, {{"Geometry/Shape", "quadrilateral"},
+                                                {"Geometry/Corners", corners},
+                                                {"Boundary left/Traction", force(0, -tau)},
+                                                {"Boundary right/Traction", force(0, tau)},
+                                                {"Boundary top/Traction", force(tau, 0)}}));
+  EXPECT_NEAR(last.largest_u, c * tau / mu, 1e-9);
+  EXPECT_NEAR(std::abs(last.resultant), 2 * tau, 1e-10);
+}
+
+TEST(Semicoercive, MotionsThatNothingResistsAreBadInput)
+{
+  EXPECT_THROW(sheared_block(0.1, {{"Boundary bottom/Friction bound", ""}}), InputError);
+  EXPECT_THROW(sheared_block(0.1, {{"Boundary bottom/Friction bound", ""},
+                                   {"Boundary bottom/Contact", "none"}}),
+               InputError);
+}
+} // namespace

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Each warning where it belongs, and not where it does not.
+#include "discretisation.h"
+
+#include <algorithm>
+
+namespace
+{
+using namespace verification;
+
+std::vector<std::string> warnings_of(const Scene<2> &scene)
+{
+  std::vector<std::string> result;
+  AdaptiveSolver<2>(scene).run([&](const Step<2> &step) { result = step.warnings; });
+  return result;
+}
+
+bool warns(const Scene<2> &scene, const std::string &words)
+{
+  const std::vector<std::string> warnings = warnings_of(scene);
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string &w) { return w.find(words) != std::string::npos; });
+}
+
+Overrides with(Overrides entries, const Overrides &more)
+{
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+TEST(Warnings, BilateralContactThatPulls)
+{
+  // The left edge pushed up tips the block of Example 5.2: half of its contact is pulled. Pressed
+  // down hard enough nothing is.
+  const Overrides steps = {{"Adaptivity/Method", "hup2"}, {"Adaptivity/Maximum steps", "2"}};
+  EXPECT_TRUE(warns(shipped_scene("han-6-12", with(steps, {{"Boundary left/Traction", "0; 10"}})),
+                    "pulls"));
+  EXPECT_FALSE(warns(shipped_scene("han-6-12", with(steps, {{"Boundary top/Traction", "0; -50"}})),
+                     "pulls"));
+}
+
+TEST(Warnings, MultiplierAboveOneBetweenGaussPoints)
+{
+  const auto stick_slip =
+      [](const std::string &method, const std::string &degree, const std::string &steps)
+  {
+    return shipped_scene("stick-slip", {{"Adaptivity/Method", method},
+                                        {"Adaptivity/Start degree", degree},
+                                        {"Adaptivity/Maximum steps", steps},
+                                        {"Exact solution/Transition", "0.1"}});
+  };
+  EXPECT_TRUE(warns(stick_slip("pu", "5", "1"), "between Gauss points"));
+  EXPECT_FALSE(warns(stick_slip("hpa3", "2", "12"), "between Gauss points"));
+}
+
+TEST(Warnings, TransitionOnACoarseEdge)
+{
+  EXPECT_TRUE(warns(shipped_scene("stick-slip", {{"Adaptivity/Maximum steps", "2"}}),
+                    "stick and slip meet"));
+  EXPECT_FALSE(warns(shipped_scene("stick-slip", {{"Adaptivity/Maximum steps", "12"}}),
+                     "stick and slip meet"));
+}
+
+TEST(Warnings, EstimateThatStagnates)
+{
+  // A step of the traction inside an edge is not resolved by raising p alone.
+  EXPECT_TRUE(warns(shipped_scene("han-6-12", {{"Adaptivity/Method", "pu"},
+                                               {"Adaptivity/Maximum degree", "14"},
+                                               {"Adaptivity/Maximum steps", "9"},
+                                               {"Boundary top/Traction", "if(x<1.3, 0, -100); 0"}}),
+                    "stagnates"));
+  EXPECT_FALSE(warns(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "8"}}), "stagnates"));
+}
+
+TEST(Warnings, ElongatedElements)
+{
+  const auto bar = [](const std::string &subdivisions)
+  {
+    return shipped_scene(
+        "han-6-13", {{"Geometry/Subdivisions", subdivisions}, {"Adaptivity/Maximum steps", "1"}});
+  };
+  EXPECT_TRUE(warns(bar("1, 16"), "80 times as long as wide"));
+  EXPECT_FALSE(warns(bar("16, 1"), "as long as wide"));
+}
+
+TEST(Warnings, LowDegreeNearIncompressibility)
+{
+  const auto stick_slip = [](const std::string &poisson, const std::string &degree)
+  {
+    return shipped_scene("stick-slip", {{"Material/Plane", "strain"},
+                                        {"Material/Poisson's ratio", poisson},
+                                        {"Adaptivity/Method", "hup2"},
+                                        {"Adaptivity/Start degree", degree},
+                                        {"Adaptivity/Maximum steps", "1"}});
+  };
+  EXPECT_TRUE(warns(stick_slip("0.4999", "2"), "may lock"));
+  EXPECT_FALSE(warns(stick_slip("0.4999", "4"), "may lock"));
+  EXPECT_FALSE(warns(stick_slip("0.3", "2"), "may lock"));
+}
+} // namespace
