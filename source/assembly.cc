@@ -309,8 +309,9 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
                                  const ContactSpace<dim> &contact_space,
                                  const ShapeTables<dim> &tables)
 {
-  // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3.
-  const unsigned int n_gauss = face.degree + 1;
+  // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2 for
+  // multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
+  const unsigned int n_gauss = std::max(face.degree + 1, face.n_multipliers);
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
   const LocalNumbering &numbering = tables.numbering(face.degree);
   const QGauss<1> &gauss = tables.gauss(n_gauss);

@@ -21,6 +21,8 @@ po::options_description visible_options()
   add("set", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "override one entry of the scene, as in --set \"Material/Poisson's ratio=0.3\"; may be "
       "repeated");
+  add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
+                 "small, and write no file");
   add("validate", "check the scene and write nothing");
   add("print-parameters", "print all entries of the scene with their values; without a scene: the "
                           "defaults, documented");
@@ -78,10 +80,14 @@ CommandLine parse(const int argc, const char *const argv[])
     for (const std::string &text : values["set"].as<std::vector<std::string>>())
       result.overrides.push_back(split_override(text));
   result.validate = values.count("validate");
+  result.inf_sup = values.count("inf-sup");
   result.print_parameters = values.count("print-parameters");
   result.help = values.count("help");
   result.version = values.count("version");
 
+  if (result.inf_sup && !result.output_directory.empty())
+    throw InputError("hpvi: --output " + result.output_directory +
+                     ": --inf-sup writes no file; remove one of the two");
   const bool defaults = result.print_parameters && !result.validate && result.overrides.empty();
   if (result.scene_file.empty() && !result.help && !result.version && !defaults)
     throw InputError("hpvi: no scene; name a parameter file, as in hpvi prm/han-6-12.prm, or see "

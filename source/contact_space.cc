@@ -25,7 +25,7 @@ bool friction_vanishes(const ContactFace<dim> &face, const QGauss<1> &gauss)
 template <int dim>
 ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
                            const unsigned int face_no, const unsigned int degree,
-                           const BoundaryCondition<dim> &condition)
+                           const int multiplier_offset, const BoundaryCondition<dim> &condition)
 {
   static_assert(dim == 2, "a straight contact edge");
   const auto edge = cell->face(face_no);
@@ -34,7 +34,16 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
   Tensor<1, dim> normal = cross_product_2d(along);
   if (normal * (edge->center() - cell->center()) < 0)
     normal = -normal;
-  return {cell, face_no, degree, &condition, normal, -cross_product_2d(normal), 0, 0};
+  const int n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
+  return {cell,
+          face_no,
+          degree,
+          &condition,
+          normal,
+          -cross_product_2d(normal),
+          static_cast<unsigned int>(n_points),
+          0,
+          0};
 }
 } // namespace
 
@@ -70,8 +79,9 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
         {
           const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
           if (condition.bilateral_contact)
-            contact_faces.push_back(make_face(
-                cell, f, displacement_space.degrees()[cell->active_cell_index()], condition));
+            contact_faces.push_back(
+                make_face(cell, f, displacement_space.degrees()[cell->active_cell_index()],
+                          scene.solver.multiplier_offset, condition));
         }
 
   std::stable_sort(contact_faces.begin(), contact_faces.end(),
@@ -93,7 +103,7 @@ void ContactSpace<dim>::number_multipliers()
   {
     const QGauss<1> &rule = gauss.try_emplace(face.degree, face.degree + 1).first->second;
     face.first_multiplier = n_unknowns;
-    face.n_multipliers = friction_vanishes(face, rule) ? 0 : face.degree - 1;
+    face.n_multipliers = friction_vanishes(face, rule) ? 0 : face.n_points;
     n_unknowns += face.n_multipliers;
     if (face.n_multipliers > 0 && elements.count(face.n_multipliers) == 0)
       elements.emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));

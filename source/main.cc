@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptive_solver.h>
 #include <hpvi/command_line.h>
+#include <hpvi/inf_sup.h>
 #include <hpvi/output.h>
 
 #include <deal.II/base/exceptions.h>
@@ -124,6 +125,54 @@ void run(const Scene<dim> &scene, const std::string &directory)
             << "\nresults in " << directory << std::endl;
 }
 
+void print_inf_sup_row(const Step<dim> &step, const InfSup &inf_sup)
+{
+  const DisplacementSpace<dim> &space = step.solution.displacement_space;
+  std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
+            << std::setw(11) << space.n_free_dofs() << std::setw(12) << inf_sup.n_multipliers
+            << std::setw(6) << inf_sup.lowest_degree << std::setw(6) << inf_sup.highest_degree
+            << std::scientific << std::setprecision(6) << std::setw(14) << inf_sup.beta
+            << std::setprecision(3) << std::setw(11) << inf_sup.bound() << std::endl;
+}
+
+/**
+ * The scene whose run refines the mesh while another's multipliers are measured on it: itself, or
+ * where no run could solve it the same scene with the stable multiplier, or the best its start
+ * degree 1 allows.
+ */
+Scene<dim> refining_scene(const Scene<dim> &measured)
+{
+  Scene<dim> scene = measured;
+  if (scene.solver.multiplier_offset >= 0)
+    scene.solver.multiplier_offset = scene.adaptivity.start_degree < 2 ? -1 : -2;
+  return scene;
+}
+
+void print_inf_sup(const Scene<dim> &scene)
+{
+  if (!scene.has_friction())
+    throw InputError(scene.file + ": Boundary left, right, bottom, top/Friction bound: no boundary "
+                                  "names one, so there is no multiplier to measure the inf-sup "
+                                  "constant of; name a contact with a bound or remove --inf-sup");
+  const Scene<dim> refining = refining_scene(scene);
+  const ShapeTables<dim> tables;
+  AdaptiveSolver<dim> solver(refining);
+  std::cout << version_line() << '\n'
+            << scene.title << "\n\n"
+            << "multiplier degree p" << std::showpos << scene.solver.multiplier_offset
+            << std::noshowpos << "; p_min and p_max on the contact boundary; "
+            << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
+            << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
+            << std::endl;
+  solver.run(
+      [&](const Step<dim> &step)
+      {
+        const DisplacementSpace<dim> &space = step.solution.displacement_space;
+        print_inf_sup_row(step,
+                          measure_inf_sup(scene, space.triangulation(), space.degrees(), tables));
+      });
+}
+
 void obey(const CommandLine &command_line)
 {
   if (command_line.help)
@@ -134,11 +183,14 @@ void obey(const CommandLine &command_line)
     std::cout << Scene<dim>::default_parameters();
   else
   {
-    const auto scene = Scene<dim>::read(command_line.scene_file, command_line.overrides);
+    const auto scene = Scene<dim>::read(command_line.scene_file, command_line.overrides,
+                                        command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
     if (command_line.print_parameters)
       std::cout << scene.effective_parameters;
     else if (command_line.validate)
       std::cout << scene.file << ": valid: " << scene.title << std::endl;
+    else if (command_line.inf_sup)
+      print_inf_sup(scene);
     else
       run(scene, command_line.output_directory.empty() ? "output/" + scene.name
                                                        : command_line.output_directory);

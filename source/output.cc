@@ -235,12 +235,12 @@ private:
 /** How near to 1 |lambda| counts as slip: the QP puts what slips on the wall up to round-off. */
 constexpr double slip_tolerance = 1e-8;
 
-/** The rows of one face at its p - 1 Gauss points (one point for p = 1). */
+/** The rows of one face at the Gauss points of its multiplier (one point where that has none). */
 template <int dim>
 void add_face(const ContactFace<dim> &face, const Solution<dim> &solution,
               const ShapeTables<dim> &tables, std::vector<Record> &records)
 {
-  const unsigned int n = std::max(face.degree, 2U) - 1;
+  const unsigned int n = std::max(face.n_points, 1U);
   const QGauss<1> gauss(n);
   const ContactTraces<dim> traces(face, n, solution, tables);
   const bool along_tangent = face.tangent * (face.point(1.) - face.point(0.)) > 0;

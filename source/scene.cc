@@ -267,7 +267,7 @@ Method read_method(const Parameters &parameters)
 }
 
 /** Resolves `Start degree = 0`, also in @p parameters. */
-Adaptivity read_adaptivity(Parameters &parameters, const bool has_contact)
+Adaptivity read_adaptivity(Parameters &parameters)
 {
   const std::string section = "Adaptivity";
   Adaptivity adaptivity;
@@ -292,9 +292,6 @@ Adaptivity read_adaptivity(Parameters &parameters, const bool has_contact)
   adaptivity.maximum_seconds = parameters.number(section, "Maximum seconds");
   adaptivity.tolerance = parameters.number(section, "Tolerance");
 
-  if (has_contact && adaptivity.start_degree < 2)
-    parameters.reject(section, "Start degree",
-                      "is too low for contact: the multiplier has degree p - 2; give at least 2");
   if (adaptivity.start_degree > adaptivity.maximum_degree)
     parameters.reject(section, "Start degree",
                       "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
@@ -313,6 +310,7 @@ SolverSettings read_solver(const Parameters &parameters)
   solver.qp_tolerance = parameters.number("Solver", "QP tolerance");
   solver.qp_maximum_multiplications = parameters.integer("Solver", "QP maximum multiplications");
   solver.diagonal_scaling = parameters.boolean("Solver", "Diagonal scaling");
+  solver.multiplier_offset = parameters.integer("Solver", "Multiplier degree offset");
   solver.condition_number = parameters.boolean("Solver", "Condition number");
   return solver;
 }
@@ -374,7 +372,8 @@ bool Scene<dim>::has_friction() const
 
 template <int dim>
 Scene<dim> Scene<dim>::read(const std::string &file,
-                            const std::vector<std::pair<std::string, std::string>> &overrides)
+                            const std::vector<std::pair<std::string, std::string>> &overrides,
+                            const SceneUse use)
 {
   Parameters parameters(scene_entries(dim), file);
   parameters.read(overrides);
@@ -406,8 +405,9 @@ Scene<dim> Scene<dim>::read(const std::string &file,
                       "cannot be read; make the file by a run with Output/Reference solution = "
                       "true, or leave the entry empty");
 
-  scene.adaptivity = read_adaptivity(parameters, scene.has_contact());
+  scene.adaptivity = read_adaptivity(parameters);
   scene.solver = read_solver(parameters);
+  check_multiplier_degree(parameters, scene, use);
   scene.output = read_output(parameters);
   scene.effective_parameters = parameters.print(false);
   return scene;

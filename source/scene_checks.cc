@@ -327,4 +327,23 @@ void check_exact_solution(const Parameters &parameters, const Scene<2> &scene)
   for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
     ExactSolutionCheck(parameters, scene, b).run();
 }
+
+void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene,
+                             const SceneUse use)
+{
+  if (!scene.has_contact())
+    return;
+  const int offset = scene.solver.multiplier_offset;
+  // p + 1 multipliers on each edge meet p tangential displacements per edge, and one more at most.
+  if (offset >= 0 && use == SceneUse::solve)
+    parameters.reject("Solver", "Multiplier degree offset",
+                      "makes S singular: there are more multipliers than displacements on the "
+                      "contact boundary determine, the discrete inf-sup constant is 0; give -2, or "
+                      "measure the constant by hpvi --inf-sup");
+  if (static_cast<int>(scene.adaptivity.start_degree) + offset < 0)
+    parameters.reject("Adaptivity", "Start degree",
+                      "is too low for contact: the multiplier has degree p - " +
+                          std::to_string(-offset) + "; give at least " + std::to_string(-offset) +
+                          " or raise Solver/Multiplier degree offset = " + std::to_string(offset));
+}
 } // namespace hpvi

@@ -164,6 +164,13 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),
         "a positive integer", "Products with S before the solver gives up (exit status 2)."},
        {"Solver", "Diagonal scaling", "true", boolean, yes_no, "Scale S by its diagonal."},
+       {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
+        "an integer from -20 to -1, best -2",
+        "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "
+        "less: stable, whatever mesh and degrees. -1: a warning: the inf-sup constant falls like "
+        "h, "
+        "and is 0 where displacements are prescribed at both ends of the contact. 0 and more: "
+        "S is singular; refused but by --inf-sup, which measures the constant."},
        {"Solver", "Condition number", "false", boolean, yes_no,
         "Report the condition number of S, raw and scaled; costs an eigenvalue computation."},
        {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},

@@ -158,6 +158,16 @@ std::string locking(const Solution<dim> &solution)
               " may lock; use Adaptivity/Start degree = 4 or more");
 }
 
+/** The least offset at which displacement and multiplier no longer balance: the thesis has -2. */
+template <int dim>
+std::string rich_multiplier(const Solution<dim> &solution)
+{
+  if (solution.scene.solver.multiplier_offset < -1 || solution.lambda.size() == 0)
+    return {};
+  return "multipliers of degree p - 1 are too many: the inf-sup constant falls as the mesh is "
+         "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
+}
+
 template <int dim>
 std::string whole_body_slips(const Solution<dim> &solution)
 {
@@ -179,7 +189,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
         coarse_transition(solution), stagnating_estimate(estimates), elongated_elements(solution),
-        locking(solution), whole_body_slips(solution)})
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

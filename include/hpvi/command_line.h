@@ -16,6 +16,7 @@ struct CommandLine
   /** `--set "Section/Entry=value"` in the order given: path of the entry, value. */
   std::vector<std::pair<std::string, std::string>> overrides;
   bool validate = false;
+  bool inf_sup = false; ///< measure the inf-sup constant, write nothing
   bool print_parameters = false;
   bool help = false;
   bool version = false;

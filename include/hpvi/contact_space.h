@@ -14,8 +14,8 @@
 namespace hpvi
 {
 /**
- * One face of the contact boundary. Its multiplier unknowns are the values of lambda_N at the
- * p - 1 Gauss points, in the order of the face's own reference coordinate.
+ * One face of the contact boundary. Its multiplier unknowns are the values of lambda_N at its
+ * Gauss points, in the order of the face's own reference coordinate.
  */
 template <int dim>
 struct ContactFace
@@ -26,8 +26,9 @@ struct ContactFace
   const BoundaryCondition<dim> *condition;
   dealii::Tensor<1, dim> normal;  ///< outer unit normal n
   dealii::Tensor<1, dim> tangent; ///< t = (-n_y, n_x)
+  unsigned int n_points;          ///< Gauss points: p + offset + 1
   unsigned int first_multiplier;  ///< index of the first unknown
-  unsigned int n_multipliers;     ///< p - 1, or 0 where g vanishes on the whole face
+  unsigned int n_multipliers;     ///< n_points, or 0 where g vanishes on the whole face
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;
@@ -40,8 +41,9 @@ struct ContactFace
 
 /**
  * The multiplier space W_N of (3.58): on each contact face where g does not vanish the polynomials
- * of degree p - 2, discontinuous from face to face, Lagrange basis at the p - 1 Gauss points; with
- * the discrete set (3.68), |z_i| <= 1.
+ * of degree p + offset, discontinuous from face to face, Lagrange basis at the p + offset + 1 Gauss
+ * points; with the discrete set (3.68), |z_i| <= 1. The thesis has offset = -2
+ * (SolverSettings::multiplier_offset).
  */
 template <int dim>
 class ContactSpace
@@ -69,7 +71,7 @@ private:
   void number_multipliers();
 
   std::vector<ContactFace<dim>> contact_faces;
-  std::map<unsigned int, dealii::FE_DGQArbitraryNodes<dim - 1>> elements; ///< by p - 1
+  std::map<unsigned int, dealii::FE_DGQArbitraryNodes<dim - 1>> elements; ///< by n_points
   unsigned int n_unknowns = 0;
 };
 } // namespace hpvi

@@ -62,7 +62,7 @@ struct Adaptivity
 {
   Method method;
   SmoothnessReading reading;
-  unsigned int start_degree;   ///< p >= 2 at the contact boundary
+  unsigned int start_degree;   ///< p >= -offset of the multiplier at the contact boundary
   unsigned int maximum_degree; ///< cells of this degree are bisected where p would rise
   double hap_threshold;        ///< hap: bisect where eta_K > threshold * mean(eta_K)
   double hpa1_bisected;        ///< hpa1: fraction of elements bisected
@@ -83,6 +83,7 @@ struct SolverSettings
   double qp_tolerance;                     ///< |g^P| <= tolerance * max(|d|, |S z_0|)
   unsigned int qp_maximum_multiplications; ///< more products with S than this: exit status 2
   bool diagonal_scaling;
+  int multiplier_offset; ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number; ///< report cond(S), raw and scaled: costs an eigenvalue computation
 };
 
@@ -93,6 +94,13 @@ struct OutputSettings
   bool mesh_picture;
   bool contact;
   bool reference; ///< reference.dat after the last step
+};
+
+/** What a scene is read for. */
+enum class SceneUse
+{
+  solve,  ///< a run: what no run can solve is refused
+  measure ///< the inf-sup constant: multipliers that are too many are what it shall find
 };
 
 /**
@@ -134,7 +142,8 @@ struct Scene
    * Throws InputError with one line (file, entry, value, remedy).
    */
   static Scene read(const std::string &file,
-                    const std::vector<std::pair<std::string, std::string>> &overrides = {});
+                    const std::vector<std::pair<std::string, std::string>> &overrides = {},
+                    SceneUse use = SceneUse::solve);
 
   /** All entries with defaults and documentation, as a parameter file. */
   static std::string default_parameters();

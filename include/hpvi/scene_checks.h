@@ -23,6 +23,12 @@ std::optional<dealii::Tensor<1, 2>> free_translation(const Scene<2> &scene);
  * that an error against that solution is an error of the method.
  */
 void check_exact_solution(const Parameters &parameters, const Scene<2> &scene);
+
+/**
+ * Throws InputError where the multiplier on a contact edge had a negative degree, and, unless the
+ * inf-sup constant is only to be measured, where it had degree p or more.
+ */
+void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene, SceneUse use);
 } // namespace hpvi
 
 #endif
