@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
-#include <hpvi/augmented_lagrangian.h>
+#include <hpvi/multiplier_trace.h>
+#include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
-#include <hpvi/schur_complement.h>
 #include <hpvi/warnings.h>
-
-#include <sstream>
 
 namespace hpvi
 {
@@ -46,15 +44,6 @@ struct Discretisation
   {
   }
 };
-
-/** What the solution of the reduced problem brings besides the multiplier. */
-struct Reduction
-{
-  Vector<double> lambda;
-  double translation = 0; ///< length by which a body moves that friction alone holds
-  QpReport qp;
-  double condition_raw = 0, condition_scaled = 0;
-};
 } // namespace
 
 template <int dim>
@@ -68,7 +57,9 @@ struct AdaptiveSolver<dim>::Stages
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
   std::unique_ptr<Discretisation<dim>> discretisation;
-  StageTimes times; ///< of the current step
+  MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
+  double translation = 0;        ///< likewise
+  StageTimes times;              ///< of the current step
   double seconds = 0;
   unsigned int number = 0;
 
@@ -82,7 +73,6 @@ struct AdaptiveSolver<dim>::Stages
 
   void discretise();
   Solution<dim> solve(Reduction &reduction);
-  void solve_for_multiplier(const SchurComplement &schur_complement, Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
   Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
@@ -109,97 +99,33 @@ template <int dim>
 Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 {
   const ElasticSystem<dim> &system = *discretisation->system;
+  const ContactSpace<dim> &contact_space = discretisation->contact_space;
   std::unique_ptr<const SchurComplement> schur_complement;
   {
     StageTimer timer(times.factor);
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
-  if (discretisation->contact_space.n_multipliers() > 0)
-    solve_for_multiplier(*schur_complement, reduction);
+  if (contact_space.n_multipliers() > 0)
+  {
+    StageTimer timer(times.qp);
+    reduction.lambda = previous.values(contact_space, tables);
+    reduction.translation = translation;
+    reduction = solve_reduced_problem(scene, contact_space, system, *schur_complement,
+                                      std::move(reduction));
+    if (scene.solver.qp_warm_start)
+    {
+      previous = MultiplierTrace<dim>(contact_space, reduction.lambda);
+      translation = reduction.translation;
+    }
+  }
 
   StageTimer timer(times.recover);
   Vector<double> x = schur_complement->displacement(reduction.lambda);
   if (scene.free_translation)
     x.add(reduction.translation, system.translation);
-  return {scene, discretisation->displacement_space, discretisation->contact_space,
-          system.recover(x), reduction.lambda};
-}
-
-namespace
-{
-std::string not_converged(const QpReport &report, const unsigned int size, const double tolerance)
-{
-  std::ostringstream line;
-  line << "the quadratic program for the multiplier (" << size << " unknowns) has not converged "
-       << "after " << report.multiplications << " products with S: relative projected gradient "
-       << report.projected_gradient << ", tolerance " << tolerance
-       << "; raise Solver/QP maximum multiplications or Solver/QP tolerance";
-  return line.str();
-}
-} // namespace
-
-namespace
-{
-/** The balance of forces along the free translation, `R'(f - B' lambda) = 0`. */
-template <int dim>
-EqualityConstraint balance_of_forces(const ElasticSystem<dim> &system)
-{
-  EqualityConstraint result{Vector<double>(system.B.m()), system.translation * system.f};
-  for (unsigned int m = 0; m < system.B.m(); ++m)
-    for (unsigned int k = 0; k < system.B.n(); ++k)
-      result.G[m] += system.B(m, k) * system.translation[system.contact_unknowns[k]];
-  return result;
-}
-
-/** Friction can carry |G|_1 at most: where the loads ask for more there is no equilibrium. */
-template <int dim>
-void check_equilibrium(const Scene<dim> &scene, const EqualityConstraint &balance)
-{
-  const double applied = std::abs(balance.e), available = balance.G.l1_norm();
-  if (applied <= available * (1 + 1e-10))
-    return;
-  std::ostringstream line;
-  line << "no equilibrium: the loads push the body along (" << *scene.free_translation << ") with "
-       << applied << ", friction can resist with " << available
-       << " at most; add a support, raise Friction bound or lower the loads";
-  throw NumericalFailure(line.str());
-}
-} // namespace
-
-template <int dim>
-void AdaptiveSolver<dim>::Stages::solve_for_multiplier(const SchurComplement &schur_complement,
-                                                       Reduction &reduction)
-{
-  StageTimer timer(times.qp);
-  QuadraticProgram qp{schur_complement.S(), schur_complement.d(),
-                      discretisation->contact_space.feasible_set()};
-  qp.d += discretisation->system->B_prescribed;
-
-  Mprgp::Settings settings;
-  settings.tolerance = scene.solver.qp_tolerance;
-  settings.maximum_multiplications = scene.solver.qp_maximum_multiplications;
-  settings.diagonal_scaling = scene.solver.diagonal_scaling;
-  reduction.lambda.reinit(qp.d.size());
-  const Mprgp mprgp(settings);
-  if (scene.free_translation)
-  {
-    const EqualityConstraint balance = balance_of_forces(*discretisation->system);
-    check_equilibrium(scene, balance);
-    // The inner problems leave noise of their own tolerance in the balance.
-    reduction.qp =
-        AugmentedLagrangian(mprgp, 1 / discretisation->system->spring, 100 * settings.tolerance)
-            .solve(qp, balance, reduction.lambda, reduction.translation);
-  }
-  else
-    reduction.qp = mprgp.solve(qp, reduction.lambda);
-  if (!reduction.qp.converged)
-    throw NumericalFailure(not_converged(reduction.qp, qp.d.size(), settings.tolerance));
-  if (scene.solver.condition_number)
-  {
-    reduction.condition_raw = condition_number(qp.S);
-    reduction.condition_scaled = condition_number(scaled_by_diagonal(qp.S));
-  }
+  return {scene, discretisation->displacement_space, contact_space, system.recover(x),
+          reduction.lambda};
 }
 
 template <int dim>

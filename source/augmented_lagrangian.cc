@@ -48,13 +48,14 @@ void add(QpReport &sum, const QpReport &part)
   sum.cg_steps += part.cg_steps;
   sum.expansion_steps += part.expansion_steps;
   sum.proportioning_steps += part.proportioning_steps;
+  sum.dense_solves += part.dense_solves;
+  sum.fell_back = sum.fell_back || part.fell_back;
   sum.projected_gradient = part.projected_gradient;
 }
 } // namespace
 
-AugmentedLagrangian::AugmentedLagrangian(const Mprgp &inner, const double penalty,
-                                         const double tolerance)
-    : inner(inner), penalty(penalty), tolerance(tolerance)
+AugmentedLagrangian::AugmentedLagrangian(Inner inner, const double penalty, const double tolerance)
+    : inner(std::move(inner)), penalty(penalty), tolerance(tolerance)
 {
 }
 
@@ -68,7 +69,7 @@ QpReport AugmentedLagrangian::solve(QuadraticProgram qp, const EqualityConstrain
   {
     qp.d = d;
     qp.d.add(alpha, constraint.G);
-    add(report, inner.solve(qp, z));
+    add(report, inner(qp, z));
     const double gap = constraint.e - constraint.G * z;
     if (!report.converged || std::abs(gap) <= tolerance * constraint.G.l1_norm())
       return report;

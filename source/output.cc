@@ -112,6 +112,8 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
                 {"qp_cg", text(step.qp.cg_steps)},
                 {"qp_expansion", text(step.qp.expansion_steps)},
                 {"qp_proportioning", text(step.qp.proportioning_steps)},
+                {"qp_dense_solves", text(step.qp.dense_solves)},
+                {"qp_fell_back", text(static_cast<unsigned int>(step.qp.fell_back))},
                 {"qp_projected_gradient", text(step.qp.projected_gradient)},
                 {"condition_raw", condition(step.condition_raw)},
                 {"condition_scaled", condition(step.condition_scaled)},

@@ -307,6 +307,9 @@ Adaptivity read_adaptivity(Parameters &parameters)
 SolverSettings read_solver(const Parameters &parameters)
 {
   SolverSettings solver;
+  solver.qp_solver =
+      parameters.text("Solver", "QP solver") == "mprgp" ? QpSolver::mprgp : QpSolver::active_set;
+  solver.qp_warm_start = parameters.boolean("Solver", "QP warm start");
   solver.qp_tolerance = parameters.number("Solver", "QP tolerance");
   solver.qp_maximum_multiplications = parameters.integer("Solver", "QP maximum multiplications");
   solver.diagonal_scaling = parameters.boolean("Solver", "Diagonal scaling");

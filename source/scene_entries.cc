@@ -158,7 +158,13 @@ void add_program_entries(std::vector<Entry> &entries)
   const std::string yes_no = "true or false";
   entries.insert(
       entries.end(),
-      {{"Solver", "QP tolerance", "1e-12",
+      {{"Solver", "QP solver", "active set", matching(Patterns::Selection("mprgp|active set")),
+        "mprgp or active set",
+        "mprgp: conjugate gradients on faces, the thesis's; active set: Newton's method with dense "
+        "Cholesky factorisations, and mprgp where that cycles. Both end at the same tolerance."},
+       {"Solver", "QP warm start", "true", boolean, yes_no,
+        "Start from the multiplier of the previous step; false: from zero, as in the thesis."},
+       {"Solver", "QP tolerance", "1e-12",
         matching(Patterns::Double(std::numeric_limits<double>::min(), 1)), "a number in (0, 1]",
         "Stop where the projected gradient is below this, relative to the right-hand side."},
        {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),
@@ -167,8 +173,7 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
         "an integer from -20 to -1, best -2",
         "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "
-        "less: stable, whatever mesh and degrees. -1: a warning: the inf-sup constant falls like "
-        "h, "
+        "less: stable, whatever mesh and degrees. -1: a warning, the inf-sup constant falls like h "
         "and is 0 where displacements are prescribed at both ends of the contact. 0 and more: "
         "S is singular; refused but by --inf-sup, which measures the constant."},
        {"Solver", "Condition number", "false", boolean, yes_no,

@@ -4,6 +4,8 @@
 
 #include <hpvi/mprgp.h>
 
+#include <functional>
+
 namespace hpvi
 {
 /** `G'z = e`, one equation. */
@@ -25,8 +27,11 @@ struct EqualityConstraint
 class AugmentedLagrangian
 {
 public:
+  /** Solves a problem in the box, from a starting value that receives the minimiser. */
+  using Inner = std::function<QpReport(const QuadraticProgram &, dealii::Vector<double> &)>;
+
   /** @p penalty is c; the equation holds to @p tolerance |G|_1 at the end. */
-  AugmentedLagrangian(const Mprgp &inner, double penalty, double tolerance);
+  AugmentedLagrangian(Inner inner, double penalty, double tolerance);
 
   /**
    * z holds the starting value and receives the minimiser; @p alpha likewise. The report adds up
@@ -36,7 +41,7 @@ public:
                  dealii::Vector<double> &z, double &alpha) const;
 
 private:
-  const Mprgp &inner;
+  Inner inner;
   double penalty, tolerance;
 };
 } // namespace hpvi

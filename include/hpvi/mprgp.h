@@ -14,6 +14,8 @@ struct QpReport
   unsigned int cg_steps = 0;
   unsigned int expansion_steps = 0;
   unsigned int proportioning_steps = 0;
+  unsigned int dense_solves = 0; ///< Cholesky factorisations of a part of S
+  bool fell_back = false;        ///< begun by ActiveSet and ended by Mprgp
   double projected_gradient = 0; ///< |nu| / max(|d|, |S z_0|) at the end, in scaled variables
 };
 

@@ -57,6 +57,13 @@ enum class SmoothnessReading
   joint  ///< one fit of ln(sqrt((2i+1)(2j+1)) |(c^1_ij, c^2_ij)|)
 };
 
+/** What minimises over the multipliers; doc/stability.md compares the two. */
+enum class QpSolver
+{
+  mprgp,     ///< Mprgp, the thesis's
+  active_set ///< ActiveSet
+};
+
 /** The rule of Section 4.3 and Chapter 5 with its numbers. */
 struct Adaptivity
 {
@@ -80,6 +87,8 @@ struct Adaptivity
 /** How the quadratic program is solved. */
 struct SolverSettings
 {
+  QpSolver qp_solver;
+  bool qp_warm_start;                      ///< from the multiplier of the previous step
   double qp_tolerance;                     ///< |g^P| <= tolerance * max(|d|, |S z_0|)
   unsigned int qp_maximum_multiplications; ///< more products with S than this: exit status 2
   bool diagonal_scaling;

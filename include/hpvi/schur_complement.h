@@ -17,8 +17,8 @@ namespace hpvi
  * (5.7). The sparse Cholesky factorisation `A = L L'` takes the contact unknowns c last; then its
  * trailing block L_cc is dense and `S = Y'Y` with `Y = L_cc^-1 B_c'`, so S costs one triangular
  * solve with a small dense matrix and no sparse solve at all. This is the one place that chooses
- * ordering and solver: CHOLMOD (doi:10.1145/1391989.1391995), supernodal, with METIS nested
- * dissection or constrained AMD.
+ * ordering and solver: CHOLMOD (doi:10.1145/1391989.1391995), supernodal, ordered by constrained
+ * AMD; tests/benchmark/solvers.cc measures MUMPS beside it.
  */
 class SchurComplement
 {

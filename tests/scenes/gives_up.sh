@@ -8,7 +8,8 @@ directory=$(mktemp -d)
 trap 'rm -rf "$directory"' EXIT
 fail() { echo "$1"; cat "$directory/errors"; exit 1; }
 
-"$program" --output "$directory/out" --set "Solver/QP maximum multiplications=20" "$scene" \
+"$program" --output "$directory/out" --set "Solver/QP solver=mprgp" \
+  --set "Solver/QP warm start=false" --set "Solver/QP maximum multiplications=20" "$scene" \
   >"$directory/rows" 2>"$directory/errors"
 [ $? -eq 2 ] || fail "exit status is not 2"
 [ "$(wc -l <"$directory/errors")" -eq 1 ] || fail "not exactly one line on stderr"
