@@ -136,7 +136,9 @@ def write_csv(path, head, rows):
 def limits(method):
     """Settings that let each method come to 20000 unknowns or to its end."""
     if method == "hpa2":
-        return ["Adaptivity/Maximum steps=16", "Solver/Condition number=true"]
+        # The thesis starts MPRGP from zero.
+        return ["Adaptivity/Maximum steps=16", "Solver/Condition number=true",
+                "Solver/QP solver=mprgp", "Solver/QP warm start=false"]
     if method == "pu":
         return ["Adaptivity/Maximum steps=11", "Adaptivity/Maximum degree=12"]
     return ["Adaptivity/Maximum steps=60", "Adaptivity/Maximum unknowns=20000"]
