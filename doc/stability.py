@@ -1,0 +1,794 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Where do methods for frictional contact fail, and does this one? Runs a table of failure modes.
+
+Each row_NN drives the program with scenes of prm/ and --set, and writes tables and charts to
+doc/stability/ and into doc/stability.md, between its marker comments. A run that fails is a
+result: its exit status and message go into the table.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parent
+GALLERY = HERE / "stability"
+QUIET = ["Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false"]
+EXAMPLES = {"han-6-12": "Example 5.2", "han-6-13": "Example 5.3"}
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8a5a00"]
+MARKERS = "osD^vPX*"
+N_LABEL = "free displacement unknowns N [-]"
+ERROR_LABEL = "true error $|u-u_N|_a / |u|_a$ [-]"
+LONGEST_RUN = 120  # seconds
+
+
+def progress(text):
+    print(text, flush=True)
+
+
+# ---------------------------------------------------------------- runs
+
+
+class Run:
+    """One run of the program, failed or not: status, message, warnings, rows of its steps."""
+
+    def __init__(self, program, scene, home, settings, environment=None):
+        self.home = home
+        home.mkdir(parents=True, exist_ok=True)
+        for old in home.glob("*.csv"):
+            old.unlink()
+        (home / "summary.json").unlink(missing_ok=True)
+        command = [program, "--output", str(home), str(TOP / "prm" / f"{scene}.prm")]
+        for setting in QUIET + settings:  # a later setting replaces an earlier one
+            command += ["--set", setting]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST_RUN,
+                                  env={**os.environ, **(environment or {})}, check=False)
+            self.status, output, errors = str(done.returncode), done.stdout, done.stderr
+        except subprocess.TimeoutExpired:
+            self.status, output, errors = f"none in {LONGEST_RUN} s", "", ""
+        lines = errors.strip().splitlines()
+        self.message = lines[-1].replace(str(TOP) + "/", "") if lines else ""
+        self.summary = {}
+        if (home / "summary.json").exists():
+            self.summary = json.loads((home / "summary.json").read_text())
+        # Step by step the same warning may come again with other numbers: the last one counts.
+        self.warnings = [str(w) for w in self.summary.get("warnings", [])] or \
+            [line.split(":", 1)[1].strip() for line in (output + errors).splitlines()
+             if line.startswith("warning:")]
+        table = home / "convergence.csv"
+        self.rows = list(csv.DictReader(open(table))) if table.exists() else []
+
+    @property
+    def last(self):
+        return self.rows[-1] if self.rows else {}
+
+    def column(self, name):
+        return np.array([float(row.get(name) or "nan") for row in self.rows])
+
+    def value(self, name, k=-1):
+        return float(self.rows[k].get(name) or "nan") if self.rows else math.nan
+
+    def contact(self):
+        """Columns of the last step's contact table."""
+        tables = sorted(self.home.glob("contact-*.csv"))
+        rows = list(csv.DictReader(open(tables[-1]))) if tables else []
+        return {name: np.array([float(row[name]) for row in rows])
+                for name in (rows[0] if rows else []) if name != "state"}
+
+
+class Laboratory:
+    def __init__(self, program, home):
+        self.program, self.home = program, home
+        self.files = {}  # reference solutions by name
+
+    def run(self, scene, name, *settings, environment=None):
+        return Run(self.program, scene, self.home / name, list(settings), environment)
+
+    def reference(self, scene, name, *settings):
+        """The setting that measures errors against an overkill run, and that run."""
+        if name not in self.files:
+            progress(f"  reference solution of {name}")
+            run = self.run(scene, f"reference-{name}", "Adaptivity/Method=hpa2",
+                           "Adaptivity/Smoothness reading=plain", "Adaptivity/Start degree=0",
+                           "Adaptivity/Maximum degree=14", "Adaptivity/Maximum steps=60",
+                           "Adaptivity/Maximum unknowns=60000", "Output/Reference solution=true",
+                           *settings)
+            self.files[name] = run
+        run = self.files[name]
+        return f"Error/Reference solution={run.home / 'reference.dat'}", run
+
+
+# ---------------------------------------------------------------- tables and charts
+
+
+def number(value, digits=3):
+    if isinstance(value, str):
+        return value
+    return "-" if math.isnan(value) else f"{value:.{digits - 1}e}"
+
+
+def plain(value, digits=2):
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def said(run):
+    """Exit status, message and warnings in columns."""
+    return {"exit status": run.status, "message": run.message.replace("|", "\\|") or "-",
+            "warnings": "; ".join(run.warnings).replace("|", "\\|") or "-"}
+
+
+def put_table(name, rows):
+    """Replace the table between the marker comments of doc/stability.md, and write its CSV."""
+    with open(GALLERY / f"{name}.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    head = list(rows[0])
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(str(r[c]) for c in head) + " |" for r in rows]
+    page = HERE / "stability.md"
+    text, count = re.subn(rf"(<!-- {name}: begin[^\n]*\n).*?(<!-- {name}: end)",
+                          lambda m: m[1] + "\n".join(lines) + "\n" + m[2], page.read_text(),
+                          flags=re.S)
+    if count != 1:
+        sys.exit(f"{page} has no place for the table {name}")
+    page.write_text(text)
+
+
+def chart(columns, title, width=None, height=4.2, sharey=False):
+    figure, panels = plt.subplots(1, columns, figsize=(width or 1.5 + 4 * columns, height),
+                                  sharey=sharey, layout="constrained", squeeze=False)
+    figure.suptitle(title)
+    for axes in panels[0]:
+        axes.grid(alpha=0.3)
+    return figure, panels[0]
+
+
+def style(k):
+    return {"color": COLOURS[k % len(COLOURS)], "marker": MARKERS[k % len(MARKERS)],
+            "markersize": 5, "linewidth": 1.3}
+
+
+def legend(axes, **options):
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), **options)
+
+
+def save(figure, name):
+    figure.savefig(GALLERY / name, dpi=100)
+    plt.close(figure)
+
+
+def slope(x, y):
+    return np.polyfit(np.log(x), np.log(y), 1)[0]
+
+
+def nearest(run, unknowns):
+    """The step whose number of unknowns is nearest to the given one."""
+    return int(np.argmin(np.abs(np.log(run.column("dofs_free") / unknowns))))
+
+
+# ---------------------------------------------------------------- 1 locking
+
+
+def row_01(lab):
+    ratios = ["0.3", "0.49", "0.4999", "0.499999"]
+    distance = [0.5 - float(nu) for nu in ratios]
+    methods = {f"uniform h, p = {p}": ["Adaptivity/Method=hup2", f"Adaptivity/Start degree={p}",
+                                       "Adaptivity/Maximum unknowns=3000"] for p in (2, 3, 4, 8)}
+    methods["hpa3"] = ["Adaptivity/Method=hpa3", "Adaptivity/Maximum unknowns=4000"]
+    methods["12 levels, p = 10"] = [
+        "Adaptivity/Method=pu", "Geometry/Graded towards=0, 0", "Geometry/Grading levels=12",
+        "Adaptivity/Maximum steps=9"]
+    figure, panels = chart(3, "Stick-slip in plane strain, nu towards 1/2", 14)
+    table, by_degree = [], {}
+    for k, (method, settings) in enumerate(methods.items()):
+        runs = [lab.run("stick-slip", "locking", "Material/Plane=strain",
+                        f"Material/Poisson's ratio={nu}", "Adaptivity/Maximum steps=40", *settings)
+                for nu in ratios]
+        steps = [nearest(r, 4000) if k < 5 else len(r.rows) - 1 for r in runs]
+        for axes, name in zip(panels, ("error_relative", "error_multiplier")):
+            values = [r.value(name, s) for r, s in zip(runs, steps)]
+            axes.loglog(distance, values, **style(k), label=method)
+        for nu, r, s in zip(ratios, runs, steps):
+            table.append({"method": method, "nu": nu, "N": r.rows[s]["dofs_free"],
+                          "error_relative": number(r.value("error_relative", s)),
+                          "beside nu = 0.3": plain(r.value("error_relative", s)
+                                                   / runs[0].value("error_relative", steps[0])),
+                          "error_multiplier": number(r.value("error_multiplier", s)),
+                          "effectivity": plain(r.value("effectivity", s), 1),
+                          **{c: v for c, v in said(r).items() if c != "message"}})
+        by_degree = dict(zip(ratios, runs))
+    for axes in panels[:2]:
+        axes.invert_xaxis()
+        axes.set_xlabel("1/2 - nu [-]")
+    panels[0].set_ylabel(ERROR_LABEL)
+    panels[1].set_ylabel(r"multiplier error $\|\lambda-\lambda_N\|_{L_2}$ [length$^{1/2}$]")
+    legend(panels[1], fontsize=8)
+    rows = []
+    for k, (nu, r) in enumerate(by_degree.items()):
+        panels[2].semilogy(r.column("p_max"), r.column("error_relative"), **style(k),
+                           label=f"nu = {nu}")
+    for k, row in enumerate(by_degree["0.3"].rows):
+        rows.append({"p": row["p_max"], "N": row["dofs_free"],
+                     **{f"nu = {nu}": number(r.value("error_relative", k))
+                        for nu, r in by_degree.items()}})
+    panels[2].set_xlabel("degree p on 12 levels towards the transition [-]")
+    panels[2].set_ylabel(ERROR_LABEL)
+    panels[2].legend(fontsize=8)
+    save(figure, "locking.png")
+    put_table("locking", table)
+    put_table("locking-by-degree", rows)
+
+
+# ---------------------------------------------------------------- 2 inf-sup constant
+
+
+def inf_sup(lab, scene, *settings):
+    """Rows of `hpvi --inf-sup SCENE.prm`: a head line that names the columns, then a line each."""
+    command = [lab.program, "--inf-sup", "--output", str(lab.home / "inf-sup"),
+               str(TOP / "prm" / f"{scene}.prm")]
+    for setting in settings:
+        command += ["--set", setting]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST_RUN,
+                              check=False)
+    except subprocess.TimeoutExpired:
+        return [], f"no answer in {LONGEST_RUN} s"
+    head, rows = None, []
+    for line in done.stdout.splitlines():
+        words = re.split(r"[,\s]+", line.strip())
+        if "beta" in words:
+            head = words
+        elif head and len(words) == len(head):
+            rows.append(dict(zip(head, words)))
+    return rows, done.stderr.strip().splitlines()[-1] if done.stderr.strip() else ""
+
+
+def row_02(lab):
+    if "--inf-sup" not in subprocess.run([lab.program, "--help"], capture_output=True, text=True,
+                                         check=False).stdout:
+        progress("  skipped: this program has no --inf-sup")
+        put_table("inf-sup", [{"inf-sup constant": "this program does not compute it"}])
+        return
+    paths = {"uniform p": ["Adaptivity/Method=pu", "Adaptivity/Maximum steps=11",
+                           "Adaptivity/Maximum degree=12"],
+             "uniform h, p = 2": ["Adaptivity/Method=hup2", "Adaptivity/Maximum steps=5"]}
+    figure, panels = chart(2, "Example 5.2: computed inf-sup constant", 11, sharey=True)
+    table = []
+    for axes, (path, settings) in zip(panels, paths.items()):
+        column = "p_max" if path == "uniform p" else "multipliers"
+        for k, offset in enumerate((-2, -1, 0)):
+            rows, message = inf_sup(lab, "han-6-12", f"Solver/Multiplier degree offset={offset}",
+                                    *settings)
+            for row in rows:
+                table.append({"path": path, "degree of the multiplier": f"p{offset:+d}"[:3],
+                              **{c: row.get(c, "-") for c in ("elements", "dofs_free",
+                                                              "multipliers", "p_max", "beta",
+                                                              "bound")}, "message": "-"})
+            if message:
+                table.append({"path": path, "degree of the multiplier": f"p{offset:+d}",
+                              **dict.fromkeys(("elements", "dofs_free", "multipliers", "p_max",
+                                               "beta", "bound"), "-"), "message": message})
+            usable = [r for r in rows if re.match(r"[0-9.]", r["beta"])]
+            if usable:
+                axes.loglog([float(r[column]) for r in usable],
+                            [max(float(r["beta"]), 1e-16) for r in usable], **style(k),
+                            label=f"multipliers of degree p{offset:+d}" if offset else
+                            "multipliers of degree p")
+            bounded = [r for r in usable if re.match(r"[0-9.]", r.get("bound", ""))]
+            if offset == -2 and bounded:
+                axes.loglog([float(r[column]) for r in bounded],
+                            [float(r["bound"]) for r in bounded], "k--", linewidth=1,
+                            label=r"$c / (p^{1/2} \log^{3/2} p)$")
+        axes.set_xlabel("degree p [-]" if column == "p_max" else "multipliers [-]")
+        axes.set_title(path)
+    panels[0].set_ylabel("inf-sup constant beta [-]")
+    legend(panels[1], fontsize=8)
+    save(figure, "inf-sup.png")
+    put_table("inf-sup", table or [{"inf-sup constant": "no row came back"}])
+
+
+# ---------------------------------------------------------------- 3, 12 high degrees
+
+
+def rows_03_and_12(lab):
+    """Uniform p from 2 to 14; the first rows are those of contact that meets a clamp."""
+    figure, panels = chart(2, "Uniform p up to 14", 10, sharey=True)
+    table = []
+    for axes, (scene, title) in zip(panels, EXAMPLES.items()):
+        against, overkill = lab.reference(scene, scene)
+        run = lab.run(scene, "degrees", "Adaptivity/Method=pu", "Adaptivity/Maximum degree=14",
+                      "Adaptivity/Maximum steps=13", "Solver/Condition number=true", against)
+        for row in run.rows:
+            value = {c: float(row[c] or "nan") for c in row if c != "transitions"}
+            table.append({"example": title[8:], "p": row["p_max"], "N": row["dofs_free"],
+                          "lagrangian": f"{value['lagrangian']:.9f}",
+                          "energy J": f"{value['energy']:.9f}",
+                          "slack": number(value["slack"], 2),
+                          "error_relative": number(value["error_relative"]),
+                          "effectivity": plain(value["effectivity"]),
+                          "cond S": number(value["condition_raw"], 2),
+                          "scaled": number(value["condition_scaled"], 2),
+                          "QP products": row["qp_multiplications"]})
+        table.append({"example": title[8:], "p": "overkill", "N": overkill.last["dofs_free"],
+                      "lagrangian": f"{overkill.value('lagrangian'):.9f}",
+                      "energy J": f"{overkill.value('energy'):.9f}",
+                      "slack": number(overkill.value("slack"), 2), "error_relative": "-",
+                      "effectivity": "-", "cond S": "-", "scaled": "-",
+                      "QP products": overkill.last["qp_multiplications"]})
+        p = run.column("p_max")
+        final = overkill.value("lagrangian")
+        axes.loglog(p, run.column("error_relative"), **style(0), label=ERROR_LABEL)
+        axes.loglog(p, np.abs(run.column("lagrangian") / final - 1), **style(1),
+                    label="Lagrangian: distance from overkill [-]")
+        axes.loglog(p, np.abs(run.column("energy") / final - 1), **style(2),
+                    label="J: distance from overkill [-]")
+        axes.set_xticks([2, 3, 4, 6, 8, 10, 12, 14], "2 3 4 6 8 10 12 14".split())
+        axes.set_xticks([], minor=True)
+        axes.set_xlabel("degree p [-]")
+        axes.set_title(title)
+    panels[0].set_ylabel("relative error or distance [-]")
+    legend(panels[1], fontsize=8)
+    save(figure, "degrees.png")
+    put_table("degrees", table)
+
+
+# ---------------------------------------------------------------- 4 semicoercive
+
+
+def row_04(lab):
+    table = []
+    for factor in (0, 0.5, 0.9, 0.99, 0.999999, 1.0, 1.000001, 1.1):
+        run = lab.run("semicoercive", "semicoercive",
+                      f"Boundary top/Traction={factor!r}*1.75; 0", "Output/Contact tables=true")
+        slide = run.contact().get("tangential_displacement", np.array([math.nan]))
+        table.append({"top traction / g": factor, **said(run),
+                      "steps": len(run.rows), "J": number(run.value("energy"), 6),
+                      "friction resultant": number(run.value("friction_resultant"), 6),
+                      "largest slip [mm]": number(float(np.max(np.abs(slide)))),
+                      "relative indicator": number(run.value("estimate_relative"), 2)})
+    put_table("semicoercive", table)
+
+
+# ---------------------------------------------------------------- 5 limits of the friction bound
+
+
+def row_05(lab):
+    base = ["Adaptivity/Method=hpa2", "Adaptivity/Smoothness reading=plain"]
+    stick = ["Boundary bottom/Contact=none", "Boundary bottom/Friction bound=",
+             "Boundary bottom/Displacement=0; 0"]
+    roller = ["Boundary bottom/Friction bound=0"]
+    against_stick, _ = lab.reference("han-6-12", "full-stick", *stick)
+    against_roller, _ = lab.reference("han-6-12", "roller", *roller)
+    cases = {"roller: g = 0": roller,
+             "full stick: u = 0 below": stick}
+    for factor in ("1e-300", "1e-160", "1e-12", "1e-6", "1e-3", "1", "1e3", "1e6", "1e12", "1e100",
+                   "1e160"):
+        cases[f"g x {factor}"] = [f"Boundary bottom/Friction bound=4.5*{factor}"]
+    cases["g falls by exp(-40 x)"] = ["Boundary bottom/Friction bound=4.5*exp(-40*x)"]
+    cases["g x 1e12 where x > 2"] = ["Boundary bottom/Friction bound=if(x<2, 4.5, 4.5e12)"]
+    table = []
+    for case, settings in cases.items():
+        runs = [lab.run("han-6-12", "bounds", *base, *settings, against)
+                for against in (against_roller, against_stick)]
+        run = runs[0]
+        counts = run.column("qp_multiplications")
+        table.append({"case": case, "exit status": run.status, "N": run.last.get("dofs_free", "-"),
+                      "multipliers": run.last.get("multipliers", "-"),
+                      "QP products, last step": run.last.get("qp_multiplications", "-"),
+                      "lagrangian": number(run.value("lagrangian"), 10),
+                      "J": number(run.value("energy"), 7),
+                      "friction resultant": number(run.value("friction_resultant"), 7),
+                      "distance from roller": number(runs[0].value("error_relative"), 2),
+                      "distance from full stick": number(runs[1].value("error_relative"), 2),
+                      "message": run.message or "-"})
+        del counts
+    put_table("bounds", table)
+
+
+# ---------------------------------------------------------------- 6 exact threshold
+
+
+def row_06(lab):
+    table = []
+    paths = {"uniform h, p = 4": ["Adaptivity/Method=hup4", "Adaptivity/Maximum steps=5"],
+             "uniform p = 2..12": ["Adaptivity/Method=pu", "Adaptivity/Start degree=2",
+                                   "Adaptivity/Maximum steps=11"],
+             "p = 4, unscaled S": ["Adaptivity/Method=hup4", "Adaptivity/Maximum steps=5",
+                                   "Solver/Diagonal scaling=false"]}
+    for path, settings in paths.items():
+        for text, factor in (("1 - 1e-6", 1 - 1e-6), ("1 - 1e-12", 1 - 1e-12), ("1", 1.),
+                             ("1 + 1e-12", 1 + 1e-12), ("1 + 1e-6", 1 + 1e-6)):
+            side = f"mu*0.1*{min(factor, 1.)!r}/2"
+            run = lab.run("threshold", "threshold", f"Boundary top/Displacement=0.1*{factor!r}; 0",
+                          f"Boundary left/Traction=0; -{side}",
+                          f"Boundary right/Traction=0; {side}",
+                          "Output/Contact tables=true", *settings)
+            contact = run.contact()
+            slip = 0.1 * max(factor - 1, 0.)
+            error = np.max(np.abs(contact["tangential_displacement"] - slip)) if contact else \
+                math.nan
+            bound = np.max(np.abs(contact["multiplier"] - min(factor, 1.))) if contact else math.nan
+            table.append({"path": path, "shear / g": text, "exit status": run.status,
+                          "N": run.last.get("dofs_free", "-"),
+                          "relative indicator": number(run.value("estimate_relative"), 2),
+                          "error of u_t / U": number(error / 0.1, 2),
+                          "error of lambda": number(bound, 2),
+                          "QP products, most": plain(np.max(run.column("qp_multiplications")), 0)
+                          if run.rows else "-"})
+    put_table("threshold", table)
+
+
+# ---------------------------------------------------------------- 7 transition inside an edge
+
+
+def edges_of_points(x, start):
+    """Groups of Gauss points that share an edge, and the edge: p-1 points each, p is not told."""
+    groups, k = [], 0
+    while k < len(x):
+        for n in range(min(20, len(x) - k), 0, -1):
+            g = (np.polynomial.legendre.leggauss(n)[0] + 1) / 2
+            h = (x[k] - start) / g[0]
+            if np.allclose(start + h * g, x[k:k + n], rtol=0, atol=1e-9 * h):
+                break
+        groups.append((slice(k, k + n), start, h))
+        k, start = k + n, start + h
+    return groups
+
+
+def overshoot(contact, start):
+    """How far |lambda_N| passes 1 between the Gauss points, and the length where it does."""
+    most, length = 0., 0.
+    fine = np.linspace(0, 1, 401)
+    for points, left, h in edges_of_points(contact["x"], start):
+        s = (contact["x"][points] - left) / h
+        values = contact["multiplier"][points]
+        curve = np.zeros_like(fine)
+        for i, node in enumerate(s):  # Lagrange polynomials of the Gauss points
+            others = np.delete(s, i)
+            curve += values[i] * np.prod([(fine - o) / (node - o) for o in others], axis=0)
+        beyond = np.abs(curve) - 1
+        most = max(most, beyond.max())
+        length += h * np.mean(beyond > 1e-9)
+    return max(most, 0.), length
+
+
+def row_07(lab):
+    transitions = ("0", "0.1", "0.314159265")
+    methods = {"hup2": 4, "pu": 5, "hpa2": 1, "hpa3": 0}
+    figure, panels = chart(3, "Stick-slip: the transition at a node, and inside edges", 13,
+                           sharey=True)
+    table = []
+    for axes, c in zip(panels, transitions):
+        for k, method in enumerate(methods):
+            run = lab.run("stick-slip", "transition", f"Adaptivity/Method={method}",
+                          f"Exact solution/Transition={c}", "Output/Contact tables=true",
+                          "Adaptivity/Maximum steps=" + {"pu": "13", "hup2": "6"}.get(method, "26"),
+                          "Adaptivity/Maximum degree=14", "Adaptivity/Maximum unknowns=12000")
+            error, n = run.column("error_relative"), run.column("dofs_free")
+            axes.loglog(n, error, **style(k), label=method)
+            most, length = overshoot(run.contact(), -1.) if run.rows else (math.nan, math.nan)
+            rises = int(np.sum(error[1:] > error[:-1]))
+            table.append({"transition": c, "method": method, "exit status": run.status,
+                          "steps": len(run.rows), "N": run.last.get("dofs_free", "-"),
+                          "error_relative": number(run.value("error_relative")),
+                          "rate in N": plain(-slope(n[len(n) // 2:], error[len(n) // 2:])),
+                          "steps where it rises": rises,
+                          "largest rise": plain(np.max(error[1:] / error[:-1]))
+                          if rises else "-",
+                          "error_transition": number(run.value("error_transition"), 2),
+                          "overshoot of \\|lambda\\|": number(most, 2),
+                          "on a length": number(length, 2)})
+        axes.set_title(f"transition at x = {c}")
+        axes.set_xlabel(N_LABEL)
+    panels[0].set_ylabel(ERROR_LABEL)
+    legend(panels[2])
+    save(figure, "transition.png")
+    put_table("transition", table)
+
+
+# ---------------------------------------------------------------- 8 deep meshes
+
+
+def row_08(lab):
+    figure, panels = chart(2, "Deep meshes: stick-slip", 11)
+    table = []
+    runs = {}
+    for levels in (10, 20, 30, 40):
+        runs[f"p = 2..10, {levels} levels"] = lab.run(
+            "stick-slip", "deep", "Adaptivity/Method=pu", "Adaptivity/Maximum steps=9",
+            "Geometry/Graded towards=0, 0", f"Geometry/Grading levels={levels}")
+    runs["p = 2..10, 40 levels, uneven"] = lab.run(
+        "stick-slip", "deep", "Adaptivity/Method=pu", "Adaptivity/Maximum steps=9",
+        "Geometry/Graded towards=0.1, 0", "Geometry/Grading levels=40",
+        "Exact solution/Transition=0.1")
+    runs["hpa3"] = lab.run("stick-slip", "deep", "Adaptivity/Method=hpa3",
+                           "Adaptivity/Maximum steps=30")
+    runs["hpa3 from 22 levels"] = lab.run(
+        "stick-slip", "deep", "Adaptivity/Method=hpa3", "Adaptivity/Maximum steps=16",
+        "Geometry/Graded towards=0, 0", "Geometry/Grading levels=22")
+    for k, (name, run) in enumerate(runs.items()):
+        n = run.column("multipliers")
+        panels[0].plot(n, run.column("qp_multiplications"), **style(k), label=name)
+        panels[1].loglog(run.column("dofs_free"), run.column("error_relative"), **style(k),
+                         label=name)
+        table.append({"run": name, "exit status": run.status, "steps": len(run.rows),
+                      "N": run.last.get("dofs_free", "-"),
+                      "multipliers": run.last.get("multipliers", "-"),
+                      "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
+                      "expansions": plain(run.column("qp_expansion")[-1], 0),
+                      "proportionings": plain(run.column("qp_proportioning")[-1], 0),
+                      "projected gradient, most":
+                          number(np.max(run.column("qp_projected_gradient")), 2),
+                      "least error_relative": number(np.min(run.column("error_relative")), 2),
+                      "last error_relative": number(run.value("error_relative"), 2),
+                      "last J": f"{run.value('energy'):.13f}",
+                      "message": run.message or "-"})
+    panels[0].set_xlabel("multipliers n [-]")
+    panels[0].set_ylabel("products with S in one step [-]")
+    panels[1].set_xlabel(N_LABEL)
+    panels[1].set_ylabel(ERROR_LABEL)
+    legend(panels[1], fontsize=8)
+    save(figure, "deep.png")
+    for scene, point in (("han-6-12", "0.99022, 0"), ("han-6-13", "1.8527, 0; 7.7536, 0")):
+        for levels in (10, 40):
+            run = lab.run(scene, "deep", "Adaptivity/Method=pu", "Adaptivity/Start degree=2",
+                          "Adaptivity/Maximum steps=7", f"Geometry/Graded towards={point}",
+                          f"Geometry/Grading levels={levels}")
+            table.append({"run": f"{EXAMPLES[scene]}, p = 2..8, {levels} levels",
+                          "exit status": run.status, "steps": len(run.rows),
+                          "N": run.last.get("dofs_free", "-"),
+                          "multipliers": run.last.get("multipliers", "-"),
+                          "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
+                          "expansions": plain(run.value("qp_expansion"), 0),
+                          "proportionings": plain(run.value("qp_proportioning"), 0),
+                          "projected gradient, most":
+                              number(np.max(run.column("qp_projected_gradient")), 2),
+                          "least error_relative": "-", "last error_relative": "-",
+                          "last J": f"{run.value('energy'):.13f}",
+                          "message": run.message or "-"})
+    put_table("deep", table)
+
+
+# ---------------------------------------------------------------- 9 conditioning
+
+
+def row_09(lab):
+    table = []
+    for scene, title in EXAMPLES.items():
+        figure, panels = chart(2, f"{title}, hpa2: conditioning of S", 11)
+        hpa2 = ["Adaptivity/Method=hpa2", "Adaptivity/Smoothness reading=plain",
+                "Adaptivity/Maximum steps=32", "Adaptivity/Maximum unknowns=190000"]
+        variants = {
+            "scaled, tolerance 1e-12": ["Solver/Condition number=true"],
+            "scaled, tolerance 1e-9": ["Solver/QP tolerance=1e-9"],
+            "raw, tolerance 1e-9": ["Solver/QP tolerance=1e-9", "Solver/Diagonal scaling=false",
+                                    "Solver/QP maximum multiplications=20000"]}
+        runs = {}
+        for k, (name, settings) in enumerate(variants.items()):
+            progress(f"  {title}: {name}")
+            run = runs[name] = lab.run(scene, "conditioning", *hpa2, *settings)
+            n = run.column("multipliers")
+            if k == 0:
+                raw = run.column("condition_raw")
+                raw[~np.isfinite(raw)] = np.nan
+                panels[0].loglog(n, raw, **style(1), label="cond S, raw")
+                panels[0].loglog(n, run.column("condition_scaled"), **style(0),
+                                 label="cond S, scaled")
+                panels[0].axhline(2 ** 52, color="grey", linestyle=":", label="1/eps")
+            panels[1].loglog(n, run.column("qp_multiplications"), **style(2 * k), label=name)
+            conditions = runs["scaled, tolerance 1e-12"]
+            at = nearest_column(conditions, "multipliers", n[-1]) if len(n) else 0
+            table.append({"example": title[8:], "variant": name, "exit status": run.status,
+                          "steps": len(run.rows), "N": run.last.get("dofs_free", "-"),
+                          "multipliers": run.last.get("multipliers", "-"),
+                          "cond S": number(conditions.value("condition_raw", at), 2),
+                          "cond S scaled": number(conditions.value("condition_scaled", at), 2),
+                          "QP products, last step": run.last.get("qp_multiplications", "-"),
+                          "growth: products ~ n^": plain(slope(n, run.column(
+                              "qp_multiplications"))),
+                          "message": run.message or "-"})
+        panels[0].set_ylabel("condition number [-]")
+        panels[1].set_ylabel("products with S in one step [-]")
+        for axes in panels:
+            axes.set_xlabel("multipliers n [-]")
+            axes.legend(fontsize=8)
+        save(figure, f"conditioning-{scene}.png")
+    put_table("conditioning", table)
+
+
+def nearest_column(run, column, value):
+    return int(np.argmin(np.abs(run.column(column) - value)))
+
+
+# ---------------------------------------------------------------- 11 aspect ratio and distortion
+
+
+def row_11(lab):
+    bodies = {
+        "10 x 2 bar": ([], ["4, 1", "16, 1", "1, 16", "1, 1"]),
+        "200 x 2 bar": (["Geometry/Upper corner=200, 2"], ["100, 1", "4, 1", "1, 1"]),
+        "parallelogram": (["Geometry/Shape=quadrilateral",
+                           "Geometry/Corners=0, 0; 10, 0; 13, 2; 3, 2"], ["4, 1", "16, 1", "1, 16"]),
+        "trapezoid": (["Geometry/Shape=quadrilateral",
+                       "Geometry/Corners=0, 0; 10, 0; 6, 2; 4, 2"], ["4, 1", "16, 1", "1, 16"])}
+    figure, panels = chart(4, "Example 5.3 on other bodies and meshes: effectivity of hpa3", 15,
+                           sharey=True)
+    table = []
+    for axes, (body, (shape, meshes)) in zip(panels, bodies.items()):
+        for k, mesh in enumerate(meshes):
+            settings = [*shape, f"Geometry/Subdivisions={mesh}"]
+            label = mesh.replace(", ", " x ")
+            against, overkill = lab.reference("han-6-13", f"{body}-{label}".replace(" ", ""),
+                                              *settings)
+            run = lab.run("han-6-13", "aspect", "Adaptivity/Method=hpa3",
+                          "Adaptivity/Smoothness reading=plain", "Adaptivity/Maximum steps=60",
+                          "Adaptivity/Maximum unknowns=10000", *settings, against)
+            good = run.column("error_relative") > 1e-6  # the reference ends near 1e-8
+            effectivity = run.column("effectivity")[good]
+            axes.loglog(run.column("dofs_free")[good], effectivity, **style(k), label=label)
+            table.append({"body": body, "coarse mesh": label,
+                          "exit status": run.status + " " + overkill.status,
+                          "limit: N": overkill.last.get("dofs_free", "-"),
+                          "limit: lagrangian": f"{overkill.value('lagrangian'):.10f}",
+                          "limit: friction resultant":
+                              f"{overkill.value('friction_resultant'):.8f}",
+                          "hpa3: N": run.last.get("dofs_free", "-"),
+                          "error_relative": number(run.value("error_relative"), 2),
+                          "effectivity": f"{np.min(effectivity):.1f} - {np.max(effectivity):.1f}"
+                          if len(effectivity) else "-",
+                          "message": run.message or overkill.message or "-"})
+        axes.set_title(body)
+        axes.set_xlabel(N_LABEL, fontsize=8)
+        axes.legend(title="coarse mesh", fontsize=8, title_fontsize=8)
+    panels[0].set_ylabel("effectivity: scaled indicator / true error [-]")
+    save(figure, "aspect.png")
+    put_table("aspect", table)
+
+
+# ---------------------------------------------------------------- 14 tension on the contact
+
+
+def row_14(lab):
+    cases = {"as it stands": [], "left edge pushed up": ["Boundary left/Traction=1.5*(5 - y); 0.75"],
+             "top pulled up by 1": ["Boundary top/Traction=0; 1"],
+             "top pressed down by 5": ["Boundary top/Traction=0; -5"],
+             "normal traction -5 on the contact": ["Boundary bottom/Traction=0; -5"],
+             "normal traction 5 on the contact": ["Boundary bottom/Traction=0; 5"]}
+    table = []
+    for case, settings in cases.items():
+        run = lab.run("han-6-12", "tension", "Output/Contact tables=true",
+                      "Adaptivity/Method=hpa3", "Adaptivity/Smoothness reading=plain", *settings)
+        contact = run.contact()
+        row = {"case": case, **said(run)}
+        if contact:
+            x, pull = contact["x"], contact["normal_traction"]
+            middle = np.concatenate(([0], (x[1:] + x[:-1]) / 2, [4]))
+            length = np.diff(middle)
+            away = (x > 0.1) & (x < 3.9)
+            row.update({"normal force [kN/mm]": number(float(np.sum(pull * length)), 4),
+                        "length in tension [mm]": plain(float(np.sum(length[pull > 0])), 3),
+                        "largest tension, 0.1 mm off the corners":
+                            number(float(np.max(pull[away])), 3)})
+        else:
+            row.update({"normal force [kN/mm]": "-", "length in tension [mm]": "-",
+                        "largest tension, 0.1 mm off the corners": "-"})
+        table.append(row)
+    put_table("tension", table)
+
+
+# ---------------------------------------------------------------- 15 effectivity along uniform p
+
+
+def row_15(lab):
+    figure, (axes,) = chart(1, "Effectivity along uniform p", 7)
+    table = []
+    cases = {"stick-slip": ["stick-slip"],
+             "stick-slip, transition at 0.1": ["stick-slip", "Exact solution/Transition=0.1"],
+             "smooth": ["smooth"]}
+    for scene, title in EXAMPLES.items():
+        cases[title] = [scene, lab.reference(scene, scene)[0]]
+    for k, (name, (scene, *settings)) in enumerate(cases.items()):
+        run = lab.run(scene, "effectivity", "Adaptivity/Method=pu", "Adaptivity/Maximum degree=14",
+                      "Adaptivity/Start degree=2", "Adaptivity/Maximum steps=13", *settings)
+        good = run.column("error_relative") > 1e-11  # above round-off and tolerance of the QP
+        p, effectivity = run.column("p_max")[good], run.column("effectivity")[good]
+        axes.loglog(p, effectivity, **style(k), label=name)
+        table.append({"problem": name, "exit status": run.status,
+                      "p": f"{p[0]:.0f} - {p[-1]:.0f}",
+                      "effectivity at the least p": plain(effectivity[0]),
+                      "at the largest p": plain(effectivity[-1]),
+                      "fit: effectivity ~ p^": plain(slope(p, effectivity)),
+                      "fit from p = 4 on": plain(slope(p[2:], effectivity[2:]))})
+    p = np.array([2, 14])
+    axes.loglog(p, 1.2 * p, "k:", label="~ p")
+    axes.set_xticks([2, 3, 4, 6, 8, 10, 12, 14], "2 3 4 6 8 10 12 14".split())
+    axes.set_xticks([], minor=True)
+    axes.set_xlabel("degree p [-]")
+    axes.set_ylabel("scaled indicator / true error [-]")
+    legend(axes, fontsize=8)
+    save(figure, "effectivity.png")
+    put_table("effectivity", table)
+
+
+# ---------------------------------------------------------------- the same run twice
+
+
+def without_times(run):
+    return [{c: v for c, v in row.items() if not c.startswith("seconds")} for row in run.rows]
+
+
+def determinism(lab):
+    threads = {"again": ("1", "1"), "2 BLAS threads": ("2", "1"), "2 deal.II threads": ("1", "2"),
+               "2 of both": ("2", "2")}
+    table = []
+    for scene in ("han-6-12", "han-6-13", "stick-slip"):
+        runs = {}
+        for case, (blas, dealii) in {"first": ("1", "1"), **threads}.items():
+            runs[case] = lab.run(scene, f"determinism-{case}".replace(" ", "-"),
+                                 "Output/Contact tables=true",
+                                 environment={"OMP_NUM_THREADS": blas,
+                                              "OPENBLAS_NUM_THREADS": blas,
+                                              "DEAL_II_NUM_THREADS": dealii})
+        first = runs.pop("first")
+        for case, run in runs.items():
+            same = without_times(run) == without_times(first)
+            tables = sorted(p.name for p in first.home.glob("contact-*.csv"))
+            contacts = all((run.home / t).exists() and
+                           (run.home / t).read_bytes() == (first.home / t).read_bytes()
+                           for t in tables)
+            meshes = [r["dofs_free"] for r in run.rows] == [r["dofs_free"] for r in first.rows]
+            error = np.max(np.abs(run.column("lagrangian") / first.column("lagrangian") - 1)) \
+                if meshes else math.nan
+            table.append({"scene": scene, "run": case, "exit status": run.status,
+                          "convergence.csv without seconds":
+                              "the same bytes" if same else "differs",
+                          "contact tables": "the same bytes" if contacts else "differ",
+                          "meshes": "the same" if meshes else "differ",
+                          "lagrangian differs by": number(float(error), 2)})
+    put_table("determinism", table)
+
+
+ROWS = {"1": ("locking", row_01), "2": ("inf-sup constant", row_02),
+        "3": ("contact meets a clamp; 12: high degrees", rows_03_and_12),
+        "4": ("semicoercive", row_04), "5": ("limits of the friction bound", row_05),
+        "6": ("exact threshold of slip", row_06), "7": ("transition inside an edge", row_07),
+        "8": ("deep meshes", row_08), "9": ("conditioning", row_09),
+        "11": ("aspect ratio and distortion", row_11), "14": ("tension on the contact", row_14),
+        "15": ("effectivity along uniform p", row_15), "16": ("determinism", determinism)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", default="build/hpvi")
+    parser.add_argument("--output", default="output/stability", type=pathlib.Path)
+    parser.add_argument("--rows", default=",".join(ROWS), help="which, as in 1,5,9; default: all")
+    arguments = parser.parse_args()
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    GALLERY.mkdir(exist_ok=True)
+    lab = Laboratory(str(pathlib.Path(arguments.program).resolve()), arguments.output.resolve())
+    lab.home.mkdir(parents=True, exist_ok=True)
+    begin = time.monotonic()
+    for row in arguments.rows.split(","):
+        title, function = ROWS[row]
+        progress(f"{time.monotonic() - begin:5.0f} s  {row}: {title}")
+        function(lab)
+    progress(f"{time.monotonic() - begin:5.0f} s  charts and tables: {GALLERY}")
+
+
+if __name__ == "__main__":
+    main()
