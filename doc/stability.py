@@ -28,8 +28,9 @@ TOP = HERE.parent
 GALLERY = HERE / "stability"
 QUIET = ["Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false"]
 EXAMPLES = {"han-6-12": "Example 5.2", "han-6-13": "Example 5.3"}
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8a5a00"]
-MARKERS = "osD^vPX*"
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8a5a00",
+           "#777777", "#9400d3"]
+MARKERS = "osD^vPX*<>"
 N_LABEL = "free displacement unknowns N [-]"
 ERROR_LABEL = "true error $|u-u_N|_a / |u|_a$ [-]"
 LONGEST_RUN = 120  # seconds
@@ -217,34 +218,50 @@ def row_01(lab):
     ratios = ["0.3", "0.49", "0.4999", "0.499999"]
     methods = {f"uniform h, p = {p}": ["Adaptivity/Method=hup2", f"Adaptivity/Start degree={p}",
                                        "Adaptivity/Maximum unknowns=3000"] for p in (2, 3, 4, 8)}
-    hpa3 = ["Adaptivity/Method=hpa3", "Adaptivity/Maximum unknowns=4000"]
-    methods["hpa3"] = hpa3
-    methods["hpa3 from p = 4"] = hpa3 + ["Adaptivity/Start degree=4"]
-    deep = {"9 levels, p = 10": 9, "12 levels, p = 10": 12}
+    for name, settings in {"hpa2": ["hpa2"], "hpa3": ["hpa3"],
+                           "hpa3 from p = 4": ["hpa3", "Adaptivity/Start degree=4"],
+                           "hpa3 from p = 6": ["hpa3", "Adaptivity/Start degree=6"]}.items():
+        methods[name] = ["Adaptivity/Maximum unknowns=12000", "Adaptivity/Method=" + settings[0],
+                         *settings[1:]]
+    methods["9 levels, p = 10"] = graded(9)
+    methods["12 levels, p = 10"] = graded(12)
     figure, panels = chart(3, "Stick-slip in plane strain, nu towards 1/2", 15)
     table, by_degree = [], {}
-    for k, method in enumerate([*methods, *deep]):
-        settings = methods.get(method) or graded(deep[method])
+    for k, (method, settings) in enumerate(methods.items()):
         runs = [lab.run("stick-slip", "locking", "Material/Plane=strain",
-                        f"Material/Poisson's ratio={nu}", "Adaptivity/Maximum steps=40", *settings)
+                        f"Material/Poisson's ratio={nu}", "Adaptivity/Maximum steps=60", *settings)
                 for nu in ratios]
-        steps = [int(np.argmin(np.abs(r.column("p_max") - 10))) if method in deep else
-                 nearest(r, 4000) for r in runs]
-        for axes, name in zip(panels, ("error_relative", "error_multiplier")):
-            axes.loglog([0.5 - float(nu) for nu in ratios],
-                        [r.value(name, s) for r, s in zip(runs, steps)], **style(k), label=method)
-        for nu, r, s in zip(ratios, runs, steps):
-            table.append({"method": method, "nu": nu, "ended": ended(r),
-                          "N": r.rows[s]["dofs_free"],
-                          "error_relative": number(r.value("error_relative", s), 2),
-                          "beside nu = 0.3": plain(r.value("error_relative", s)
-                                                   / runs[0].value("error_relative", steps[0]), 1),
-                          "error_multiplier": number(r.value("error_multiplier", s), 2),
-                          "effectivity": plain(r.value("effectivity", s), 1),
-                          "QP products": plain(r.value("qp_multiplications", s), 0),
-                          "warning": warned(r, "may lock")})
-        if method in deep:
+
+        def add(size, steps):
+            error = [r.value("error_relative", s) for r, s in zip(runs, steps)]
+            multiplier = [r.value("error_multiplier", s) for r, s in zip(runs, steps)]
+            unknowns = [int(r.rows[s]["dofs_free"]) for r, s in zip(runs, steps)]
+            table.append({"method": method + size, "ended": max(map(ended, runs)),
+                          "N": str(unknowns[0]) if min(unknowns) == max(unknowns) else
+                          f"{min(unknowns)} - {max(unknowns)}",
+                          "error, nu = 0.3": number(error[0], 2),
+                          **{f"times, nu = {nu}": plain(e / error[0], 1)
+                             for nu, e in zip(ratios[1:], error[1:])},
+                          "of the multiplier, 0.3": number(multiplier[0], 2),
+                          "times, 0.499999": plain(multiplier[-1] / multiplier[0], 1),
+                          "effectivity, 0.3": plain(runs[0].value("effectivity", steps[0]), 1),
+                          "at 0.499999": plain(runs[-1].value("effectivity", steps[-1]), 0),
+                          "warns of locking": ", ".join(
+                              nu for nu, r in zip(ratios, runs)
+                              if warned(r, "may lock") != "-") or "no"})
+            if size != ", small":
+                for axes, values in zip(panels, (error, multiplier)):
+                    axes.loglog([0.5 - float(nu) for nu in ratios], values, **style(k),
+                                label=method)
+
+        if "levels" in method:
+            add("", [int(np.argmin(np.abs(r.column("p_max") - 10))) for r in runs])
             by_degree[method.split(",")[0]] = dict(zip(ratios, runs))
+        elif "uniform" in method:
+            add("", [nearest(r, 4000) for r in runs])
+        else:
+            add(", small", [nearest(r, 4000) for r in runs])
+            add(", large", [nearest(r, 12000) for r in runs])
     for axes in panels[:2]:
         axes.invert_xaxis()
         axes.set_xlabel("1/2 - nu [-]")
@@ -262,9 +279,9 @@ def row_01(lab):
         for levels, runs in by_degree.items():
             least = runs["0.3"].value("error_relative", k)
             row[f"{levels}: N"] = runs["0.3"].rows[k]["dofs_free"]
-            row[f"{levels}: error, nu = 0.3"] = number(least, 2)
+            row[f"{levels}: error, 0.3"] = number(least, 2)
             for nu in ratios[1:]:
-                row[f"{levels}: times, nu = {nu}"] = \
+                row[f"{levels}: times, {nu}"] = \
                     plain(runs[nu].value("error_relative", k) / least, 1)
         rows.append(row)
     panels[2].set_xlabel("degree p on graded meshes [-]")
@@ -558,12 +575,12 @@ def row_07(lab):
                           "steps": len(run.rows), "N": run.last.get("dofs_free", "-"),
                           "error_relative": number(run.value("error_relative"), 2),
                           "rate in N": plain(-slope(n[len(n) // 2:], error[len(n) // 2:])),
-                          "steps where it rises": rises,
+                          "rises in steps": rises,
                           "largest rise": plain(np.max(error[1:] / error[:-1]))
                           if rises else "-",
-                          "error_transition": small(run.value("error_transition")),
+                          "transition off by": small(run.value("error_transition")),
                           "least effectivity": plain(np.min(run.column("effectivity"))),
-                          "largest overshoot": small(worst[0]),
+                          "largest overshoot": plain(worst[0]) if worst[0] > 1e-13 else "0",
                           "on a length": small(worst[1]),
                           "warning there": warning,
                           "overshoot, last step": small(beyond[-1][0]) if beyond else "-"})
@@ -694,7 +711,8 @@ def row_11(lab):
         "10 x 2 bar": ([], ["4, 1", "16, 1", "1, 16", "1, 1"]),
         "200 x 2 bar": (["Geometry/Upper corner=200, 2"], ["100, 1", "4, 1", "1, 1"]),
         "parallelogram": (["Geometry/Shape=quadrilateral",
-                           "Geometry/Corners=0, 0; 10, 0; 13, 2; 3, 2"], ["4, 1", "16, 1", "1, 16"]),
+                           "Geometry/Corners=0, 0; 10, 0; 13, 2; 3, 2"],
+                          ["4, 1", "16, 1", "1, 16"]),
         "trapezoid": (["Geometry/Shape=quadrilateral",
                        "Geometry/Corners=0, 0; 10, 0; 6, 2; 4, 2"], ["4, 1", "16, 1", "1, 16"])}
     figure, panels = chart(4, "Example 5.3 on other bodies and meshes: effectivity of hpa3", 15,
@@ -737,7 +755,8 @@ def row_11(lab):
 
 
 def row_14(lab):
-    cases = {"as it stands": [], "left edge pushed up": ["Boundary left/Traction=1.5*(5 - y); 0.75"],
+    cases = {"as it stands": [],
+             "left edge pushed up": ["Boundary left/Traction=1.5*(5 - y); 0.75"],
              "top pulled up by 1": ["Boundary top/Traction=0; 1"],
              "top pressed down by 5": ["Boundary top/Traction=0; -5"],
              "normal traction -5 on the contact": ["Boundary bottom/Traction=0; -5"],
@@ -796,7 +815,7 @@ def row_15(lab):
     axes.set_xticks([2, 3, 4, 6, 8, 10, 12, 14], "2 3 4 6 8 10 12 14".split())
     axes.set_xticks([], minor=True)
     axes.set_xlabel("degree p [-]")
-    axes.set_ylabel("scaled indicator / true error [-]")
+    axes.set_ylabel("effectivity: scaled indicator / true error [-]")
     legend(axes, fontsize=8)
     save(figure, "effectivity.png")
     put_table("effectivity", table)
