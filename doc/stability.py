@@ -433,8 +433,8 @@ def row_04(lab):
         bound = np.abs(contact.get("multiplier", np.array([math.nan])))
         table.append({"top traction / g": factor, "steps": len(run.rows) or "-",
                       "ended": ended(run), "warning": warned(run, "the loads reach.*"),
-                      "J [kN mm]": number(run.value("energy"), 4),
-                      "friction resultant [kN]": number(run.value("friction_resultant"), 4),
+                      "J [kN]": plain(run.value("energy"), 3),
+                      "friction resultant [kN/mm]": plain(run.value("friction_resultant"), 3),
                       "largest slip [mm]": plain(float(np.max(np.abs(slide)))),
                       "largest 1 - \\|lambda\\|": number(float(1 - np.min(bound)), 2),
                       "relative indicator": number(run.value("estimate_relative"), 2)})
@@ -777,12 +777,12 @@ def row_14(lab):
                         "length in tension [mm]": plain(float(np.sum(length[pull > 0]))),
                         "first and last point in tension, x [mm]":
                             f"{x[pull > 0][0]:.4g}, {x[pull > 0][-1]:.4g}",
-                        "largest tension, 0.1 mm off the corners":
-                            number(float(np.max(pull[away])), 2)})
+                        "largest 0.1 mm off the corners [kN/mm^2]":
+                            plain(float(np.max(pull[away])), 1)})
         else:
             row.update({"normal force [kN/mm]": "-", "length in tension [mm]": "-",
                         "first and last point in tension, x [mm]": "-",
-                        "largest tension, 0.1 mm off the corners": "-"})
+                        "largest 0.1 mm off the corners [kN/mm^2]": "-"})
         table.append(row)
     put_table("tension", table, hidden=["first and last point in tension, x [mm]"])
 
