@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -33,16 +34,26 @@ public:
     r -= qp.d;
   }
 
-  /** Until a prediction stays, comes again, or cannot be followed. */
+  /**
+   * Until a prediction stays, comes again, or cannot be followed; or, where round-off keeps changing
+   * it, until the gradient is small enough and falls no more.
+   */
   QpReport run()
   {
     std::set<Prediction> known;
+    double last = std::numeric_limits<double>::infinity();
     for (Prediction next = predict(); known.insert(next).second; next = predict())
+    {
       if (known.size() > maximum_steps || !follow(next))
         break;
-    box.project(z); // the iterate of a prediction that was wrong may lie outside
-    measure();
+      const double gradient = projected_gradient();
+      if (gradient <= settings.tolerance && gradient > 0.5 * last)
+        break;
+      last = gradient;
+    }
+    report.projected_gradient = projected_gradient();
     report.converged = report.projected_gradient <= settings.tolerance;
+    box.project(z); // the iterate of a prediction that was wrong may lie outside
     return report;
   }
 
@@ -50,9 +61,9 @@ private:
   Prediction predict() const;
   bool follow(const Prediction &prediction);
   bool solve_for(const std::vector<unsigned int> &free);
-  void measure();
+  double projected_gradient();
 
-  void compute_gradient();
+  void compute_gradient(const Vector<double> &x);
   double norm(Vector<double> x) const;
 
   const QuadraticProgram &qp;
@@ -87,10 +98,10 @@ bool Newton::follow(const Prediction &prediction)
       free.push_back(i);
     else
       z[i] = prediction[i] > 0 ? box.upper()[i] : box.lower()[i];
-  compute_gradient();
+  compute_gradient(z);
   if (!solve_for(free))
     return false;
-  compute_gradient();
+  compute_gradient(z);
   return true;
 }
 
@@ -118,9 +129,9 @@ bool Newton::solve_for(const std::vector<unsigned int> &free)
   return true;
 }
 
-void Newton::compute_gradient()
+void Newton::compute_gradient(const Vector<double> &x)
 {
-  qp.S.vmult(r, z);
+  qp.S.vmult(r, x);
   ++report.multiplications;
   r -= qp.d;
 }
@@ -133,14 +144,18 @@ double Newton::norm(Vector<double> x) const
   return x.l2_norm();
 }
 
-/** `|nu|` as Mprgp reports it. */
-void Newton::measure()
+/** `|nu|` as Mprgp reports it, at the point of the box nearest to z. */
+double Newton::projected_gradient()
 {
-  compute_gradient();
-  Vector<double> phi, beta;
-  box.split_gradient(z, r, phi, beta);
+  Vector<double> nearest(z), phi, beta;
+  box.project(nearest);
+  const Vector<double> gradient(r);
+  if (nearest != z)
+    compute_gradient(nearest);
+  box.split_gradient(nearest, r, phi, beta);
+  r = gradient;
   const double nu = std::hypot(norm(phi), norm(beta));
-  report.projected_gradient = nu == 0. ? 0. : nu / reference;
+  return nu == 0. ? 0. : nu / reference;
 }
 } // namespace
 

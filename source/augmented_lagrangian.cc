@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/augmented_lagrangian.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,8 +12,9 @@ using namespace dealii;
 namespace
 {
 /**
- * Finds the zero of a falling function from values at its own proposals. Its slope is known to lie in
- * (-1/c, 0], so that c times the value never goes too far; a secant goes farther.
+ * Finds the zero of a falling function from values at its own proposals: steps of c times the
+ * value, which never go too far while the slope is above -1/c, and at least twice the step before,
+ * until the zero is between two proposals; then the secant by Illinois's rule.
  */
 class FallingZero
 {
@@ -23,22 +25,26 @@ public:
 
   double next(const double alpha, const double value)
   {
-    (value > 0 ? lower : upper) = alpha;
-    double proposal = alpha + penalty * value;
-    const double secant = alpha - value * (alpha - last_alpha) / (value - last_value);
-    if (std::isfinite(secant) && secant > lower && secant < upper &&
-        std::abs(secant - alpha) > std::abs(proposal - alpha))
-      proposal = secant;
-    last_alpha = alpha;
-    last_value = value;
-    return proposal;
+    End &here = value > 0 ? below : above, &there = value > 0 ? above : below;
+    if (last == &here)
+      there.value /= 2; // else one end might stay for ever
+    here = {alpha, value};
+    last = &here;
+    if (std::isfinite(there.alpha))
+      return (below.alpha * above.value - above.alpha * below.value) / (above.value - below.value);
+    step = std::copysign(std::max(penalty * std::abs(value), 2 * std::abs(step)), value);
+    return alpha + step;
   }
 
 private:
-  double penalty;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  double last_alpha = std::numeric_limits<double>::quiet_NaN(), last_value = 0;
+  struct End
+  {
+    double alpha = std::numeric_limits<double>::quiet_NaN(), value = 0;
+  };
+
+  double penalty, step = 0;
+  End below, above;
+  const End *last = nullptr;
 };
 
 void add(QpReport &sum, const QpReport &part)

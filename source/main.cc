@@ -148,6 +148,12 @@ Scene<dim> refining_scene(const Scene<dim> &measured)
   return scene;
 }
 
+/** As in p-2, p, p+1. */
+std::string multiplier_degree(const int offset)
+{
+  return "p" + (offset == 0 ? "" : (offset > 0 ? "+" : "") + std::to_string(offset));
+}
+
 void print_inf_sup(const Scene<dim> &scene)
 {
   if (!scene.has_friction())
@@ -159,8 +165,8 @@ void print_inf_sup(const Scene<dim> &scene)
   AdaptiveSolver<dim> solver(refining);
   std::cout << version_line() << '\n'
             << scene.title << "\n\n"
-            << "multiplier degree p" << std::showpos << scene.solver.multiplier_offset
-            << std::noshowpos << "; p_min and p_max on the contact boundary; "
+            << "multiplier degree " << multiplier_degree(scene.solver.multiplier_offset)
+            << "; p_min and p_max on the contact boundary; "
             << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
             << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
             << std::endl;

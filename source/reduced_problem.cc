@@ -5,6 +5,7 @@
 #include <hpvi/reduced_problem.h>
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace hpvi
@@ -45,7 +46,10 @@ AugmentedLagrangian::Inner solver_in_the_box(const SolverSettings &solver)
 template <int dim>
 EqualityConstraint balance_of_forces(const ElasticSystem<dim> &system)
 {
-  EqualityConstraint result{Vector<double>(system.B.m()), system.translation * system.f};
+  // A sum whose bits do not depend on threads, unlike deal.II's product.
+  const double load =
+      std::inner_product(system.f.begin(), system.f.end(), system.translation.begin(), 0.);
+  EqualityConstraint result{Vector<double>(system.B.m()), load};
   for (unsigned int m = 0; m < system.B.m(); ++m)
     for (unsigned int k = 0; k < system.B.n(); ++k)
       result.G[m] += system.B(m, k) * system.translation[system.contact_unknowns[k]];
@@ -60,6 +64,7 @@ void check_equilibrium(const Scene<dim> &scene, const EqualityConstraint &balanc
   if (applied <= available * (1 + 1e-10))
     return;
   std::ostringstream line;
+  line.precision(10); // the two may be close
   line << "no equilibrium: the loads push the body along (" << *scene.free_translation << ") with "
        << applied << ", friction can resist with " << available
        << " at most; add a support, raise Friction bound or lower the loads";

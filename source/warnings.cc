@@ -26,6 +26,12 @@ std::string line(const Parts &...parts)
   return out.str();
 }
 
+/** A number with its unit, unless that is 1. */
+std::string labelled(const double value, const std::string &unit)
+{
+  return unit.empty() || unit == "1" ? line(value) : line(value, " ", unit);
+}
+
 /** The pulling part of sigma_nn is compared with the whole; a corner alone is not worth a word. */
 template <int dim>
 std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
@@ -52,8 +58,8 @@ std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim
   if (!(tension > 0.01 * all))
     return {};
   return line("bilateral contact pulls: ", 100 * tension / all,
-              " % of the normal traction is tensile, up to ", highest, " ",
-              solution.scene.stress_unit, " at (", where,
+              " % of the normal traction is tensile, up to ",
+              labelled(highest, solution.scene.stress_unit), " at (", where,
               "); a body that may lift off needs unilateral contact");
 }
 
@@ -94,8 +100,8 @@ std::string coarse_transition(const Solution<dim> &solution)
       const double s = (x - face.point(0.)) * edge / edge.norm_square();
       if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
           face.length() > 0.01 * whole)
-        list += line(list.empty() ? "" : ", ", "(", x, ") to +-", face.length(), " ",
-                     solution.scene.length_unit);
+        list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
+                     labelled(face.length(), solution.scene.length_unit));
     }
   if (list.empty())
     return {};
@@ -148,14 +154,15 @@ std::string locking(const Solution<dim> &solution)
 {
   const Material &material = solution.scene.material;
   const Degrees &degrees = solution.displacement_space.degrees();
-  const unsigned int lowest = *std::min_element(degrees.begin(), degrees.end());
+  // Adaptive steps that began with low degrees have refined for what those could not resolve.
+  const unsigned int lowest = std::min(*std::min_element(degrees.begin(), degrees.end()),
+                                       solution.scene.adaptivity.start_degree);
   const double ratio = material.lambda(dim) / material.mu();
   if (ratio < 50 || lowest >= 4)
     return {};
   return line("Poisson's ratio ", std::setprecision(8), material.poisson,
               " is near 1/2 (lambda/mu = ", std::setprecision(3), ratio,
-              ") and elements of degree ", lowest,
-              " may lock; use Adaptivity/Start degree = 4 or more");
+              ") and elements of degree ", lowest, " may lock; use Adaptivity/Start degree = 6");
 }
 
 /** The least offset at which displacement and multiplier no longer balance: the thesis has -2. */
@@ -168,12 +175,23 @@ std::string rich_multiplier(const Solution<dim> &solution)
          "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
 }
 
+/** Where friction gives all it has, `int g |lambda| = int g`; a point near the end may be inexact. */
 template <int dim>
-std::string whole_body_slips(const Solution<dim> &solution)
+std::string whole_body_slips(const Solution<dim> &solution, const ShapeTables<dim> &tables)
 {
-  if (!solution.scene.free_translation ||
-      std::any_of(solution.lambda.begin(), solution.lambda.end(),
-                  [](const double z) { return std::abs(z) < 1 - 1e-8; }))
+  if (!solution.scene.free_translation)
+    return {};
+  double used = 0, available = 0;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    for (unsigned int i = 0; i < face.n_multipliers; ++i)
+    {
+      const Quadrature<1> &gauss = tables.gauss(face.n_multipliers);
+      const double g =
+          gauss.weight(i) * face.length() * face.friction_bound(face.point(gauss.point(i)[0]));
+      available += g;
+      used += g * std::abs(solution.lambda[face.first_multiplier + i]);
+    }
+  if (used < (1 - 1e-8) * available)
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
               *solution.scene.free_translation,
@@ -189,7 +207,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
         coarse_transition(solution), stagnating_estimate(estimates), elongated_elements(solution),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution)})
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution, tables)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

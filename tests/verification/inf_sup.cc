@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The discrete inf-sup constant: bounded below for degree p - 2, falling or zero for richer multipliers.
+// The discrete inf-sup constant: bounded below for degree p - 2, falling or zero above.
 #include "discretisation.h"
 
 #include <hpvi/inf_sup.h>

@@ -92,6 +92,19 @@ TEST(Semicoercive, BeyondTheFrictionLimitThereIsNoEquilibrium)
   }
 }
 
+/** The shipped bar at its limit: a point or two may miss |lambda| = 1 by more than round-off. */
+TEST(Semicoercive, TheLimitIsSeenOnAdaptiveMeshes)
+{
+  const auto warned = [](const std::string &t)
+  {
+    return mentions(
+        run(shipped_scene("semicoercive", {{"Boundary top/Traction", t + "; 0"}})).warnings,
+        "not unique");
+  };
+  EXPECT_TRUE(warned("1.75"));
+  EXPECT_FALSE(warned("1.749999"));
+}
+
 /** The bar of Example 5.3 without its clamp: t along the top is all that friction has to carry. */
 class UnclampedBar : public ::testing::TestWithParam<double>
 {
