@@ -422,11 +422,9 @@ def rows_03_and_12(lab):
 
 def row_04(lab):
     table = []
-    for factor, steps in ((0.9, 12), (0.999999, 12), (1.0, 8), (1.0, 12), (1.000001, 12),
-                          (1.1, 12)):
+    for factor in (0.9, 0.999999, 1.0, 1.000001, 1.1):
         run = lab.run("semicoercive", "semicoercive",
                       f"Boundary top/Traction={factor!r}*1.75; 0",
-                      f"Adaptivity/Maximum steps={steps}",
                       "Output/Contact tables=true")
         contact = run.contact()
         slide = contact.get("tangential_displacement", np.array([math.nan]))
@@ -608,28 +606,28 @@ def row_08(lab):
         "Geometry/Graded towards=0.1, 0", "Geometry/Grading levels=40",
         "Exact solution/Transition=0.1")
     runs["hpa3"] = lab.run("stick-slip", "deep", "Adaptivity/Method=hpa3",
-                           "Adaptivity/Maximum steps=31")
+                           "Adaptivity/Maximum steps=40", "Adaptivity/Maximum unknowns=100000")
     runs["hpa3 from 22 levels"] = lab.run(
         "stick-slip", "deep", "Adaptivity/Method=hpa3", "Adaptivity/Maximum steps=16",
         "Geometry/Graded towards=0, 0", "Geometry/Grading levels=22")
     for k, (name, run) in enumerate(runs.items()):
         n = run.column("multipliers")
-        panels[0].plot(n, run.column("qp_multiplications"), **style(k), label=name)
+        panels[0].plot(n, run.column("qp_dense_solves"), **style(k), label=name)
         panels[1].loglog(run.column("dofs_free"), run.column("error_relative"), **style(k),
                          label=name)
         table.append({"run": name, "ended": ended(run), "steps": len(run.rows),
                       "N": run.last.get("dofs_free", "-"),
                       "multipliers": run.last.get("multipliers", "-"),
+                      "dense solves, most": plain(np.max(run.column("qp_dense_solves")), 0),
+                      "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0),
                       "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
-                      "expansions": plain(run.column("qp_expansion")[-1], 0),
-                      "proportionings": plain(run.column("qp_proportioning")[-1], 0),
                       "projected gradient, most":
                           number(np.max(run.column("qp_projected_gradient")), 2),
                       "least error_relative": number(np.min(run.column("error_relative")), 2),
                       "last error_relative": number(run.value("error_relative"), 2),
                       "last J": f"{run.value('energy'):.11f}"})
     panels[0].set_xlabel("multipliers n [-]")
-    panels[0].set_ylabel("products with S in one step [-]")
+    panels[0].set_ylabel("dense solves in one step [-]")
     panels[1].set_xlabel(N_LABEL)
     panels[1].set_ylabel(ERROR_LABEL)
     legend(panels[1], fontsize=8)
@@ -643,17 +641,21 @@ def row_08(lab):
                           "ended": ended(run), "steps": len(run.rows),
                           "N": run.last.get("dofs_free", "-"),
                           "multipliers": run.last.get("multipliers", "-"),
+                          "dense solves, most": plain(np.max(run.column("qp_dense_solves")), 0),
+                          "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0),
                           "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
-                          "expansions": plain(run.value("qp_expansion"), 0),
-                          "proportionings": plain(run.value("qp_proportioning"), 0),
                           "projected gradient, most":
                               number(np.max(run.column("qp_projected_gradient")), 2),
                           "least error_relative": "-", "last error_relative": "-",
                           "last J": f"{run.value('energy'):.11f}"})
-    put_table("deep", table, hidden=["expansions", "proportionings"])
+    put_table("deep", table)
 
 
 # ---------------------------------------------------------------- 9 conditioning
+
+
+# The thesis's condition numbers: unknowns, of S, of S scaled by its diagonal.
+CONDITIONS = {"han-6-12": (22690, 5.5e8, 2.7e3), "han-6-13": (19045, 5.3e7, 1.2e3)}
 
 
 def row_09(lab):
@@ -662,11 +664,13 @@ def row_09(lab):
         figure, panels = chart(2, f"{title}, hpa2: conditioning of S", 11)
         hpa2 = ["Adaptivity/Method=hpa2", "Adaptivity/Smoothness reading=plain",
                 "Adaptivity/Maximum steps=32", "Adaptivity/Maximum unknowns=190000"]
+        cold = ["Solver/QP solver=mprgp", "Solver/QP warm start=false"]
         variants = {
-            "scaled, tolerance 1e-12": ["Solver/Condition number=true"],
-            "scaled, tolerance 1e-9": ["Solver/QP tolerance=1e-9"],
-            "raw, tolerance 1e-12": ["Solver/Diagonal scaling=false",
-                                     "Solver/QP maximum multiplications=20000"]}
+            "scaled, from zero": [*cold, "Solver/Condition number=true"],
+            "scaled, from zero, tolerance 1e-9": [*cold, "Solver/QP tolerance=1e-9"],
+            "raw, from zero": [*cold, "Solver/Diagonal scaling=false",
+                               "Solver/QP maximum multiplications=20000"],
+            "scaled, from the step before": ["Solver/QP solver=mprgp"]}
         runs = {}
         for k, (name, settings) in enumerate(variants.items()):
             progress(f"  {title}: {name}")
@@ -680,7 +684,7 @@ def row_09(lab):
                                  label="cond S, scaled")
                 panels[0].axhline(2 ** 52, color="grey", linestyle=":", label="1/eps")
             panels[1].loglog(n, run.column("qp_multiplications"), **style(k), label=name)
-            conditions = runs["scaled, tolerance 1e-12"]
+            conditions = runs["scaled, from zero"]
             at = nearest_column(conditions, "multipliers", n[-1]) if len(n) else 0
             table.append({"example": title[8:], "variant": name, "ended": ended(run),
                           "steps": len(run.rows), "N": run.last.get("dofs_free", "-"),
@@ -691,6 +695,11 @@ def row_09(lab):
                           "growth: products ~ n^": plain(slope(n, run.column(
                               "qp_multiplications")))})
         panels[0].set_ylabel("condition number [-]")
+        unknowns, raw, scaled = CONDITIONS[scene]
+        first = runs["scaled, from zero"]
+        n = first.column("multipliers")[nearest(first, unknowns)]
+        panels[0].plot(n, raw, "*", color=COLOURS[1], markersize=14, label="thesis, raw")
+        panels[0].plot(n, scaled, "*", color=COLOURS[0], markersize=14, label="thesis, scaled")
         panels[1].set_ylabel("products with S in one step [-]")
         for axes in panels:
             axes.set_xlabel("multipliers n [-]")
@@ -821,6 +830,60 @@ def row_15(lab):
     put_table("effectivity", table)
 
 
+# ---------------------------------------------------------------- solvers of the program
+
+
+SOLVERS = {"MPRGP, from zero": ("mprgp", "false"),
+           "MPRGP, from the step before": ("mprgp", "true"),
+           "active set, from zero": ("active set", "false"),
+           "active set, from the step before": ("active set", "true")}
+
+
+def solvers(lab):
+    """Every quadratic program of all scenes by each solver; times are medians of three runs."""
+    figure, panels = chart(3, "The solvers of the quadratic program, all scenes and steps", 14)
+    table = []
+    for k, (name, (solver, warm)) in enumerate(SOLVERS.items()):
+        columns = {c: [] for c in ("multipliers", "seconds_qp", "qp_multiplications",
+                                   "qp_dense_solves", "qp_fell_back", "qp_projected_gradient")}
+        failures, total = 0, 0.
+        for scene in ("han-6-12", "han-6-13", "stick-slip", "semicoercive", "threshold"):
+            for method in ("hpa2", "hpa3"):
+                runs = [lab.run(scene, "solvers", f"Adaptivity/Method={method}",
+                                "Adaptivity/Maximum steps=24", "Adaptivity/Maximum unknowns=60000",
+                                f"Solver/QP solver={solver}", f"Solver/QP warm start={warm}")
+                        for repetition in range(3)]
+                failures += runs[0].status != "0"
+                total += float(np.median([r.value("seconds") for r in runs]))
+                for c in columns:
+                    columns[c].extend(np.median([r.column(c) for r in runs], axis=0))
+        c = {c: np.array(v) for c, v in columns.items()}
+        n = c["multipliers"]
+        kind = {**style(k), "linewidth": 0, "markersize": 4, "alpha": 0.7, "label": name}
+        panels[0].loglog(n, 1e3 * c["seconds_qp"], **kind)
+        count = "qp_multiplications" if solver == "mprgp" else "qp_dense_solves"
+        panels[1].loglog(n, np.maximum(c[count], 1), **kind)
+        panels[2].loglog(n, np.maximum(c["qp_projected_gradient"], 1e-17), **kind)
+        table.append({"solver": name, "programs": len(n), "runs that failed": failures,
+                      "products": plain(np.sum(c["qp_multiplications"]), 0),
+                      "dense solves": plain(np.sum(c["qp_dense_solves"]), 0),
+                      "fell back": plain(np.sum(c["qp_fell_back"]), 0),
+                      "projected gradient, most": number(np.max(c["qp_projected_gradient"]), 2),
+                      "seconds": plain(np.sum(c["seconds_qp"]), 4),
+                      "% of the runs": plain(100 * np.sum(c["seconds_qp"]) / total, 1)})
+    fastest = min(float(row["seconds"]) for row in table)
+    for row in table:
+        row["times the fastest"] = plain(float(row["seconds"]) / fastest, 1)
+    for axes, label in zip(panels, ("time of one program [ms]",
+                                    "products (MPRGP), dense solves (active set) [-]",
+                                    "relative projected gradient at the end [-]")):
+        axes.set_xlabel("multipliers n [-]")
+        axes.set_ylabel(label)
+    legend(panels[2], fontsize=8, markerscale=2)
+    save(figure, "solvers.png")
+    put_table("solvers", table, hidden=["seconds"])
+
+
 # ---------------------------------------------------------------- the same run twice
 
 
@@ -867,7 +930,8 @@ ROWS = {"1": ("locking", row_01), "2": ("inf-sup constant", row_02),
         "6": ("exact threshold of slip", row_06), "7": ("transition inside an edge", row_07),
         "8": ("deep meshes", row_08), "9": ("conditioning", row_09),
         "11": ("aspect ratio and distortion", row_11), "14": ("tension on the contact", row_14),
-        "15": ("effectivity along uniform p", row_15), "16": ("determinism", determinism)}
+        "15": ("effectivity along uniform p", row_15), "16": ("determinism", determinism),
+        "17": ("solvers of the quadratic program", solvers)}
 
 
 def main():

@@ -154,9 +154,10 @@ std::string locking(const Solution<dim> &solution)
 {
   const Material &material = solution.scene.material;
   const Degrees &degrees = solution.displacement_space.degrees();
-  // Adaptive steps that began with low degrees have refined for what those could not resolve.
-  const unsigned int lowest = std::min(*std::min_element(degrees.begin(), degrees.end()),
-                                       solution.scene.adaptivity.start_degree);
+  unsigned int lowest = *std::min_element(degrees.begin(), degrees.end());
+  // hp meshes that began with low degrees are refined for what those could not resolve.
+  if (solution.scene.adaptivity.method >= Method::hpa1)
+    lowest = std::min(lowest, solution.scene.adaptivity.start_degree);
   const double ratio = material.lambda(dim) / material.mu();
   if (ratio < 50 || lowest >= 4)
     return {};
