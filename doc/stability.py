@@ -107,15 +107,15 @@ class Laboratory:
     def run(self, scene, name, *settings, environment=None):
         return Run(self.program, scene, self.home / name, list(settings), environment)
 
-    def reference(self, scene, name, *settings):
+    def reference(self, scene, name, *settings, unknowns=60000):
         """The setting that measures errors against an overkill run, and that run."""
         if name not in self.files:
             progress(f"  reference solution of {name}")
             run = self.run(scene, f"reference-{name}", "Adaptivity/Method=hpa2",
                            "Adaptivity/Smoothness reading=plain", "Adaptivity/Start degree=0",
                            "Adaptivity/Maximum degree=14", "Adaptivity/Maximum steps=60",
-                           "Adaptivity/Maximum unknowns=60000", "Output/Reference solution=true",
-                           *settings)
+                           f"Adaptivity/Maximum unknowns={unknowns}",
+                           "Output/Reference solution=true", *settings)
             self.files[name] = run
         run = self.files[name]
         return f"Error/Reference solution={run.home / 'reference.dat'}", run
@@ -732,7 +732,7 @@ def row_11(lab):
             settings = [*shape, f"Geometry/Subdivisions={mesh}"]
             label = mesh.replace(", ", " x ")
             against, overkill = lab.reference("han-6-13", f"{body}-{label}".replace(" ", ""),
-                                              *settings)
+                                              *settings, unknowns=300000)
             run = lab.run("han-6-13", "aspect", "Adaptivity/Method=hpa3",
                           "Adaptivity/Smoothness reading=plain", "Adaptivity/Maximum steps=60",
                           "Adaptivity/Maximum unknowns=10000", *settings, against)
