@@ -40,8 +40,9 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
   assemble_loads(scene, tables);
   std::vector<Contribution> contributions;
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
-    contributions.push_back(reduce(cell));
+    contributions.push_back(reduce(cell, stiffnesses));
   sum_up(contributions);
+  stiffnesses.forget_unused();
   assemble_contact(contact_space, tables);
   if (scene.free_translation)
     hold(*scene.free_translation);
@@ -75,51 +76,20 @@ Vector<double> ElasticSystem<dim>::interior_load(const unsigned int cell) const
   return inside;
 }
 
-namespace
-{
-/** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
-struct Part
-{
-  unsigned int local, target;
-  double weight;
-};
-
-/** T' K T, first its rows, then its columns: T is nearly the identity. */
-FullMatrix<double> congruence(const std::vector<Part> &T, const unsigned int n_targets,
-                              const FullMatrix<double> &K)
-{
-  FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
-  for (const Part &part : T)
-  {
-    double *const sum = &rows(part.target, 0);
-    const double *const row = &K(part.local, 0);
-    for (unsigned int j = 0; j < K.n(); ++j)
-      sum[j] += part.weight * row[j];
-  }
-  for (unsigned int i = 0; i < n_targets; ++i)
-  {
-    double *const sum = &result(i, 0);
-    const double *const row = &rows(i, 0);
-    for (const Part &part : T)
-      sum[part.target] += part.weight * row[part.local];
-  }
-  return result;
-}
-} // namespace
-
 /**
  * `T' K T` of one cell, where T expresses the unknowns on its boundary by free ones. Adds the
  * cell's part of f as well: the load inside the cell, and what prescribed displacements h leave on
  * the right, -T' K h.
  */
 template <int dim>
-typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsigned int cell)
+typename ElasticSystem<dim>::Contribution
+ElasticSystem<dim>::reduce(const unsigned int cell, ElementStiffnesses<dim> &stiffnesses)
 {
   const FullMatrix<double> &K = elements[cell]->condensed;
   const unsigned int n = K.m();
   const auto dofs = space.cell_dofs(cell);
   Contribution result;
-  std::vector<Part> T;
+  std::vector<ConstraintEntry> T;
   Vector<double> prescribed(n);
   bool is_identity = true, has_prescribed = false;
   for (unsigned int i = 0; i < n; ++i)
@@ -139,10 +109,12 @@ typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsig
     prescribed[i] = space.constraints().get_inhomogeneity(dofs[i]);
     has_prescribed = has_prescribed || prescribed[i] != 0.;
   }
-  if (is_identity)
-    result.matrix = &K;
-  else
-    result.own_matrix = congruence(T, result.targets.size(), K);
+  result.matrix = &K;
+  if (!is_identity)
+  {
+    constrained.push_back(stiffnesses.constrained(elements[cell], T, result.targets.size()));
+    result.matrix = constrained.back().get();
+  }
 
   if (!interior_loads && !has_prescribed)
     return result;
@@ -155,7 +127,7 @@ typename ElasticSystem<dim>::Contribution ElasticSystem<dim>::reduce(const unsig
     K.vmult(reaction, prescribed);
     local_load -= reaction;
   }
-  for (const Part &part : T)
+  for (const ConstraintEntry &part : T)
     f[result.targets[part.target]] += part.weight * local_load[part.local];
   return result;
 }
@@ -205,9 +177,7 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     for (unsigned int place = first[column]; place < first[column + 1]; ++place)
     {
       const Contribution &contribution = *places[place].contribution;
-      const double *const values =
-          &(contribution.matrix ? *contribution.matrix
-                                : contribution.own_matrix)(places[place].local, 0);
+      const double *const values = &(*contribution.matrix)(places[place].local, 0);
       for (unsigned int i = 0; i < contribution.targets.size(); ++i)
       {
         const unsigned int row = contribution.targets[i];

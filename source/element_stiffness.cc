@@ -2,6 +2,9 @@
 #include <hpvi/element_stiffness.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 
 namespace hpvi
 {
@@ -133,6 +136,69 @@ std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellM
     entry = element;
   }
   return element;
+}
+
+namespace
+{
+/** T' K T, first its rows, then its columns: T is nearly the identity. */
+FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsigned int n_targets,
+                              const FullMatrix<double> &K)
+{
+  FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
+  for (const ConstraintEntry &entry : T)
+  {
+    double *const sum = &rows(entry.target, 0);
+    const double *const row = &K(entry.local, 0);
+    for (unsigned int j = 0; j < K.n(); ++j)
+      sum[j] += entry.weight * row[j];
+  }
+  for (unsigned int i = 0; i < n_targets; ++i)
+  {
+    double *const sum = &result(i, 0);
+    const double *const row = &rows(i, 0);
+    for (const ConstraintEntry &entry : T)
+      sum[entry.target] += entry.weight * row[entry.local];
+  }
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::size_t ElementStiffnesses<dim>::Hash::operator()(const ConstrainedKey &key) const
+{
+  std::size_t seed = std::hash<const void *>()(key.first.get());
+  for (const ConstraintEntry &entry : key.second)
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &entry.weight, sizeof bits);
+    seed = (seed ^ bits ^ (std::uint64_t(entry.local) << 32 | entry.target)) * 0x9e3779b97f4a7c15;
+    seed ^= seed >> 29;
+  }
+  return seed;
+}
+
+template <int dim>
+std::shared_ptr<const FullMatrix<double>>
+ElementStiffnesses<dim>::constrained(const std::shared_ptr<const ElementStiffness> &element,
+                                     const std::vector<ConstraintEntry> &T,
+                                     const unsigned int n_targets)
+{
+  auto &entry = known_constrained[{element, T}];
+  std::shared_ptr<const FullMatrix<double>> matrix = entry.lock();
+  if (!matrix)
+  {
+    matrix =
+        std::make_shared<const FullMatrix<double>>(congruence(T, n_targets, element->condensed));
+    entry = matrix;
+  }
+  return matrix;
+}
+
+template <int dim>
+void ElementStiffnesses<dim>::forget_unused()
+{
+  for (auto entry = known_constrained.begin(); entry != known_constrained.end();)
+    entry = entry->second.expired() ? known_constrained.erase(entry) : std::next(entry);
 }
 
 template class ElementStiffnesses<2>;

@@ -53,16 +53,14 @@ private:
   struct Contribution
   {
     std::vector<unsigned int> targets;
-    const dealii::FullMatrix<double> *matrix = nullptr; ///< the element's, without constraints
-    dealii::FullMatrix<double> own_matrix;              ///< else: targets x targets
+    const dealii::FullMatrix<double> *matrix = nullptr; ///< targets x targets
 
     unsigned int add_target(unsigned int unknown); ///< its place among the targets
   };
 
   void number_unknowns();
   void assemble_loads(const Scene<dim> &scene, const ShapeTables<dim> &tables);
-  void assemble_stiffness(ElementStiffnesses<dim> &stiffnesses);
-  Contribution reduce(unsigned int cell);
+  Contribution reduce(unsigned int cell, ElementStiffnesses<dim> &stiffnesses);
   void sum_up(const std::vector<Contribution> &contributions);
   void assemble_contact(const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
   void hold(const dealii::Tensor<1, dim> &free_translation);
@@ -74,6 +72,7 @@ private:
   std::vector<dealii::types::global_dof_index> unknowns; ///< their number in the space
   std::vector<unsigned int> number;                      ///< the inverse of unknowns
   std::vector<std::shared_ptr<const ElementStiffness>> elements; ///< by active cell index
+  std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> constrained; ///< kept for the next
 };
 } // namespace hpvi
 

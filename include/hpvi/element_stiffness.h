@@ -10,6 +10,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -25,6 +27,18 @@ struct ElementStiffness
   dealii::LAPACKFullMatrix<double> K_ii; ///< factored; empty unless loads act in the interior
 };
 
+/** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
+struct ConstraintEntry
+{
+  unsigned int local, target;
+  double weight;
+
+  bool operator==(const ConstraintEntry &other) const
+  {
+    return local == other.local && target == other.target && weight == other.weight;
+  }
+};
+
 /**
  * Element matrices by congruence class. In two dimensions a(.,.) does not change when a cell is
  * moved or scaled, so an adaptive mesh has a handful of different element matrices. A class is
@@ -38,6 +52,17 @@ public:
 
   std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree);
 
+  /**
+   * `T'KT`, n_targets x n_targets, with K the condensed matrix of @p element. Most cells keep their
+   * neighbours from step to step, and T with them.
+   */
+  std::shared_ptr<const dealii::FullMatrix<double>>
+  constrained(const std::shared_ptr<const ElementStiffness> &element,
+              const std::vector<ConstraintEntry> &T, unsigned int n_targets);
+
+  /** Forget the constrained matrices that no system uses. */
+  void forget_unused();
+
 private:
   using Key = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
   static Key congruence_class(const typename CellMap<dim>::Vertices &vertices, unsigned int degree);
@@ -49,6 +74,15 @@ private:
   const bool interior_loads;
   const ShapeTables<dim> &tables;
   std::map<Key, std::weak_ptr<const ElementStiffness>> known;
+
+  using ConstrainedKey =
+      std::pair<std::shared_ptr<const ElementStiffness>, std::vector<ConstraintEntry>>;
+  struct Hash
+  {
+    std::size_t operator()(const ConstrainedKey &key) const;
+  };
+  std::unordered_map<ConstrainedKey, std::weak_ptr<const dealii::FullMatrix<double>>, Hash>
+      known_constrained;
 };
 } // namespace hpvi
 

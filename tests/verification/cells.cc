@@ -351,6 +351,46 @@ TEST(CongruenceCache, ForgetsWhatNobodyUses)
   EXPECT_TRUE(element.expired());
 }
 
+/** T'KT beside its definition; shared by what is equal, and by nothing else. */
+TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
+{
+  const Scene<2> scene = elastic_scene(false);
+  const ShapeTables<2> tables;
+  ElementStiffnesses<2> stiffnesses(scene, tables);
+  auto element = stiffnesses.get(CellMap<2>(square), 3);
+  const unsigned int n = element->condensed.m(), n_targets = n + 2;
+
+  // All but the last two unknowns are free; those depend on three others each.
+  std::vector<ConstraintEntry> T;
+  for (unsigned int i = 0; i + 2 < n; ++i)
+    T.push_back({i, i, 1.});
+  for (unsigned int i = n - 2; i < n; ++i)
+    for (const unsigned int target : {i - 5, n - 2 + i % 2, n_targets - 1})
+      T.push_back({i, target, 0.1 * (1 + target) - 0.3 * i});
+  FullMatrix<double> dense(n, n_targets), KT(n, n_targets), expected(n_targets, n_targets);
+  for (const ConstraintEntry &entry : T)
+    dense(entry.local, entry.target) += entry.weight;
+  element->condensed.mmult(KT, dense);
+  dense.Tmmult(expected, KT);
+  auto matrix = stiffnesses.constrained(element, T, n_targets);
+  expected.add(-1., *matrix);
+  EXPECT_LE(expected.frobenius_norm(), 1e-13 * matrix->frobenius_norm());
+
+  EXPECT_EQ(stiffnesses.constrained(element, T, n_targets), matrix);
+  auto other = T;
+  other.back().weight = std::nextafter(other.back().weight, 10.);
+  EXPECT_NE(stiffnesses.constrained(element, other, n_targets), matrix);
+  EXPECT_NE(
+      stiffnesses.constrained(stiffnesses.get(CellMap<2>(cells[1].vertices), 3), T, n_targets),
+      matrix);
+
+  const std::weak_ptr<const ElementStiffness> unused = element;
+  element.reset();
+  matrix.reset();
+  stiffnesses.forget_unused();
+  EXPECT_TRUE(unused.expired());
+}
+
 // ---------------------------------------------------------------- residual indicator
 
 /** (4.44)-(4.51) by deal.II's FEValues: derivatives in physical coordinates from the library. */
