@@ -167,13 +167,14 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     for (unsigned int i = 0; i < contribution.targets.size(); ++i)
       places[next[contribution.targets[i]]++] = {&contribution, i};
 
-  A.row.reserve(n_entries);
-  A.value.reserve(n_entries);
+  A.row.resize(n_entries);
+  A.value.resize(n_entries);
   A.column_start.reserve(unknowns.size() + 1);
   std::vector<int> position(unknowns.size(), -1);
+  int end = 0;
   for (unsigned int column = 0; column < unknowns.size(); ++column)
   {
-    const int start = A.row.size();
+    const int start = end;
     for (unsigned int place = first[column]; place < first[column + 1]; ++place)
     {
       const Contribution &contribution = *places[place].contribution;
@@ -185,15 +186,16 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
           continue;
         if (position[row] < start)
         {
-          position[row] = A.row.size();
-          A.row.push_back(row);
-          A.value.push_back(0.);
+          position[row] = end;
+          A.row[end++] = row;
         }
         A.value[position[row]] += values[i];
       }
     }
-    A.column_start.push_back(A.row.size());
+    A.column_start.push_back(end);
   }
+  A.row.resize(end);
+  A.value.resize(end);
 }
 
 namespace
