@@ -253,6 +253,25 @@ def reached(table):
     return rows
 
 
+def compared(table):
+    """hpa3 beside hpa2: seconds and N at some errors, interpolated between steps."""
+    def at(scene, method, column, tolerance):
+        error = select(table, scene, method, "error_relative")
+        k = np.nonzero(error <= tolerance)[0][0]
+        return np.exp(np.interp(-np.log(tolerance), -np.log(error[k - 1:k + 1]),
+                                np.log(select(table, scene, method, column)[k - 1:k + 1])))
+
+    rows = []
+    for scene, title in PROBLEMS.items():
+        for column, name in (("seconds", "time"), ("dofs_free", "unknowns")):
+            row = {"problem": title, "hpa3 / hpa2": name}
+            for tolerance in (1e-3, 1e-4, 1e-5, 1e-6):
+                ratio = at(scene, "hpa3", column, tolerance) / at(scene, "hpa2", column, tolerance)
+                row[f"e = {tolerance:.0e}"] = f"{ratio:.2f}"
+            rows.append(row)
+    return rows
+
+
 def effectivity_ranges(table):
     rows = []
     for method in METHODS:
@@ -303,6 +322,7 @@ def main():
         draw_chart(table, scene)
     draw_effectivity(table)
     put_table("reached", reached(table))
+    put_table("compared", compared(table))
     put_table("effectivity", effectivity_ranges(table))
     put_table("stages", draw_stages(program, home))
     put_table("smooth", draw_smooth(program, home))
