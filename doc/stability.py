@@ -593,6 +593,20 @@ def row_07(lab):
 # ---------------------------------------------------------------- 8 deep meshes
 
 
+def deep_row(name, run):
+    error = run.column("error_relative")
+    known = bool(np.isfinite(error).any())
+    return {"run": name, "ended": ended(run), "steps": len(run.rows),
+            "N": run.last.get("dofs_free", "-"), "multipliers": run.last.get("multipliers", "-"),
+            "dense solves, most": plain(np.max(run.column("qp_dense_solves")), 0),
+            "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0),
+            "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
+            "projected gradient, most": number(np.max(run.column("qp_projected_gradient")), 2),
+            "least error_relative": number(np.min(error), 2) if known else "-",
+            "last error_relative": number(error[-1], 2) if known else "-",
+            "last J": f"{run.value('energy'):.11f}"}
+
+
 def row_08(lab):
     figure, panels = chart(2, "Deep meshes: stick-slip", 11)
     table = []
@@ -615,17 +629,7 @@ def row_08(lab):
         panels[0].plot(n, run.column("qp_dense_solves"), **style(k), label=name)
         panels[1].loglog(run.column("dofs_free"), run.column("error_relative"), **style(k),
                          label=name)
-        table.append({"run": name, "ended": ended(run), "steps": len(run.rows),
-                      "N": run.last.get("dofs_free", "-"),
-                      "multipliers": run.last.get("multipliers", "-"),
-                      "dense solves, most": plain(np.max(run.column("qp_dense_solves")), 0),
-                      "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0),
-                      "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
-                      "projected gradient, most":
-                          number(np.max(run.column("qp_projected_gradient")), 2),
-                      "least error_relative": number(np.min(run.column("error_relative")), 2),
-                      "last error_relative": number(run.value("error_relative"), 2),
-                      "last J": f"{run.value('energy'):.11f}"})
+        table.append(deep_row(name, run))
     panels[0].set_xlabel("multipliers n [-]")
     panels[0].set_ylabel("dense solves in one step [-]")
     panels[1].set_xlabel(N_LABEL)
@@ -637,17 +641,7 @@ def row_08(lab):
             run = lab.run(scene, "deep", "Adaptivity/Method=pu", "Adaptivity/Start degree=2",
                           "Adaptivity/Maximum steps=7", f"Geometry/Graded towards={point}",
                           f"Geometry/Grading levels={levels}")
-            table.append({"run": f"{EXAMPLES[scene]}, p = 2..8, {levels} levels",
-                          "ended": ended(run), "steps": len(run.rows),
-                          "N": run.last.get("dofs_free", "-"),
-                          "multipliers": run.last.get("multipliers", "-"),
-                          "dense solves, most": plain(np.max(run.column("qp_dense_solves")), 0),
-                          "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0),
-                          "QP products, most": plain(np.max(run.column("qp_multiplications")), 0),
-                          "projected gradient, most":
-                              number(np.max(run.column("qp_projected_gradient")), 2),
-                          "least error_relative": "-", "last error_relative": "-",
-                          "last J": f"{run.value('energy'):.11f}"})
+            table.append(deep_row(f"{EXAMPLES[scene]}, p = 2..8, {levels} levels", run))
     put_table("deep", table)
 
 
