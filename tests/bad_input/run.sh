@@ -222,6 +222,12 @@ invalid "Error/Reference solution = nowhere.dat" "cannot be read" "Output/Refere
   "Error/Reference solution=nowhere.dat"
 invalid "Solver/QP tolerance = 0" "(0, 1]" -- "Solver/QP tolerance=0"
 invalid "Solver/Diagonal scaling = maybe" "true or false" -- "Solver/Diagonal scaling=maybe"
+invalid "Solver/QP solver = newton" "mprgp or active set" -- "Solver/QP solver=newton"
+invalid "Solver/QP warm start = maybe" "true or false" -- "Solver/QP warm start=maybe"
+invalid "Solver/Multiplier degree offset = 0" "makes S singular" "give -2" -- "Solver/Multiplier degree offset=0"
+invalid "Solver/Multiplier degree offset = 7" "-20 to -1" -- "Solver/Multiplier degree offset=7"
+invalid "Start degree = 3" "multiplier has degree p - 5" "at least 5" -- \
+  "Solver/Multiplier degree offset=-5" "Adaptivity/Start degree=3"
 
 # --- the command line
 refused "no scene" "name a parameter file" --
@@ -229,6 +235,8 @@ refused "--frobnicate" "hpvi --help" -- --frobnicate "$scenes/base.prm"
 refused "--set Title" "has no '='" "Section/Entry=value" -- --set Title "$scenes/base.prm"
 refused "--output" "hpvi --help" -- "$scenes/base.prm" --output
 refused "hpvi --help" -- "$scenes/base.prm" "$scenes/base.prm"
+refused "--inf-sup writes no file" "remove one" -- --inf-sup --output results "$scenes/base.prm"
+refused "no multiplier" "remove --inf-sup" -- --inf-sup --set "Boundary bottom/Friction bound=" "$scenes/base.prm"
 
 # --- a directory that cannot be written: below a regular file
 touch "$scratch/file"
