@@ -176,7 +176,7 @@ std::string rich_multiplier(const Solution<dim> &solution)
          "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
 }
 
-/** Where friction gives all it has, `int g |lambda| = int g`; a point near the end may be inexact. */
+/** Friction gives all it has, `int g |lambda| = int g`; single points may be inexact. */
 template <int dim>
 std::string whole_body_slips(const Solution<dim> &solution, const ShapeTables<dim> &tables)
 {

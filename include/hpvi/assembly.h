@@ -36,8 +36,9 @@ public:
 
   /**
    * Where the scene leaves a translation free, its values R at the unknowns; else empty. A is then
-   * regularised by a spring at one contact unknown, stiffness @p spring for the translation R. It carries no
-   * force where R'(f - B' lambda) = 0, so that A^-1 is a generalised inverse of the true stiffness.
+   * regularised by a spring at one contact unknown, stiffness @p spring for the translation R. It
+   * carries no force where R'(f - B' lambda) = 0, so that A^-1 is a generalised inverse of the true
+   * stiffness.
    */
   dealii::Vector<double> translation;
   double spring = 0;
@@ -72,7 +73,8 @@ private:
   std::vector<dealii::types::global_dof_index> unknowns; ///< their number in the space
   std::vector<unsigned int> number;                      ///< the inverse of unknowns
   std::vector<std::shared_ptr<const ElementStiffness>> elements; ///< by active cell index
-  std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> constrained; ///< kept for the next
+  std::vector<std::shared_ptr<const dealii::FullMatrix<double>>>
+      constrained; ///< kept for the next step
 };
 } // namespace hpvi
 
