@@ -165,9 +165,7 @@ ActiveSet::ActiveSet(const Mprgp::Settings &settings) : settings(settings)
 
 QpReport ActiveSet::solve(const QuadraticProgram &qp, Vector<double> &z) const
 {
-  AssertDimension(qp.S.n(), z.size());
-  AssertDimension(qp.d.size(), z.size());
-  AssertDimension(qp.feasible_set.size(), z.size());
+  qp.assert_size(z);
   QpReport report;
   report.converged = z.size() == 0;
   if (report.converged)

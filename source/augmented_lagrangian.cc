@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <boost/math/tools/toms748_solve.hpp>
 #include <hpvi/augmented_lagrangian.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <utility>
 
 namespace hpvi
 {
@@ -11,42 +12,6 @@ using namespace dealii;
 
 namespace
 {
-/**
- * Finds the zero of a falling function from values at its own proposals: steps of c times the
- * value, which never go too far while the slope is above -1/c, and at least twice the step before,
- * until the zero is between two proposals; then the secant by Illinois's rule.
- */
-class FallingZero
-{
-public:
-  explicit FallingZero(const double penalty) : penalty(penalty)
-  {
-  }
-
-  double next(const double alpha, const double value)
-  {
-    End &here = value > 0 ? below : above, &there = value > 0 ? above : below;
-    if (last == &here)
-      there.value /= 2; // else one end might stay for ever
-    here = {alpha, value};
-    last = &here;
-    if (std::isfinite(there.alpha))
-      return (below.alpha * above.value - above.alpha * below.value) / (above.value - below.value);
-    step = std::copysign(std::max(penalty * std::abs(value), 2 * std::abs(step)), value);
-    return alpha + step;
-  }
-
-private:
-  struct End
-  {
-    double alpha = std::numeric_limits<double>::quiet_NaN(), value = 0;
-  };
-
-  double penalty, step = 0;
-  End below, above;
-  const End *last = nullptr;
-};
-
 void add(QpReport &sum, const QpReport &part)
 {
   sum.converged = part.converged;
@@ -69,19 +34,41 @@ QpReport AugmentedLagrangian::solve(QuadraticProgram qp, const EqualityConstrain
                                     Vector<double> &z, double &alpha) const
 {
   const Vector<double> d(qp.d);
-  FallingZero zero(penalty);
   QpReport report;
-  for (unsigned int step = 0; step < 100; ++step)
+  bool met = false;
+  // e - G'z falls with alpha; zero where it is small enough, or where to go on makes no sense.
+  const auto gap = [&](const double trial)
   {
+    alpha = trial;
     qp.d = d;
     qp.d.add(alpha, constraint.G);
     add(report, inner(qp, z));
-    const double gap = constraint.e - constraint.G * z;
-    if (!report.converged || std::abs(gap) <= tolerance * constraint.G.l1_norm())
-      return report;
-    alpha = zero.next(alpha, gap);
+    const double value = constraint.e - constraint.G * z;
+    met = report.converged && std::abs(value) <= tolerance * constraint.G.l1_norm();
+    return met || !report.converged ? 0. : value;
+  };
+
+  double here = alpha, value = gap(here), last = here, last_value = value;
+  std::uintmax_t evaluations = 100;
+  for (double step = penalty * value; value != 0. && last_value * value >= 0. && evaluations > 0;
+       step *= 2, --evaluations)
+  {
+    last = here;
+    last_value = value;
+    here += step;
+    value = gap(here);
   }
-  report.converged = false;
+  if (value != 0. && last_value * value < 0.)
+  {
+    if (here < last)
+    {
+      std::swap(here, last);
+      std::swap(value, last_value);
+    }
+    boost::math::tools::toms748_solve(gap, last, here, last_value, value,
+                                      boost::math::tools::eps_tolerance<double>(), evaluations);
+  }
+  report.converged = met;
   return report;
 }
 } // namespace hpvi

@@ -2,8 +2,6 @@
 #include <hpvi/element_stiffness.h>
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <iterator>
 
 namespace hpvi
@@ -162,20 +160,6 @@ FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsig
   return result;
 }
 } // namespace
-
-template <int dim>
-std::size_t ElementStiffnesses<dim>::Hash::operator()(const ConstrainedKey &key) const
-{
-  std::size_t seed = std::hash<const void *>()(key.first.get());
-  for (const ConstraintEntry &entry : key.second)
-  {
-    std::uint64_t bits;
-    std::memcpy(&bits, &entry.weight, sizeof bits);
-    seed = (seed ^ bits ^ (std::uint64_t(entry.local) << 32 | entry.target)) * 0x9e3779b97f4a7c15;
-    seed ^= seed >> 29;
-  }
-  return seed;
-}
 
 template <int dim>
 std::shared_ptr<const FullMatrix<double>>

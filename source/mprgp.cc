@@ -311,9 +311,7 @@ Mprgp::Mprgp(const Settings &settings) : settings(settings)
 
 QpReport Mprgp::solve(const QuadraticProgram &qp, Vector<double> &z) const
 {
-  AssertDimension(qp.S.n(), z.size());
-  AssertDimension(qp.d.size(), z.size());
-  AssertDimension(qp.feasible_set.size(), z.size());
+  qp.assert_size(z);
   QpReport report;
   report.converged = z.size() == 0;
   if (report.converged)

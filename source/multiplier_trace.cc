@@ -1,29 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/polynomial.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <hpvi/multiplier_trace.h>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/** The polynomial through @p values at the points of @p gauss, at s. */
-double interpolate(const Quadrature<1> &gauss, const std::vector<double> &values, const double s)
-{
-  double sum = 0;
-  for (unsigned int i = 0; i < values.size(); ++i)
-  {
-    double product = values[i];
-    for (unsigned int j = 0; j < values.size(); ++j)
-      if (j != i)
-        product *= (s - gauss.point(j)[0]) / (gauss.point(i)[0] - gauss.point(j)[0]);
-    sum += product;
-  }
-  return sum;
-}
-} // namespace
 
 template <int dim>
 MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
@@ -60,10 +40,13 @@ Vector<double> MultiplierTrace<dim>::values(const ContactSpace<dim> &finer,
       break;
     if (piece->values.empty())
       continue;
+    const auto &basis = tables.gauss_lagrange(piece->values.size());
     for (unsigned int i = 0; i < face.n_multipliers; ++i)
-      result[face.first_multiplier + i] =
-          interpolate(tables.gauss(piece->values.size()), piece->values,
-                      place(face.point(tables.gauss(face.n_multipliers).point(i)[0])));
+    {
+      const double s = place(face.point(tables.gauss(face.n_multipliers).point(i)[0]));
+      for (unsigned int k = 0; k < basis.size(); ++k)
+        result[face.first_multiplier + i] += piece->values[k] * basis[k].value(s);
+    }
   }
   return result;
 }

@@ -101,6 +101,13 @@ FeasibleSet FeasibleSet::scaled(const Vector<double> &scale) const
   return result;
 }
 
+void QuadraticProgram::assert_size([[maybe_unused]] const Vector<double> &z) const
+{
+  AssertDimension(S.n(), z.size());
+  AssertDimension(d.size(), z.size());
+  AssertDimension(feasible_set.size(), z.size());
+}
+
 double condition_number(const LAPACKFullMatrix<double> &S)
 {
   AssertDimension(S.m(), S.n());

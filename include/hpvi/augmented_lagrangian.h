@@ -18,9 +18,9 @@ struct EqualityConstraint
 /**
  * `min 1/2 z'Sz - d'z` over a box and `G'z = e`, where S and d contain a penalty already:
  * `S = S_0 + c G G'`, `d = d_0 + c e G`. The method of multipliers repeats the problem in the box
- * with `d + alpha G` and moves alpha by `c (e - G'z)`, farther where that is slow, until the falling
- * function `e - G'z` of alpha vanishes (Dostal, Optimal Quadratic Programming Algorithms, 2009,
- * chapter 6).
+ * with `d + alpha G` and moves alpha by `c (e - G'z)` (Dostal, Optimal Quadratic Programming
+ * Algorithms, 2009, chapter 6). That is slow where the falling function `e - G'z` of alpha is flat:
+ * steps are doubled until its zero is bracketed, then found by Boost's TOMS 748.
  *
  * For a body that only friction holds, G'z = e is the balance of forces along its free translation
  * and alpha the length by which it moves.

@@ -2,6 +2,7 @@
 #ifndef hpvi_element_stiffness_h
 #define hpvi_element_stiffness_h
 
+#include <boost/functional/hash.hpp>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <hpvi/scene.h>
@@ -36,6 +37,14 @@ struct ConstraintEntry
   bool operator==(const ConstraintEntry &other) const
   {
     return local == other.local && target == other.target && weight == other.weight;
+  }
+
+  friend std::size_t hash_value(const ConstraintEntry &entry)
+  {
+    std::size_t seed = boost::hash_value(entry.weight);
+    boost::hash_combine(seed, entry.local);
+    boost::hash_combine(seed, entry.target);
+    return seed;
   }
 };
 
@@ -77,11 +86,8 @@ private:
 
   using ConstrainedKey =
       std::pair<std::shared_ptr<const ElementStiffness>, std::vector<ConstraintEntry>>;
-  struct Hash
-  {
-    std::size_t operator()(const ConstrainedKey &key) const;
-  };
-  std::unordered_map<ConstrainedKey, std::weak_ptr<const dealii::FullMatrix<double>>, Hash>
+  std::unordered_map<ConstrainedKey, std::weak_ptr<const dealii::FullMatrix<double>>,
+                     boost::hash<ConstrainedKey>>
       known_constrained;
 };
 } // namespace hpvi

@@ -64,6 +64,9 @@ struct QuadraticProgram
   dealii::LAPACKFullMatrix<double> S;
   dealii::Vector<double> d;
   FeasibleSet feasible_set;
+
+  /** Asserts that S, d, the box and @p z have the same size. */
+  void assert_size(const dealii::Vector<double> &z) const;
 };
 
 /**
