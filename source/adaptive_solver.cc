@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/iterative_refinement.h>
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
 #include <hpvi/warnings.h>
+
+#include <sstream>
 
 namespace hpvi
 {
@@ -59,6 +62,7 @@ struct AdaptiveSolver<dim>::Stages
   std::unique_ptr<Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   double translation = 0;        ///< likewise
+  AlgebraicError algebraic;      ///< of the current step
   StageTimes times;              ///< of the current step
   double seconds = 0;
   unsigned int number = 0;
@@ -73,6 +77,7 @@ struct AdaptiveSolver<dim>::Stages
 
   void discretise();
   Solution<dim> solve(Reduction &reduction);
+  Vector<double> solve_to_round_off(const SchurComplement &schur_complement, Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
   Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
@@ -106,26 +111,59 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
-  if (contact_space.n_multipliers() > 0)
+  reduction.lambda = previous.values(contact_space, tables);
+  reduction.translation = translation;
+  Vector<double> u = solve_to_round_off(*schur_complement, reduction);
+  if (contact_space.n_multipliers() > 0 && scene.solver.qp_warm_start)
   {
-    StageTimer timer(times.qp);
-    reduction.lambda = previous.values(contact_space, tables);
-    reduction.translation = translation;
-    reduction = solve_reduced_problem(scene, contact_space, system, *schur_complement,
-                                      std::move(reduction));
-    if (scene.solver.qp_warm_start)
-    {
-      previous = MultiplierTrace<dim>(contact_space, reduction.lambda);
-      translation = reduction.translation;
-    }
+    previous = MultiplierTrace<dim>(contact_space, reduction.lambda);
+    translation = reduction.translation;
   }
+  return {scene, discretisation->displacement_space, contact_space, std::move(u), reduction.lambda};
+}
 
-  StageTimer timer(times.recover);
-  Vector<double> x = schur_complement->displacement(reduction.lambda);
-  if (scene.free_translation)
-    x.add(reduction.translation, system.translation);
-  return {scene, discretisation->displacement_space, contact_space, system.recover(x),
-          reduction.lambda};
+/**
+ * Multiplier and displacement. Where the displacement had to be corrected, S and d carry the same
+ * round-off: the multiplier is then found again from what the corrected displacement does at the contact
+ * boundary, until it stays where it is.
+ */
+template <int dim>
+Vector<double>
+AdaptiveSolver<dim>::Stages::solve_to_round_off(const SchurComplement &schur_complement,
+                                                Reduction &reduction)
+{
+  const ElasticSystem<dim> &system = *discretisation->system;
+  const unsigned int n_multipliers = discretisation->contact_space.n_multipliers();
+  const IterativeRefinement<dim> refinement(scene.material, discretisation->displacement_space,
+                                            tables, system, stiffnesses, schur_complement);
+  Vector<double> u, defect(n_multipliers), last;
+  for (unsigned int passes_left = 10;; --passes_left)
+  {
+    if (n_multipliers > 0)
+    {
+      StageTimer timer(times.qp);
+      reduction = solve_reduced_problem(scene, discretisation->contact_space, system,
+                                        schur_complement, defect, std::move(reduction));
+    }
+    StageTimer timer(times.recover);
+    Vector<double> x = schur_complement.displacement(reduction.lambda);
+    if (scene.free_translation)
+      x.add(reduction.translation, system.translation);
+    u = system.recover(x);
+    algebraic = refinement.improve(reduction.lambda, u);
+    if (algebraic.corrections == 0 || n_multipliers == 0)
+      return u;
+    if (last.size() > 0)
+    {
+      last -= reduction.lambda;
+      algebraic.multiplier = last.linfty_norm();
+    }
+    if (algebraic.multiplier <= 1e-9 || passes_left == 1)
+      return u;
+    last = reduction.lambda;
+    defect += system.tangential_moments(u);
+    defect -= reduction.moments;
+  }
 }
 
 template <int dim>
@@ -180,6 +218,7 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
           scaled_estimate / step_energies.norm,
           step_energies,
           true_error.measure(solution),
+          algebraic,
           reduction.qp,
           reduction.condition_raw,
           reduction.condition_scaled,
@@ -191,10 +230,24 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
 
 namespace
 {
+/**
+ * Is the indicator no more than that of round-off in u_N? Where it is, refinement goes on for nothing.
+ * Asked only where it is small, because it costs an indicator.
+ */
+template <int dim>
+bool is_exact_to_round_off(const Step<dim> &step, const ShapeTables<dim> &tables)
+{
+  return step.relative_estimate < 1e-7 &&
+         step.estimate.total() <= 4 * round_off_of_estimate(step.solution, tables);
+}
+
 /** Which limit of the scene does this step reach? Empty: none. */
 template <int dim>
-std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
+std::string reached_limit(const Adaptivity &limits, const Step<dim> &step,
+                          const ShapeTables<dim> &tables)
 {
+  if (is_exact_to_round_off(step, tables))
+    return "exact to round-off";
   if (step.relative_estimate < limits.tolerance)
     return "Tolerance";
   if (step.number >= limits.maximum_steps)
@@ -204,6 +257,22 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
   if (limits.maximum_seconds > 0 && step.seconds >= limits.maximum_seconds)
     return "Maximum seconds";
   return {};
+}
+} // namespace
+
+namespace
+{
+void check_algebraic_error(const AlgebraicError &error)
+{
+  if (error.total() <= AlgebraicError::useless)
+    return;
+  std::ostringstream line;
+  line
+      << "round-off spoils the solution: its relative error is about " << error.total() << " after "
+      << error.corrections
+      << " corrections; the body is too slender or its supports are too weak for double precision: "
+         "support it better, or choose fewer Geometry/Subdivisions and a higher degree";
+  throw NumericalFailure(line.str());
 }
 } // namespace
 
@@ -219,13 +288,14 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     const ErrorEstimate estimate = stages->estimate(solution);
     const Refinement refinement = stages->decide(solution, estimate);
     Step<dim> step = stages->report(solution, estimate, reduction);
-    step.stopped_by = reached_limit(stages->scene.adaptivity, step);
+    check_algebraic_error(step.algebraic);
+    step.stopped_by = reached_limit(stages->scene.adaptivity, step, stages->tables);
     if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
       step.stopped_by = "Maximum degree";
     estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
     if (finished)
-      step.warnings = warnings(solution, stages->tables, estimates);
+      step.warnings = warnings(solution, stages->tables, estimates, step.algebraic);
     finished_step(step);
     stages->times = StageTimes();
     if (!finished)

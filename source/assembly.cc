@@ -3,6 +3,7 @@
 #include <hpvi/assembly.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace hpvi
@@ -65,15 +66,17 @@ void ElasticSystem<dim>::number_unknowns()
   f.reinit(unknowns.size());
 }
 
+/** Those of @p values, one for each displacement unknown, that belong to the interior of a cell. */
 template <int dim>
-Vector<double> ElasticSystem<dim>::interior_load(const unsigned int cell) const
+Vector<double> ElasticSystem<dim>::inside(const unsigned int cell,
+                                          const Vector<double> &values) const
 {
   const unsigned int n_boundary = elements[cell]->condensed.m();
   const auto dofs = space.cell_dofs(cell);
-  Vector<double> inside(dofs.size() - n_boundary);
-  for (unsigned int i = 0; i < inside.size(); ++i)
-    inside[i] = load[dofs[n_boundary + i]];
-  return inside;
+  Vector<double> result(dofs.size() - n_boundary);
+  for (unsigned int i = 0; i < result.size(); ++i)
+    result[i] = values[dofs[n_boundary + i]];
+  return result;
 }
 
 /**
@@ -120,7 +123,7 @@ ElasticSystem<dim>::reduce(const unsigned int cell, ElementStiffnesses<dim> &sti
     return result;
   Vector<double> local_load(n);
   if (interior_loads && elements[cell]->extension.m() > 0)
-    elements[cell]->extension.Tvmult(local_load, interior_load(cell));
+    elements[cell]->extension.Tvmult(local_load, inside(cell, load));
   if (has_prescribed)
   {
     Vector<double> reaction(n);
@@ -310,7 +313,7 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
                                           const ShapeTables<dim> &tables)
 {
   const AffineConstraints<double> &constraints = space.constraints();
-  std::vector<FullMatrix<double>> couplings;
+  contact_faces = contact_space.faces();
   std::vector<bool> touches(contact_space.n_multipliers() > 0 ? unknowns.size() : 0, false);
   const double negligible = 1e-14;
   for (const ContactFace<dim> &face : contact_space.faces())
@@ -396,52 +399,17 @@ Vector<double> ElasticSystem<dim>::recover(const Vector<double> &x) const
     u[unknowns[k]] = x[k];
   space.constraints().distribute(u);
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
-  {
-    const ElementStiffness &element = *elements[cell];
-    const unsigned int n_boundary = element.extension.n(), n_interior = element.extension.m();
-    if (n_interior == 0)
-      continue;
-    const auto dofs = space.cell_dofs(cell);
-    Vector<double> boundary(n_boundary), interior(n_interior);
-    if (interior_loads)
+    if (elements[cell]->extension.m() > 0)
     {
-      interior = interior_load(cell);
-      element.K_ii.solve(interior);
+      Vector<double> interior(elements[cell]->extension.m());
+      if (interior_loads)
+      {
+        interior = inside(cell, load);
+        elements[cell]->K_ii.solve(interior);
+      }
+      extend(cell, interior, u);
     }
-    for (unsigned int i = 0; i < n_boundary; ++i)
-      boundary[i] = u[dofs[i]];
-    element.extension.vmult(interior, boundary, /*adding=*/true);
-    for (unsigned int i = 0; i < n_interior; ++i)
-      u[dofs[n_boundary + i]] = interior[i];
-  }
   return u;
-}
-
-/**
- * With u_i = extension u_b + w, w = K_ii^-1 f_i, the mixed terms vanish: a(u,u) is the sum of
- * `u_b' K_condensed u_b + w' f_i` over the cells.
- */
-template <int dim>
-double ElasticSystem<dim>::energy_product(const Vector<double> &u) const
-{
-  double a = 0;
-  for (unsigned int cell = 0; cell < elements.size(); ++cell)
-  {
-    const FullMatrix<double> &condensed = elements[cell]->condensed;
-    const auto dofs = space.cell_dofs(cell);
-    Vector<double> boundary(condensed.m());
-    for (unsigned int i = 0; i < boundary.size(); ++i)
-      boundary[i] = u[dofs[i]];
-    a += condensed.matrix_norm_square(boundary);
-    if (interior_loads && elements[cell]->extension.m() > 0)
-    {
-      const Vector<double> f_i = interior_load(cell);
-      Vector<double> w(f_i);
-      elements[cell]->K_ii.solve(w);
-      a += w * f_i;
-    }
-  }
-  return a;
 }
 
 template <int dim>
@@ -449,6 +417,115 @@ double ElasticSystem<dim>::work(const Vector<double> &u) const
 {
   // deal.II's product would split the sum by threads; a result must not depend on their number.
   return std::inner_product(load.begin(), load.end(), u.begin(), 0.);
+}
+
+template <int dim>
+const Vector<double> &ElasticSystem<dim>::loads() const
+{
+  return load;
+}
+
+template <int dim>
+Vector<double> ElasticSystem<dim>::friction_forces(const Vector<double> &lambda) const
+{
+  Vector<double> forces(space.n_dofs());
+  for (unsigned int k = 0; k < couplings.size(); ++k)
+  {
+    const auto dofs = space.cell_dofs(contact_faces[k].cell->active_cell_index());
+    for (unsigned int m = 0; m < couplings[k].m(); ++m)
+      for (unsigned int i = 0; i < couplings[k].n(); ++i)
+        forces[dofs[i]] += couplings[k](m, i) * lambda[contact_faces[k].first_multiplier + m];
+  }
+  return forces;
+}
+
+template <int dim>
+Vector<double> ElasticSystem<dim>::tangential_moments(const Vector<double> &u) const
+{
+  Vector<double> moments(B.m());
+  for (unsigned int k = 0; k < couplings.size(); ++k)
+  {
+    const auto dofs = space.cell_dofs(contact_faces[k].cell->active_cell_index());
+    for (unsigned int m = 0; m < couplings[k].m(); ++m)
+      for (unsigned int i = 0; i < couplings[k].n(); ++i)
+        moments[contact_faces[k].first_multiplier + m] += couplings[k](m, i) * u[dofs[i]];
+  }
+  return moments;
+}
+
+template <int dim>
+Vector<double> ElasticSystem<dim>::reduce(const Vector<double> &forces) const
+{
+  Vector<double> carried(forces), result(unknowns.size());
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    if (elements[cell]->extension.m() > 0)
+    {
+      const auto dofs = space.cell_dofs(cell);
+      Vector<double> on_boundary(elements[cell]->extension.n());
+      elements[cell]->extension.Tvmult(on_boundary, inside(cell, forces));
+      for (unsigned int i = 0; i < on_boundary.size(); ++i)
+        carried[dofs[i]] += on_boundary[i];
+    }
+  for (types::global_dof_index dof = 0; dof < carried.size(); ++dof)
+    for_each_free_part(space.constraints(), dof,
+                       [&](const auto free_dof, const double weight)
+                       {
+                         if (number[free_dof] != numbers::invalid_unsigned_int)
+                           result[number[free_dof]] += weight * carried[dof];
+                       });
+  return result;
+}
+
+template <int dim>
+typename ElasticSystem<dim>::Interiors
+ElasticSystem<dim>::interiors(const ElementStiffnesses<dim> &stiffnesses) const
+{
+  Interiors result;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int index = cell->active_cell_index();
+    if (elements[index]->extension.m() > 0 && result.count(elements[index].get()) == 0)
+      result.emplace(elements[index].get(),
+                     stiffnesses.interior(map_of<dim>(cell), space.degrees()[index]));
+  }
+  return result;
+}
+
+template <int dim>
+Vector<double> ElasticSystem<dim>::respond(const Vector<double> &x, const Vector<double> &forces,
+                                           const Interiors &interiors) const
+{
+  Vector<double> u(space.n_dofs());
+  for (types::global_dof_index dof = 0; dof < u.size(); ++dof)
+    for_each_free_part(space.constraints(), dof,
+                       [&](const auto free_dof, const double weight)
+                       {
+                         if (number[free_dof] != numbers::invalid_unsigned_int)
+                           u[dof] += weight * x[number[free_dof]];
+                       });
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    if (elements[cell]->extension.m() > 0)
+    {
+      Vector<double> interior = inside(cell, forces);
+      interiors.at(elements[cell].get()).solve(interior);
+      extend(cell, interior, u);
+    }
+  return u;
+}
+
+/** Put `extension u_b` more than @p interior into the unknowns inside a cell. */
+template <int dim>
+void ElasticSystem<dim>::extend(const unsigned int cell, Vector<double> &interior,
+                                Vector<double> &u) const
+{
+  const FullMatrix<double> &extension = elements[cell]->extension;
+  const auto dofs = space.cell_dofs(cell);
+  Vector<double> boundary(extension.n());
+  for (unsigned int i = 0; i < boundary.size(); ++i)
+    boundary[i] = u[dofs[i]];
+  extension.vmult(interior, boundary, /*adding=*/true);
+  for (unsigned int i = 0; i < interior.size(); ++i)
+    u[dofs[boundary.size() + i]] = interior[i];
 }
 
 template class ElasticSystem<2>;

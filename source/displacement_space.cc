@@ -1,43 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/numerics/vector_tools_boundary.h>
-#include <deal.II/numerics/vector_tools_constraints.h>
 #include <hpvi/hanging_nodes.h>
+#include <hpvi/supports.h>
 
 #include <algorithm>
-#include <set>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/** The vector-valued function whose components are the expressions of a scene. */
-template <int dim>
-class ExpressionVector : public Function<dim>
-{
-public:
-  explicit ExpressionVector(
-      const std::array<typename BoundaryCondition<dim>::Expression, dim> &components)
-      : Function<dim>(dim), components(components)
-  {
-  }
-
-  double value(const Point<dim> &x, const unsigned int component) const override
-  {
-    return components[component] ? components[component]->value(x) : 0.;
-  }
-
-  void vector_value(const Point<dim> &x, Vector<double> &values) const override
-  {
-    for (unsigned int c = 0; c < dim; ++c)
-      values[c] = value(x, c);
-  }
-
-private:
-  const std::array<typename BoundaryCondition<dim>::Expression, dim> &components;
-};
-} // namespace
 
 template <int dim>
 DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
@@ -60,24 +29,7 @@ void DisplacementSpace<dim>::make_constraints(const Scene<dim> &scene,
 {
   constrain_hanging_nodes(*this, tables, affine_constraints);
 
-  // Unknowns that are constrained already are left alone, so the order settles shared corners:
-  // supports first, then the sliding condition of the contact boundary.
-  std::set<types::boundary_id> contact;
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-  {
-    if (boundary.bilateral_contact)
-      contact.insert(boundary.id);
-    if (!boundary.has_displacement())
-      continue;
-    ComponentMask prescribed(dim, false);
-    for (unsigned int c = 0; c < dim; ++c)
-      prescribed.set(c, boundary.displacement[c] != nullptr);
-    VectorTools::interpolate_boundary_values(dofs, boundary.id,
-                                             ExpressionVector<dim>(boundary.displacement),
-                                             affine_constraints, prescribed);
-  }
-  if (!contact.empty())
-    VectorTools::compute_no_normal_flux_constraints(dofs, 0, contact, affine_constraints);
+  constrain_supports(supported_nodes(scene, *this, tables), affine_constraints);
   affine_constraints.close();
 }
 

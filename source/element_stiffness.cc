@@ -41,6 +41,44 @@ std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const Cel
 } // namespace
 
 template <int dim>
+unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree)
+{
+  if (map.is_affine())
+    return degree + 1;
+  double quotient = 1.;
+  for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double here = determinant(map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v))),
+                   there = determinant(
+                       map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v ^ (1u << d))));
+      quotient = std::max(quotient, here / there);
+    }
+  constexpr double tolerance = 1e-14;
+  constexpr unsigned int most = 40; // beyond a quotient of 30 corners are all but flat
+  const double root = std::sqrt(quotient),
+               extra = -std::log(tolerance) / (2 * std::log((root + 1) / (root - 1)));
+  return degree + 1 + static_cast<unsigned int>(std::ceil(std::min<double>(extra, most)));
+}
+
+namespace
+{
+/** The block of @p K that belongs to the unknowns inside the cell, by its Cholesky factor. */
+LAPACKFullMatrix<double> factored_interior(const FullMatrix<double> &K,
+                                           const unsigned int n_boundary)
+{
+  const unsigned int n_interior = K.m() - n_boundary;
+  LAPACKFullMatrix<double> K_ii(n_interior);
+  for (unsigned int i = 0; i < n_interior; ++i)
+    for (unsigned int j = 0; j < n_interior; ++j)
+      K_ii(i, j) = K(n_boundary + i, n_boundary + j);
+  K_ii.set_property(LAPACKSupport::symmetric);
+  K_ii.compute_cholesky_factorization();
+  return K_ii;
+}
+} // namespace
+
+template <int dim>
 ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables)
     : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
 {
@@ -72,7 +110,7 @@ template <int dim>
 FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
                                                       const unsigned int degree) const
 {
-  const auto P = gradient_products(map, tables.cell(degree, degree + 1));
+  const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
   const double lambda = material.lambda(dim), mu = material.mu();
   const unsigned int n = numbering.shape.size();
@@ -100,16 +138,10 @@ ElementStiffnesses<dim>::condense(const FullMatrix<double> &K, const unsigned in
   element->condensed.fill(K, 0, 0, 0, 0);
   if (n_interior > 0)
   {
-    LAPACKFullMatrix<double> K_ii(n_interior), K_ib(n_interior, n_boundary);
+    LAPACKFullMatrix<double> K_ii = factored_interior(K, n_boundary), K_ib(n_interior, n_boundary);
     for (unsigned int i = 0; i < n_interior; ++i)
-    {
-      for (unsigned int j = 0; j < n_interior; ++j)
-        K_ii(i, j) = K(n_boundary + i, n_boundary + j);
       for (unsigned int j = 0; j < n_boundary; ++j)
         K_ib(i, j) = -K(n_boundary + i, j);
-    }
-    K_ii.set_property(LAPACKSupport::symmetric);
-    K_ii.compute_cholesky_factorization();
     K_ii.solve(K_ib);
     element->extension.reinit(n_interior, n_boundary);
     element->extension = K_ib;
@@ -134,6 +166,13 @@ std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellM
     entry = element;
   }
   return element;
+}
+
+template <int dim>
+LAPACKFullMatrix<double> ElementStiffnesses<dim>::interior(const CellMap<dim> &map,
+                                                           const unsigned int degree) const
+{
+  return factored_interior(stiffness(map, degree), tables.numbering(degree).n_boundary);
 }
 
 namespace
@@ -185,5 +224,6 @@ void ElementStiffnesses<dim>::forget_unused()
     entry = entry->second.expired() ? known_constrained.erase(entry) : std::next(entry);
 }
 
+template unsigned int stiffness_points(const CellMap<2> &, unsigned int);
 template class ElementStiffnesses<2>;
 } // namespace hpvi

@@ -2,6 +2,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/energies.h>
+#include <hpvi/internal_forces.h>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -103,7 +104,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
                                return g(s) * solution.contact_space.value(face, solution.lambda, s);
                              });
     }
-  const double a = system.energy_product(solution.u);
+  const double a =
+      internal_forces(solution.scene.material, solution.displacement_space, tables, solution.u)
+          .energy_product;
   const double potential = 0.5 * a - system.work(solution.u);
   return {potential + coupling, potential + friction, std::sqrt(a), resultant, friction - coupling};
 }

@@ -75,11 +75,13 @@ void check_equilibrium(const Scene<dim> &scene, const EqualityConstraint &balanc
 template <int dim>
 Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim> &contact_space,
                                 const ElasticSystem<dim> &system,
-                                const SchurComplement &schur_complement, Reduction start)
+                                const SchurComplement &schur_complement,
+                                const Vector<double> &defect, Reduction start)
 {
   Reduction result = std::move(start);
   QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
   qp.d += system.B_prescribed;
+  qp.d += defect;
   const AugmentedLagrangian::Inner solve = solver_in_the_box(scene.solver);
   if (scene.free_translation)
   {
@@ -88,9 +90,14 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
     // The inner problems leave noise of their own tolerance in the balance.
     result.qp = AugmentedLagrangian(solve, 1 / system.spring, 100 * scene.solver.qp_tolerance)
                     .solve(qp, balance, result.lambda, result.translation);
+    qp.d.add(result.translation, balance.G);
   }
   else
     result.qp = solve(qp, result.lambda);
+  result.moments = qp.d;
+  Vector<double> product(qp.d.size());
+  qp.S.vmult(product, result.lambda);
+  result.moments -= product;
   if (!result.qp.converged)
     throw NumericalFailure(not_converged(result.qp, qp.d.size(), scene.solver.qp_tolerance));
   if (scene.solver.condition_number)
@@ -103,5 +110,5 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
 
 template Reduction solve_reduced_problem(const Scene<2> &, const ContactSpace<2> &,
                                          const ElasticSystem<2> &, const SchurComplement &,
-                                         Reduction);
+                                         const Vector<double> &, Reduction);
 } // namespace hpvi

@@ -3,8 +3,11 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/residual_estimator.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <random>
 
 namespace hpvi
 {
@@ -44,7 +47,6 @@ private:
   Tensor<2, dim> stress(const Tensor<2, dim> &gradient) const;
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
                                         const Tensor<1, dim> &normal) const;
-  Tensor<1, dim> outer_normal(const Cell &cell, unsigned int face) const;
   double weight(unsigned int cell) const; ///< h_K/p_K
 
   const Solution<dim> &solution;
@@ -175,15 +177,6 @@ std::vector<Tensor<1, dim>> Residuals<dim>::tractions(const Cell &cell,
   return result;
 }
 
-template <int dim>
-Tensor<1, dim> Residuals<dim>::outer_normal(const Cell &cell, const unsigned int face) const
-{
-  static_assert(dim == 2, "a straight edge");
-  const Tensor<1, dim> along = cell->face(face)->vertex(1) - cell->face(face)->vertex(0);
-  Tensor<1, dim> normal = cross_product_2d(along / along.norm());
-  return normal * (cell->face(face)->center() - cell->center()) < 0 ? -normal : normal;
-}
-
 /** Half the jump of the traction over an interior edge, seen from its finer or first side. */
 template <int dim>
 void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
@@ -200,7 +193,7 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   else
     other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
 
-  const Tensor<1, dim> normal = outer_normal(cell, face);
+  const Tensor<1, dim> normal = outer_normal<dim>(cell, face);
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
   const auto own = tractions(cell, table, normal),
              opposite = tractions(neighbor, *other_table, normal);
@@ -219,7 +212,7 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
-  const auto own = tractions(cell, table, outer_normal(cell, face));
+  const auto own = tractions(cell, table, outer_normal<dim>(cell, face));
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     for (unsigned int c = 0; c < dim; ++c)
@@ -288,5 +281,32 @@ ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<di
   return Residuals<dim>(solution, tables).compute();
 }
 
+template <int dim>
+double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+{
+  Scene<dim> unloaded = solution.scene;
+  unloaded.body_force = {};
+  for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
+  {
+    boundary.traction = {};
+    boundary.friction_bound = nullptr;
+  }
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const ContactSpace<dim> contact_space(unloaded, space);
+  std::mt19937 random;
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  Vector<double> u(space.n_dofs());
+  for (unsigned int cell = 0; cell < space.degrees().size(); ++cell)
+  {
+    double largest = 0;
+    for (const auto dof : space.cell_dofs(cell))
+      largest = std::max(largest, std::abs(solution.u[dof]));
+    for (const auto dof : space.cell_dofs(cell))
+      u[dof] = std::numeric_limits<double>::epsilon() * largest * uniform(random);
+  }
+  return estimate_error<dim>({unloaded, space, contact_space, u, {}}, tables).total();
+}
+
 template ErrorEstimate estimate_error(const Solution<2> &, const ShapeTables<2> &);
+template double round_off_of_estimate(const Solution<2> &, const ShapeTables<2> &);
 } // namespace hpvi

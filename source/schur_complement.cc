@@ -207,6 +207,20 @@ Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
   return x;
 }
 
+Vector<double> SchurComplement::solve(const Vector<double> &f) const
+{
+  const std::vector<int> &permutation = factor->permutation;
+  Vector<double> x(f.size()), permuted(f.size());
+  if (f.size() == 0)
+    return x;
+  for (unsigned int i = 0; i < f.size(); ++i)
+    permuted[i] = f[permutation[i]];
+  permuted = factor->solve(CHOLMOD_Lt, factor->solve(CHOLMOD_L, permuted));
+  for (unsigned int i = 0; i < f.size(); ++i)
+    x[permutation[i]] = permuted[i];
+  return x;
+}
+
 std::size_t SchurComplement::factor_entries() const
 {
   return factor->L ? factor->L->xsize : 0;

@@ -116,14 +116,30 @@ template <int dim>
 const ShapeTable<dim> &ShapeTables<dim>::cell(const unsigned int degree,
                                               const unsigned int n_gauss) const
 {
-  const std::array<unsigned int, 4> key{{degree, whole_cell, whole_face, n_gauss}};
+  return in_cell(degree, n_gauss, true);
+}
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::gradients(const unsigned int degree,
+                                                   const unsigned int n_gauss) const
+{
+  return in_cell(degree, n_gauss, false);
+}
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::in_cell(const unsigned int degree,
+                                                 const unsigned int n_gauss,
+                                                 const bool second_derivatives) const
+{
+  const std::array<unsigned int, 4> key{{degree, whole_cell, second_derivatives, n_gauss}};
   auto found = tables.find(key);
   if (found == tables.end())
   {
     const QGauss<dim> gauss(n_gauss);
-    found =
-        tables.emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(), true))
-            .first;
+    found = tables
+                .emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(),
+                                            second_derivatives))
+                .first;
   }
   return found->second;
 }
@@ -274,6 +290,19 @@ template <int dim>
 const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
 {
   return gauss_rules.try_emplace(n_gauss, n_gauss).first->second;
+}
+
+template <int dim>
+const std::vector<double> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
+{
+  const auto [found, is_new] = gauss_lobatto_points.try_emplace(n_points);
+  if (is_new)
+  {
+    const QGaussLobatto<1> rule(n_points);
+    for (const Point<1> &x : rule.get_points())
+      found->second.push_back(x[0]);
+  }
+  return found->second;
 }
 
 template <int dim>

@@ -122,6 +122,15 @@ std::string stagnating_estimate(const std::vector<double> &estimates)
               estimates[n - 1], " now; the data may hold what no refinement resolves");
 }
 
+std::string round_off(const AlgebraicError &algebraic)
+{
+  if (algebraic.total() <= AlgebraicError::doubtful)
+    return {};
+  return line("round-off reaches ", algebraic.total(),
+              " of the solution: the body is slender or weakly supported beyond what double "
+              "precision resolves; trust no more digits than that");
+}
+
 template <int dim>
 std::string elongated_elements(const Solution<dim> &solution)
 {
@@ -202,18 +211,20 @@ std::string whole_body_slips(const Solution<dim> &solution, const ShapeTables<di
 
 template <int dim>
 std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                  const std::vector<double> &estimates)
+                                  const std::vector<double> &estimates,
+                                  const AlgebraicError &algebraic)
 {
   std::vector<std::string> result;
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
-        coarse_transition(solution), stagnating_estimate(estimates), elongated_elements(solution),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution, tables)})
+        coarse_transition(solution), stagnating_estimate(estimates), round_off(algebraic),
+        elongated_elements(solution), locking(solution), rich_multiplier(solution),
+        whole_body_slips(solution, tables)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
 }
 
 template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
-                                           const std::vector<double> &);
+                                           const std::vector<double> &, const AlgebraicError &);
 } // namespace hpvi

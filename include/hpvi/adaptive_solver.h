@@ -3,6 +3,7 @@
 #define hpvi_adaptive_solver_h
 
 #include <hpvi/energies.h>
+#include <hpvi/iterative_refinement.h>
 #include <hpvi/mprgp.h>
 #include <hpvi/numerical_failure.h>
 #include <hpvi/residual_estimator.h>
@@ -75,6 +76,7 @@ struct Step
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
   Energies energies;
   TrueErrors errors;           ///< NaN where the scene gives nothing to compare with
+  AlgebraicError algebraic;    ///< what round-off leaves in u_N
   QpReport qp;                 ///< all zero without multipliers
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise

@@ -7,6 +7,7 @@
 #include <hpvi/element_stiffness.h>
 #include <hpvi/symmetric_matrix.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,9 @@ template <int dim>
 class ElasticSystem
 {
 public:
+  /** The factored blocks K_ii by element. */
+  using Interiors = std::map<const ElementStiffness *, dealii::LAPACKFullMatrix<double>>;
+
   /** Assemble; @p stiffnesses remembers element matrices from step to step. */
   ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
                 const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
@@ -46,8 +50,30 @@ public:
   /** All displacement unknowns from values at the unknowns of A. */
   dealii::Vector<double> recover(const dealii::Vector<double> &x) const;
 
-  double energy_product(const dealii::Vector<double> &u) const; ///< a(u,u)
-  double work(const dealii::Vector<double> &u) const;           ///< L(u)
+  double work(const dealii::Vector<double> &u) const; ///< L(u)
+
+  /** L(v_i) for every displacement unknown, constrained or not. */
+  const dealii::Vector<double> &loads() const;
+
+  /** b(v_i, lambda), likewise. */
+  dealii::Vector<double> friction_forces(const dealii::Vector<double> &lambda) const;
+
+  /** b(u, w_m) for every multiplier. */
+  dealii::Vector<double> tangential_moments(const dealii::Vector<double> &u) const;
+
+  /** Forces on all displacement unknowns as forces on the unknowns of A: what f is to L. */
+  dealii::Vector<double> reduce(const dealii::Vector<double> &forces) const;
+
+  /**
+   * The displacement under homogeneous constraints that has the values @p x at the unknowns of A
+   * and @p forces inside the cells: with `x = A^-1 reduce(forces)` the answer of the body to them.
+   */
+  dealii::Vector<double> respond(const dealii::Vector<double> &x,
+                                 const dealii::Vector<double> &forces,
+                                 const Interiors &interiors) const;
+
+  /** What respond() wants of each class of elements. */
+  Interiors interiors(const ElementStiffnesses<dim> &stiffnesses) const;
 
 private:
   /** What one cell adds to the unknowns that its boundary depends on. */
@@ -65,7 +91,8 @@ private:
   void sum_up(const std::vector<Contribution> &contributions);
   void assemble_contact(const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
   void hold(const dealii::Tensor<1, dim> &free_translation);
-  dealii::Vector<double> interior_load(unsigned int cell) const;
+  void extend(unsigned int cell, dealii::Vector<double> &interior, dealii::Vector<double> &u) const;
+  dealii::Vector<double> inside(unsigned int cell, const dealii::Vector<double> &values) const;
 
   const DisplacementSpace<dim> &space;
   dealii::Vector<double> load;                           ///< L(v_i) for every displacement unknown
@@ -73,6 +100,8 @@ private:
   std::vector<dealii::types::global_dof_index> unknowns; ///< their number in the space
   std::vector<unsigned int> number;                      ///< the inverse of unknowns
   std::vector<std::shared_ptr<const ElementStiffness>> elements; ///< by active cell index
+  std::vector<ContactFace<dim>> contact_faces;
+  std::vector<dealii::FullMatrix<double>> couplings; ///< rows of B on each face, by local unknown
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>>
       constrained; ///< kept for the next step
 };

@@ -18,6 +18,16 @@
 namespace hpvi
 {
 /**
+ * Gauss points per direction that integrate products of gradients over a cell. p + 1 are exact on
+ * affine cells. On others 1/det J stands under the integral, and n points beyond p leave a relative
+ * error of rho^{-2n}: rho, the sum of the half axes of the ellipse up to its pole, is
+ * `(sqrt(r) + 1)/(sqrt(r) - 1)` for a quotient r of the values of det J at the ends of an edge. As
+ * many are taken as bring that below 1e-14, so that Galerkin's orthogonality holds to round-off.
+ */
+template <int dim>
+unsigned int stiffness_points(const CellMap<dim> &map, unsigned int degree);
+
+/**
  * Static condensation of the stiffness matrix K of one element: of its unknowns in deal.II's local
  * numbering those in its interior (i) are eliminated, those on its boundary (b) are kept.
  */
@@ -68,6 +78,9 @@ public:
   std::shared_ptr<const dealii::FullMatrix<double>>
   constrained(const std::shared_ptr<const ElementStiffness> &element,
               const std::vector<ConstraintEntry> &T, unsigned int n_targets);
+
+  /** K_ii of one cell, factored: what only a correction of round-off asks for is not kept. */
+  dealii::LAPACKFullMatrix<double> interior(const CellMap<dim> &map, unsigned int degree) const;
 
   /** Forget the constrained matrices that no system uses. */
   void forget_unused();

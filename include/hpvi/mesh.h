@@ -37,6 +37,15 @@ struct Refinement
 template <int dim>
 Degrees refine_mesh(dealii::Triangulation<dim> &triangulation, const Degrees &degrees,
                     const Refinement &refinement);
+/** The outer unit normal of a cell's straight face. */
+template <int dim, class CellIterator>
+dealii::Tensor<1, dim> outer_normal(const CellIterator &cell, const unsigned int face)
+{
+  static_assert(dim == 2, "a straight edge");
+  const dealii::Tensor<1, dim> along = cell->face(face)->vertex(1) - cell->face(face)->vertex(0);
+  const dealii::Tensor<1, dim> normal = dealii::cross_product_2d(along / along.norm());
+  return normal * (cell->face(face)->center() - cell->center()) < 0 ? -normal : normal;
+}
 } // namespace hpvi
 
 #endif

@@ -29,6 +29,13 @@ struct ErrorEstimate
  */
 template <int dim>
 ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+
+/**
+ * eta of round-off alone: of a displacement that is random and as large as the last bit of u_N on
+ * each cell, without loads. No mesh brings the indicator below it.
+ */
+template <int dim>
+double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif

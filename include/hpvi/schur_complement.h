@@ -37,6 +37,9 @@ public:
   /** `x = A^-1 (f - B' lambda)`. */
   dealii::Vector<double> displacement(const dealii::Vector<double> &lambda) const;
 
+  /** `A^-1 f` for another right-hand side. */
+  dealii::Vector<double> solve(const dealii::Vector<double> &f) const;
+
   std::size_t factor_entries() const; ///< entries stored for L
 
 private:

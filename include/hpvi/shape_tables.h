@@ -67,6 +67,9 @@ public:
   /** (n_gauss)^dim points in the cell, with second derivatives. */
   const ShapeTable<dim> &cell(unsigned int degree, unsigned int n_gauss) const;
 
+  /** The same points with first derivatives only. */
+  const ShapeTable<dim> &gradients(unsigned int degree, unsigned int n_gauss) const;
+
   /** (n_gauss)^(dim-1) points on face @p face_no. */
   const ShapeTable<dim> &face(unsigned int degree, unsigned int face_no,
                               unsigned int n_gauss) const;
@@ -90,16 +93,23 @@ public:
   /** The Gauss rule on [0,1]: deal.II computes its points anew for each object. */
   const dealii::QGauss<1> &gauss(unsigned int n_gauss) const;
 
+  /** The Gauss-Lobatto points in [0,1], the nodes of FE_Q(n_points - 1) on an edge. */
+  const std::vector<double> &gauss_lobatto(unsigned int n_points) const;
+
   /** Lagrange polynomials at the Gauss points. */
   const std::vector<dealii::Polynomials::Polynomial<double>> &
   gauss_lagrange(unsigned int n_gauss) const;
 
 private:
+  const ShapeTable<dim> &in_cell(unsigned int degree, unsigned int n_gauss,
+                                 bool second_derivatives) const;
+
   mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
   mutable dealii::hp::FECollection<dim> finite_elements;
   mutable std::map<unsigned int, LocalNumbering> numberings;
   mutable std::map<std::array<unsigned int, 4>, EdgeInterpolation> interpolations;
   mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
+  mutable std::map<unsigned int, std::vector<double>> gauss_lobatto_points;
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
       lagrange_bases;
 };

@@ -2,6 +2,7 @@
 #ifndef hpvi_warnings_h
 #define hpvi_warnings_h
 
+#include <hpvi/iterative_refinement.h>
 #include <hpvi/solution.h>
 
 #include <string>
@@ -12,13 +13,14 @@ namespace hpvi
 /**
  * What in a result asks for care, one line each with its numbers and a remedy: tensile normal
  * stress under bilateral contact, |lambda_N| above 1 between Gauss points, transitions that are not
- * resolved, an indicator that stagnates (@p estimates of all steps so far), elongated elements, low
+ * resolved, round-off that reaches the digits shown, an indicator that stagnates (@p estimates of all steps so far), elongated elements, low
  * degree where Poisson's ratio is near 1/2, a multiplier that is too rich, a body that slips as a
  * whole.
  */
 template <int dim>
 std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                  const std::vector<double> &estimates);
+                                  const std::vector<double> &estimates,
+                                  const AlgebraicError &algebraic);
 } // namespace hpvi
 
 #endif

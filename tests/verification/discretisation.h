@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/internal_forces.h>
 #include <hpvi/schur_complement.h>
 
 #include <cmath>

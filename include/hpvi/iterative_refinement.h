@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_iterative_refinement_h
+#define hpvi_iterative_refinement_h
+
+#include <hpvi/assembly.h>
+#include <hpvi/schur_complement.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+/** How exactly `A u + B' lambda = f` is solved. */
+struct AlgebraicError
+{
+  /**
+   * |u - u_N|_a / |u_N|_a as far as the factorisation A = LL' can tell: `(r' A^-1 r)^{1/2}` with the
+   * residual r. Zero where the work of r on u_N, which costs no solve, shows that it is below 1e-5.
+   */
+  double relative = 0;
+  double multiplier = 0;        ///< the last change of lambda_N that corrections asked for
+  unsigned int corrections = 0; ///< steps of conjugate gradients taken
+
+  double total() const
+  {
+    return std::max(relative, multiplier);
+  }
+
+  /** Beyond this the digits that a table shows are in doubt: a warning. */
+  static constexpr double doubtful = 1e-6;
+  /** Beyond this it is no result. */
+  static constexpr double useless = 1e-2;
+};
+
+/**
+ * Corrects what round-off did to the displacement. The error of a direct solve is round-off times
+ * the condition number: of slender bodies it reaches the size of the solution. The residual
+ * `r = f - B' lambda - A u` is formed from strains (see InternalForces) and its work on u compared
+ * with a(u,u). Where they contradict each other, conjugate gradients preconditioned by the
+ * factorisation bring u to the exact solution of the discrete problem; they need a few steps, since the
+ * factorisation is wrong in a few directions only.
+ */
+template <int dim>
+class IterativeRefinement
+{
+public:
+  /** All must outlive this object. */
+  IterativeRefinement(const Material &material, const DisplacementSpace<dim> &space,
+                      const ShapeTables<dim> &tables, const ElasticSystem<dim> &system,
+                      const ElementStiffnesses<dim> &stiffnesses,
+                      const SchurComplement &schur_complement);
+
+  /** Improve @p u, the solution for the multiplier @p lambda, and say how exact it is now. */
+  AlgebraicError improve(const dealii::Vector<double> &lambda, dealii::Vector<double> &u) const;
+
+private:
+  dealii::Vector<double> residual(const dealii::Vector<double> &lambda,
+                                  const dealii::Vector<double> &u, double &energy_product) const;
+  bool contradicts(const dealii::Vector<double> &residual, const dealii::Vector<double> &u,
+                   double energy_product) const;
+
+  const Material &material;
+  const DisplacementSpace<dim> &space;
+  const ShapeTables<dim> &tables;
+  const ElasticSystem<dim> &system;
+  const ElementStiffnesses<dim> &stiffnesses;
+  const SchurComplement &schur_complement;
+};
+} // namespace hpvi
+
+#endif
