@@ -225,6 +225,7 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
           times,
           seconds,
           {},
+          {},
           {}};
 }
 
@@ -295,7 +296,10 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
     if (finished)
+    {
       step.warnings = warnings(solution, stages->tables, estimates, step.algebraic);
+      step.equilibrium = equilibrium(solution, *stages->discretisation->system, stages->tables);
+    }
     finished_step(step);
     stages->times = StageTimes();
     if (!finished)

@@ -426,11 +426,14 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 }
 
 template <int dim>
-Vector<double> ElasticSystem<dim>::friction_forces(const Vector<double> &lambda) const
+Vector<double> ElasticSystem<dim>::friction_forces(const Vector<double> &lambda,
+                                                   const types::boundary_id only) const
 {
   Vector<double> forces(space.n_dofs());
   for (unsigned int k = 0; k < couplings.size(); ++k)
   {
+    if (only != numbers::invalid_boundary_id && contact_faces[k].condition->id != only)
+      continue;
     const auto dofs = space.cell_dofs(contact_faces[k].cell->active_cell_index());
     for (unsigned int m = 0; m < couplings[k].m(); ++m)
       for (unsigned int i = 0; i < couplings[k].n(); ++i)

@@ -3,6 +3,7 @@
 #define hpvi_adaptive_solver_h
 
 #include <hpvi/energies.h>
+#include <hpvi/equilibrium.h>
 #include <hpvi/iterative_refinement.h>
 #include <hpvi/mprgp.h>
 #include <hpvi/numerical_failure.h>
@@ -84,6 +85,7 @@ struct Step
   double seconds = 0;                ///< since the start of the run, without output and true errors
   std::string stopped_by;            ///< empty, or the limit that makes this the last step
   std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
+  Equilibrium<dim> equilibrium;      ///< likewise of the last step alone
 };
 
 /**

@@ -55,8 +55,10 @@ public:
   /** L(v_i) for every displacement unknown, constrained or not. */
   const dealii::Vector<double> &loads() const;
 
-  /** b(v_i, lambda), likewise. */
-  dealii::Vector<double> friction_forces(const dealii::Vector<double> &lambda) const;
+  /** b(v_i, lambda), likewise; of one contact boundary where it is named. */
+  dealii::Vector<double>
+  friction_forces(const dealii::Vector<double> &lambda,
+                  dealii::types::boundary_id only = dealii::numbers::invalid_boundary_id) const;
 
   /** b(u, w_m) for every multiplier. */
   dealii::Vector<double> tangential_moments(const dealii::Vector<double> &u) const;
