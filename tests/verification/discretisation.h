@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <hpvi/adaptive_solver.h>
-#include <hpvi/schur_complement.h>
+#include <hpvi/reduced_problem.h>
 
 #include <cmath>
 #include <filesystem>
@@ -125,21 +125,20 @@ public:
     return qp;
   }
 
-  /** @p tolerance of the quadratic program; it bounds how exact the solution can be. */
-  Solution<2> solve(const double tolerance = 1e-13) const
+  /** By the scene's solver and tolerance, from zero. */
+  Solution<2> solve() const
   {
     const SchurComplement schur_complement = reduce();
-    Vector<double> lambda;
+    Reduction reduction;
+    reduction.lambda.reinit(contact_space.n_multipliers());
     if (contact_space.n_multipliers() > 0)
-    {
-      Mprgp::Settings settings;
-      settings.tolerance = tolerance;
-      lambda.reinit(contact_space.n_multipliers());
-      const QpReport report = Mprgp(settings).solve(quadratic_program(schur_complement), lambda);
-      EXPECT_TRUE(report.converged) << "projected gradient " << report.projected_gradient;
-    }
-    Vector<double> u = system.recover(schur_complement.displacement(lambda));
-    return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
+      reduction = solve_reduced_problem(scene, contact_space, system, schur_complement,
+                                        std::move(reduction));
+    Vector<double> x = schur_complement.displacement(reduction.lambda);
+    if (scene.free_translation)
+      x.add(reduction.translation, system.translation);
+    return {scene, displacement_space, contact_space, system.recover(x),
+            std::move(reduction.lambda)};
   }
 
   /** Random displacement that meets all constraints, with any multiplier. */
