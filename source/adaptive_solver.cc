@@ -77,7 +77,6 @@ struct AdaptiveSolver<dim>::Stages
 
   void discretise();
   Solution<dim> solve(Reduction &reduction);
-  Vector<double> solve_to_round_off(const SchurComplement &schur_complement, Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
   Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
@@ -113,57 +112,19 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   }
   reduction.lambda = previous.values(contact_space, tables);
   reduction.translation = translation;
-  Vector<double> u = solve_to_round_off(*schur_complement, reduction);
+  const Timer timer;
+  Vector<double> u =
+      IterativeRefinement<dim>(scene, discretisation->displacement_space, contact_space, tables,
+                               system, stiffnesses, *schur_complement)
+          .solve(reduction, algebraic);
+  times.qp += reduction.seconds;
+  times.recover += timer.wall_time() - reduction.seconds;
   if (contact_space.n_multipliers() > 0 && scene.solver.qp_warm_start)
   {
     previous = MultiplierTrace<dim>(contact_space, reduction.lambda);
     translation = reduction.translation;
   }
   return {scene, discretisation->displacement_space, contact_space, std::move(u), reduction.lambda};
-}
-
-/**
- * Multiplier and displacement. Where the displacement had to be corrected, S and d carry the same
- * round-off: the multiplier is then found again from what the corrected displacement does at the contact
- * boundary, until it stays where it is.
- */
-template <int dim>
-Vector<double>
-AdaptiveSolver<dim>::Stages::solve_to_round_off(const SchurComplement &schur_complement,
-                                                Reduction &reduction)
-{
-  const ElasticSystem<dim> &system = *discretisation->system;
-  const unsigned int n_multipliers = discretisation->contact_space.n_multipliers();
-  const IterativeRefinement<dim> refinement(scene.material, discretisation->displacement_space,
-                                            tables, system, stiffnesses, schur_complement);
-  Vector<double> u, defect(n_multipliers), last;
-  for (unsigned int passes_left = 10;; --passes_left)
-  {
-    if (n_multipliers > 0)
-    {
-      StageTimer timer(times.qp);
-      reduction = solve_reduced_problem(scene, discretisation->contact_space, system,
-                                        schur_complement, defect, std::move(reduction));
-    }
-    StageTimer timer(times.recover);
-    Vector<double> x = schur_complement.displacement(reduction.lambda);
-    if (scene.free_translation)
-      x.add(reduction.translation, system.translation);
-    u = system.recover(x);
-    algebraic = refinement.improve(reduction.lambda, u);
-    if (algebraic.corrections == 0 || n_multipliers == 0)
-      return u;
-    if (last.size() > 0)
-    {
-      last -= reduction.lambda;
-      algebraic.multiplier = last.linfty_norm();
-    }
-    if (algebraic.multiplier <= 1e-9 || passes_left == 1)
-      return u;
-    last = reduction.lambda;
-    defect += system.tangential_moments(u);
-    defect -= reduction.moments;
-  }
 }
 
 template <int dim>

@@ -488,8 +488,8 @@ ElasticSystem<dim>::interiors(const ElementStiffnesses<dim> &stiffnesses) const
   {
     const unsigned int index = cell->active_cell_index();
     if (elements[index]->extension.m() > 0 && result.count(elements[index].get()) == 0)
-      result.emplace(elements[index].get(),
-                     stiffnesses.interior(map_of<dim>(cell), space.degrees()[index]));
+      stiffnesses.interior(map_of<dim>(cell), space.degrees()[index],
+                           result[elements[index].get()]);
   }
   return result;
 }

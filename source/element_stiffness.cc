@@ -63,18 +63,20 @@ unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree
 
 namespace
 {
-/** The block of @p K that belongs to the unknowns inside the cell, by its Cholesky factor. */
-LAPACKFullMatrix<double> factored_interior(const FullMatrix<double> &K,
-                                           const unsigned int n_boundary)
+/**
+ * @p K_ii := the block of @p K that belongs to the unknowns inside the cell, by its Cholesky factor. Not
+ * returned: a copy of deal.II's matrix forgets that it is a factor.
+ */
+void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
+                     LAPACKFullMatrix<double> &K_ii)
 {
   const unsigned int n_interior = K.m() - n_boundary;
-  LAPACKFullMatrix<double> K_ii(n_interior);
+  K_ii.reinit(n_interior);
   for (unsigned int i = 0; i < n_interior; ++i)
     for (unsigned int j = 0; j < n_interior; ++j)
       K_ii(i, j) = K(n_boundary + i, n_boundary + j);
   K_ii.set_property(LAPACKSupport::symmetric);
   K_ii.compute_cholesky_factorization();
-  return K_ii;
 }
 } // namespace
 
@@ -138,7 +140,8 @@ ElementStiffnesses<dim>::condense(const FullMatrix<double> &K, const unsigned in
   element->condensed.fill(K, 0, 0, 0, 0);
   if (n_interior > 0)
   {
-    LAPACKFullMatrix<double> K_ii = factored_interior(K, n_boundary), K_ib(n_interior, n_boundary);
+    LAPACKFullMatrix<double> K_ii, K_ib(n_interior, n_boundary);
+    factor_interior(K, n_boundary, K_ii);
     for (unsigned int i = 0; i < n_interior; ++i)
       for (unsigned int j = 0; j < n_boundary; ++j)
         K_ib(i, j) = -K(n_boundary + i, j);
@@ -169,10 +172,10 @@ std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellM
 }
 
 template <int dim>
-LAPACKFullMatrix<double> ElementStiffnesses<dim>::interior(const CellMap<dim> &map,
-                                                           const unsigned int degree) const
+void ElementStiffnesses<dim>::interior(const CellMap<dim> &map, const unsigned int degree,
+                                       LAPACKFullMatrix<double> &K_ii) const
 {
-  return factored_interior(stiffness(map, degree), tables.numbering(degree).n_boundary);
+  factor_interior(stiffness(map, degree), tables.numbering(degree).n_boundary, K_ii);
 }
 
 namespace

@@ -19,15 +19,45 @@ double dot(const Vector<double> &a, const Vector<double> &b)
 } // namespace
 
 template <int dim>
-IterativeRefinement<dim>::IterativeRefinement(const Material &material,
+IterativeRefinement<dim>::IterativeRefinement(const Scene<dim> &scene,
                                               const DisplacementSpace<dim> &space,
+                                              const ContactSpace<dim> &contact_space,
                                               const ShapeTables<dim> &tables,
                                               const ElasticSystem<dim> &system,
                                               const ElementStiffnesses<dim> &stiffnesses,
                                               const SchurComplement &schur_complement)
-    : material(material), space(space), tables(tables), system(system), stiffnesses(stiffnesses),
-      schur_complement(schur_complement)
+    : scene(scene), space(space), contact_space(contact_space), tables(tables), system(system),
+      stiffnesses(stiffnesses), schur_complement(schur_complement)
 {
+}
+
+template <int dim>
+Vector<double> IterativeRefinement<dim>::solve(Reduction &reduction, AlgebraicError &error) const
+{
+  Vector<double> u, defect(contact_space.n_multipliers()), last;
+  for (unsigned int passes_left = 10;; --passes_left)
+  {
+    if (defect.size() > 0)
+      reduction = solve_reduced_problem(scene, contact_space, system, schur_complement, defect,
+                                        std::move(reduction));
+    Vector<double> x = schur_complement.displacement(reduction.lambda);
+    if (scene.free_translation)
+      x.add(reduction.translation, system.translation);
+    u = system.recover(x);
+    error = improve(reduction.lambda, u);
+    if (error.corrections == 0 || defect.size() == 0)
+      return u;
+    if (last.size() > 0)
+    {
+      last -= reduction.lambda;
+      error.multiplier = last.linfty_norm();
+      if (error.multiplier <= 1e-9 || passes_left == 1)
+        return u;
+    }
+    last = reduction.lambda;
+    defect += system.tangential_moments(u);
+    defect -= reduction.moments;
+  }
 }
 
 /** `f - B' lambda - A u` for every displacement unknown; at supports that is minus their reaction. */
@@ -36,7 +66,7 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &lambda,
                                                   const Vector<double> &u,
                                                   double &energy_product) const
 {
-  const InternalForces internal = internal_forces(material, space, tables, u);
+  const InternalForces internal = internal_forces(scene.material, space, tables, u);
   energy_product = internal.energy_product;
   Vector<double> r(system.loads());
   r -= internal.forces;
@@ -81,7 +111,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
   for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
        ++error.corrections)
   {
-    const double curvature = internal_forces(material, space, tables, p).energy_product;
+    const double curvature = internal_forces(scene.material, space, tables, p).energy_product;
     if (!(curvature > 0.))
       break;
     u.add(dot(r, p) / curvature, p);

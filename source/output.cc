@@ -486,12 +486,12 @@ void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name) cons
   for (const std::string &field : stress_fields.get_names())
     flags.physical_units[field] = pressure;
   data_out.set_flags(flags);
+  data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(space.dof_handler(), step.solution.u,
                            std::vector<std::string>(dim, "displacement"),
                            std::vector<DataComponentInterpretation::DataComponentInterpretation>(
                                dim, DataComponentInterpretation::component_is_part_of_vector));
   data_out.add_data_vector(space.dof_handler(), step.solution.u, stress_fields);
-  data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(degree, "degree", DataOut<dim>::type_cell_data);
   data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
   const unsigned int p_max = *std::max_element(space.degrees().begin(), space.degrees().end());

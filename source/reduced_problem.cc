@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/timer.h>
 #include <hpvi/active_set.h>
 #include <hpvi/augmented_lagrangian.h>
 #include <hpvi/numerical_failure.h>
@@ -78,6 +79,7 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
                                 const SchurComplement &schur_complement,
                                 const Vector<double> &defect, Reduction start)
 {
+  const Timer timer;
   Reduction result = std::move(start);
   QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
   qp.d += system.B_prescribed;
@@ -105,6 +107,7 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
     result.condition_raw = condition_number(qp.S);
     result.condition_scaled = condition_number(scaled_by_diagonal(qp.S));
   }
+  result.seconds += timer.wall_time();
   return result;
 }
 

@@ -80,7 +80,8 @@ public:
               const std::vector<ConstraintEntry> &T, unsigned int n_targets);
 
   /** K_ii of one cell, factored: what only a correction of round-off asks for is not kept. */
-  dealii::LAPACKFullMatrix<double> interior(const CellMap<dim> &map, unsigned int degree) const;
+  void interior(const CellMap<dim> &map, unsigned int degree,
+                dealii::LAPACKFullMatrix<double> &K_ii) const;
 
   /** Forget the constrained matrices that no system uses. */
   void forget_unused();

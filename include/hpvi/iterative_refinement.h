@@ -2,8 +2,7 @@
 #ifndef hpvi_iterative_refinement_h
 #define hpvi_iterative_refinement_h
 
-#include <hpvi/assembly.h>
-#include <hpvi/schur_complement.h>
+#include <hpvi/reduced_problem.h>
 
 #include <algorithm>
 
@@ -44,10 +43,18 @@ class IterativeRefinement
 {
 public:
   /** All must outlive this object. */
-  IterativeRefinement(const Material &material, const DisplacementSpace<dim> &space,
-                      const ShapeTables<dim> &tables, const ElasticSystem<dim> &system,
-                      const ElementStiffnesses<dim> &stiffnesses,
+  IterativeRefinement(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                      const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
+                      const ElasticSystem<dim> &system, const ElementStiffnesses<dim> &stiffnesses,
                       const SchurComplement &schur_complement);
+
+  /**
+   * The displacement, and the multiplier in @p reduction, which comes with the starting value. Where
+   * the displacement has to be corrected, S and d carry the same round-off: the multiplier is then
+   * found again from what the corrected displacement does at the contact boundary, until it stays
+   * where it is. Throws what solve_reduced_problem throws.
+   */
+  dealii::Vector<double> solve(Reduction &reduction, AlgebraicError &error) const;
 
   /** Improve @p u, the solution for the multiplier @p lambda, and say how exact it is now. */
   AlgebraicError improve(const dealii::Vector<double> &lambda, dealii::Vector<double> &u) const;
@@ -58,8 +65,9 @@ private:
   bool contradicts(const dealii::Vector<double> &residual, const dealii::Vector<double> &u,
                    double energy_product) const;
 
-  const Material &material;
+  const Scene<dim> &scene;
   const DisplacementSpace<dim> &space;
+  const ContactSpace<dim> &contact_space;
   const ShapeTables<dim> &tables;
   const ElasticSystem<dim> &system;
   const ElementStiffnesses<dim> &stiffnesses;

@@ -16,6 +16,7 @@ struct Reduction
   dealii::Vector<double> moments;
   double translation = 0; ///< length by which a body moves that friction alone holds
   QpReport qp;
+  double seconds = 0;          ///< of wall time, for all calls that went on from one another
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
 };

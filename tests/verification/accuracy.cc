@@ -2,6 +2,8 @@
 // True errors, stored reference solutions, and the limits that stop a run.
 #include "discretisation.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
 namespace
 {
 using namespace verification;
@@ -10,7 +12,7 @@ using namespace verification;
 struct Row
 {
   unsigned int n;
-  double relative, scaled, seconds;
+  double relative, scaled, seconds, energy;
   TrueErrors errors;
   std::string stopped_by;
 };
@@ -22,7 +24,8 @@ std::vector<Row> run(const Scene<2> &scene)
       [&](const Step<2> &step)
       {
         rows.push_back({step.solution.displacement_space.n_free_dofs(), step.relative_estimate,
-                        step.scaled_estimate, step.seconds, step.errors, step.stopped_by});
+                        step.scaled_estimate, step.seconds, step.energies.energy, step.errors,
+                        step.stopped_by});
       });
   return rows;
 }
@@ -52,6 +55,50 @@ TEST(TrueError, NormOfTheExactSolution)
 {
   const auto rows = run(shipped_scene("stick-slip", adaptivity("hup2", 2)));
   EXPECT_NEAR(rows.back().errors.energy_norm, std::sqrt(0.37710185557), 1e-9);
+}
+
+/**
+ * The errors of no displacement at all are norms of the exact solution: |lambda|^2 of stick-slip is
+ * 1 where it slips and `int (1 - sqrt(x))^2 = 1/6` where it sticks.
+ */
+TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
+{
+  const Scene<2> scene = shipped_scene("stick-slip");
+  const RandomMesh mesh(scene, 1, 1);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> nothing{scene, discrete.displacement_space, discrete.contact_space,
+                            Vector<double>(discrete.displacement_space.n_dofs()),
+                            Vector<double>(discrete.contact_space.n_multipliers())};
+  double square = 0;
+  const QIterated<1> gauss(QGauss<1>(6), 40);
+  for (unsigned int i = 0; i < gauss.size(); ++i)
+    for (unsigned int j = 0; j < gauss.size(); ++j)
+    {
+      const Point<2> x(2 * gauss.point(i)[0] - 1, gauss.point(j)[0]);
+      square += 2 * gauss.weight(i) * gauss.weight(j) *
+                scene.exact_solution->displacement(x).norm_square();
+    }
+  const TrueErrors errors = TrueError<2>(scene, discrete.tables).measure(nothing);
+  EXPECT_NEAR(errors.energy, std::sqrt(0.37710185557), 1e-9);
+  EXPECT_NEAR(errors.l2, std::sqrt(square), 1e-8);
+  EXPECT_NEAR(errors.multiplier_l2, std::sqrt(7. / 6), 1e-9);
+  EXPECT_TRUE(std::isnan(errors.transition)); // it sticks everywhere
+}
+
+/** Four edges with two Gauss points each: the middle between those beside x = 0 is 0. */
+TEST(TrueError, OfTheTransitionIsADistance)
+{
+  const Scene<2> scene = shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"}});
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Discretisation discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
+  Vector<double> lambda(discrete.contact_space.n_multipliers());
+  ASSERT_EQ(lambda.size(), 8U);
+  for (unsigned int i = 0; i < 4; ++i)
+    lambda[i] = 1.;
+  const Solution<2> solution{scene, discrete.displacement_space, discrete.contact_space,
+                             Vector<double>(discrete.displacement_space.n_dofs()), lambda};
+  EXPECT_NEAR(TrueError<2>(scene, discrete.tables).measure(solution).transition, 0.1, 1e-14);
 }
 
 TEST(TrueError, PureDegreeConvergesExponentiallyOnASmoothField)
@@ -101,6 +148,18 @@ TEST(TrueError, EnergyDifferenceObeysItsIdentity)
             const double expected = half_square + step.energies.slack;
             const double difference = step.energies.energy - step.errors.reference_energy;
             EXPECT_NEAR(difference, expected, 1e-3 * expected + half_square) << step.number;
+          });
+}
+
+/** Here loads work, too: those of the top edge. */
+TEST(TrueError, EnergyTendsToThatOfTheExactSolution)
+{
+  AdaptiveSolver<2>(shipped_scene("smooth", {{"Adaptivity/Maximum steps", "9"}}))
+      .run(
+          [](const Step<2> &step)
+          {
+            const double bound = 1e-9 + step.errors.energy * step.errors.energy_norm;
+            EXPECT_NEAR(step.energies.energy, step.errors.reference_energy, bound) << step.number;
           });
 }
 
@@ -163,6 +222,7 @@ TEST(StoredSolution, ASolutionHasNoDistanceFromItself)
   const auto rows = run(shipped_scene("han-6-12", overrides));
   EXPECT_LT(rows.back().errors.energy, 1e-12 * rows.back().errors.energy_norm);
   EXPECT_GT(rows.front().errors.energy, 1e-3);
+  EXPECT_EQ(rows.back().errors.reference_energy, rows.back().energy);
 }
 
 TEST(StoredSolution, MeasuresWhatTheExactSolutionMeasures)
@@ -239,5 +299,18 @@ TEST(Limits, EachStopsTheRunAndSaysSo)
   rows = stop({{"Adaptivity/Method", "pu"}, {"Adaptivity/Maximum degree", "4"}});
   EXPECT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows.back().stopped_by, "Maximum degree");
+}
+
+TEST(Limits, SecondsAreThoseOfAllStepsSoFar)
+{
+  double sum = 0;
+  AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "4"}}))
+      .run(
+          [&](const Step<2> &step)
+          {
+            sum += step.times.total();
+            EXPECT_GT(step.times.total(), 0.);
+            EXPECT_NEAR(step.seconds, sum, 1e-12);
+          });
 }
 } // namespace

@@ -226,14 +226,14 @@ Scene<2> elastic_scene(const bool body_force)
                    {"Boundary top/Displacement", "0; 0"}});
 }
 
-/** a(v_j, v_i) on one cell with the quadrature of the program, p + 1 points per direction. */
+/** a(v_j, v_i) on one cell, with points enough for any quadrilateral. */
 FullMatrix<double> stiffness_by_fe_values(const Vertices &vertices, const unsigned int p,
                                           const Material &material)
 {
   Triangulation<2> mesh;
   make_cell(vertices, mesh);
   const FESystem<2> fe(FE_Q<2>(p), 2);
-  FEValues<2> values(fe, QGauss<2>(p + 1), update_gradients | update_JxW_values);
+  FEValues<2> values(fe, QGauss<2>(p + 20), update_gradients | update_JxW_values);
   values.reinit(mesh.begin_active());
   const FEValuesExtractors::Vector u(0);
   FullMatrix<double> K(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
@@ -337,8 +337,12 @@ TEST(CongruenceCache, TellsShapesAndDegreesApart)
   for (const NamedCell &cell : cells)
     for (const unsigned int degree : {2u, 3u})
       add(cell.vertices, degree);
-  add({{{0, 0}, {1, 0}, {0, 1 + 1e-6}, {1, 1 + 1e-6}}}, 2); // nearly the square
-  add({{{0, 0}, {1, 0}, {0, 1}, {1, 1 + 1e-6}}}, 2);
+  for (const double little : {1e-6, 1e-8, 1e-10}) // nearly the square
+  {
+    add({{{0, 0}, {1, 0}, {0, 1 + little}, {1, 1 + little}}}, 2);
+    add({{{0, 0}, {1, 0}, {0, 1}, {1, 1 + little}}}, 2);
+    add({{{0, 0}, {1 + little, 0}, {0, 1}, {1, 1}}}, 2);
+  }
   EXPECT_EQ(different.size(), elements.size());
 }
 
@@ -651,5 +655,23 @@ TEST(ResidualIndicator, IsThatOfFEValuesOnDistortedCells)
 {
   for (const unsigned int seed : {1u, 2u, 3u})
     expect_right_indicator(loaded_scene("0, 0; 3, 0.6; 2.6, 2.6; -0.3, 2"), seed, 1);
+}
+
+/** a(v,v) >= 2 mu |eps|^2 with 2 mu = E/(1+nu), whatever the plane model. */
+TEST(ResidualIndicator, IsScaledByTheCoercivityOfTheMaterial)
+{
+  for (const std::string plane : {"stress", "strain"})
+    AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Material/Young's modulus", "12"},
+                                                 {"Material/Poisson's ratio", "0.25"},
+                                                 {"Material/Plane", plane},
+                                                 {"Adaptivity/Maximum steps", "2"}}))
+        .run(
+            [](const Step<2> &step)
+            {
+              const double eta = step.estimate.total();
+              EXPECT_NEAR(step.scaled_estimate, eta / std::sqrt(9.6), 1e-12 * eta);
+              EXPECT_NEAR(step.relative_estimate * step.energies.norm, step.scaled_estimate,
+                          1e-12 * eta);
+            });
 }
 } // namespace

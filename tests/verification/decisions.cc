@@ -359,6 +359,24 @@ TEST_F(Marking, SecondMethodRaisesWhereTheFieldIsSmooth)
   EXPECT_TRUE(raised(result, Degrees(10, 3)).empty());
 }
 
+/** The largest of ten is 16; a fourth of it is 4, which is not above. */
+TEST_F(Marking, ThirdMethodComparesWithTheLargest)
+{
+  adaptivity.hpa3_threshold = 0.25;
+  adaptivity.hpa3_decay = 0.8;
+  adaptivity.hpa2_decay = adaptivity.hap_threshold = 100.; // those of other methods have no say
+  const std::vector<double> decay = {9, 0.8, 9, 0.81, 9, 9, 9, 9, 0.1, 9};
+  Refinement result = mark_with(Method::hpa3, ten, degrees_of_ten, decay);
+  EXPECT_EQ(bisected(result), (Cells{1, 8}));
+  EXPECT_EQ(raised(result, degrees_of_ten), (Cells{3}));
+  EXPECT_EQ(asked, (std::set<unsigned int>{1, 3, 8}));
+
+  adaptivity.maximum_degree = 5;
+  result = mark_with(Method::hpa3, ten, degrees_of_ten, decay);
+  EXPECT_EQ(bisected(result), (Cells{1, 3, 8}));
+  EXPECT_TRUE(raised(result, degrees_of_ten).empty());
+}
+
 TEST_F(Marking, FractionsAreRoundedUp)
 {
   adaptivity.hpa2_marked = 0.2;
@@ -381,13 +399,15 @@ TEST_F(Marking, DefaultsAreTheNumbersOfTheThesis)
   EXPECT_EQ(defaults.hpa1_raised, 0.1);
   EXPECT_EQ(defaults.hpa2_marked, 0.2);
   EXPECT_EQ(defaults.hpa2_decay, 1.);
+  EXPECT_EQ(defaults.hpa3_threshold, 0.2); // ours
+  EXPECT_EQ(defaults.hpa3_decay, 0.8);
 }
 
 TEST_F(Marking, EveryMethodStartsAtItsOwnDegree)
 {
   const std::vector<std::pair<std::string, unsigned int>> degrees = {
       {"hup2", 2}, {"hup3", 3}, {"hup4", 4}, {"hap2", 2}, {"hap3", 3},
-      {"hap4", 4}, {"pu", 2},   {"hpa1", 2}, {"hpa2", 3}};
+      {"hap4", 4}, {"pu", 2},   {"hpa1", 2}, {"hpa2", 3}, {"hpa3", 3}};
   for (const auto &[name, degree] : degrees)
     EXPECT_EQ(shipped_scene("han-6-13", {{"Adaptivity/Method", name}}).adaptivity.start_degree,
               degree)
@@ -403,6 +423,30 @@ unsigned int cell_at(const Triangulation<2> &mesh, const Point<2> &x)
     if (cell->point_inside(x))
       return cell->active_cell_index();
   return numbers::invalid_unsigned_int;
+}
+
+/** Two cells of side 1 meet at (1,0): each level replaces two cells by eight. */
+TEST(MakeMesh, GradesTowardsAPointByLevels)
+{
+  for (const std::string corners : {"", "0, 0; 2.4, 3.2; -0.8, 5.6; -3.2, 2.4"}) // or turned
+    for (const unsigned int levels : {0u, 1u, 3u})
+    {
+      Overrides entries = {{"Geometry/Grading levels", std::to_string(levels)},
+                           {"Geometry/Graded towards", corners.empty() ? "1, 0" : "0.6, 0.8"}};
+      if (!corners.empty())
+        for (const auto &[entry, value] : Overrides{{"Shape", "quadrilateral"},
+                                                    {"Corners", corners},
+                                                    {"Lower corner", "0, 0"},
+                                                    {"Upper corner", "1, 1"}})
+          entries.emplace_back("Geometry/" + entry, value);
+      Triangulation<2> mesh;
+      make_mesh(shipped_scene("han-6-12", entries), mesh);
+      EXPECT_EQ(mesh.n_active_cells(), 16 + 6 * levels);
+      double smallest = 1.;
+      for (const auto &cell : mesh.active_cell_iterators())
+        smallest = std::min(smallest, cell->face(0)->measure());
+      EXPECT_NEAR(smallest, std::pow(0.5, levels), 1e-12);
+    }
 }
 
 TEST(RefineMesh, CellsAreEitherBisectedOrRaised)

@@ -72,7 +72,7 @@ public:
 
 private:
   void assemble_cells(const Solution<2> &solution, unsigned int extra);
-  void assemble_tractions(const Solution<2> &solution);
+  void assemble_tractions(const Solution<2> &solution, unsigned int extra);
   void assemble_contact(const Solution<2> &solution);
   Vector<double> condense(const Vector<double> &v) const;
 
@@ -96,7 +96,7 @@ Oracle::Oracle(const Solution<2> &solution, const unsigned int extra)
   F.reinit(dofs.n_dofs());
   B.reinit(solution.contact_space.n_multipliers(), dofs.n_dofs());
   assemble_cells(solution, extra);
-  assemble_tractions(solution);
+  assemble_tractions(solution, extra);
   assemble_contact(solution);
 }
 
@@ -139,11 +139,11 @@ void Oracle::assemble_cells(const Solution<2> &solution, const unsigned int extr
   }
 }
 
-void Oracle::assemble_tractions(const Solution<2> &solution)
+void Oracle::assemble_tractions(const Solution<2> &solution, const unsigned int extra)
 {
   const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
   hp::FEFaceValues<2> hp_values(dofs.get_fe_collection(),
-                                quadratures<1>(dofs.get_fe_collection(), 2),
+                                quadratures<1>(dofs.get_fe_collection(), extra),
                                 update_values | update_JxW_values | update_quadrature_points);
   std::vector<types::global_dof_index> indices;
   for (const auto &cell : dofs.active_cell_iterators())
@@ -366,26 +366,30 @@ INSTANTIATE_TEST_SUITE_P(, ThesisExample, ::testing::Values("han-6-12", "han-6-1
                          [](const auto &info)
                          { return info.param == "han-6-12" ? "Square" : "Bar"; });
 
-/** Prescribed displacements that move the end of the contact boundary belong to this, too. */
-TEST(Equilibrium, HoldsWithEveryKindOfDataOnADistortedRandomMesh)
+/** Every kind of data; prescribed displacements move the end of the contact boundary. */
+Scene<2> scene_of_every_kind(const std::string &friction_bound)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                                   {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
-                                   {"Geometry/Subdivisions", "2, 2"},
-                                   {"Material/Young's modulus", "7"},
-                                   {"Body force/Expression", "x*y; 1 - x"},
-                                   {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
-                                   {"Boundary left/Displacement", "0.05 + 0.1*x; free"},
-                                   {"Boundary left/Traction", "0; y"},
-                                   {"Boundary right/Traction", "1 + y; -x"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.1 + 0.2*x"}});
+  return scene_of({{"Geometry/Shape", "quadrilateral"},
+                   {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
+                   {"Geometry/Subdivisions", "2, 2"},
+                   {"Material/Young's modulus", "7"},
+                   {"Body force/Expression", "x*y; 1 - x"},
+                   {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
+                   {"Boundary left/Displacement", "0.05 + 0.1*x; free"},
+                   {"Boundary left/Traction", "0; y"},
+                   {"Boundary right/Traction", "1 + y; -x"},
+                   {"Boundary bottom/Contact", "bilateral"},
+                   {"Boundary bottom/Friction bound", friction_bound}});
+}
+
+/** Returns the number of slipping Gauss points. */
+unsigned int expect_equilibrium(const Scene<2> &scene)
+{
   const RandomMesh mesh(scene, 3, 2);
   const Discretisation discrete(scene, mesh);
-  const double tolerance = 1e-11;
-  const Solution<2> solution = discrete.solve(tolerance);
-  // On distorted cells no quadrature is exact; the program's has p + 1 points.
-  const Oracle oracle(solution, 1);
+  const Solution<2> solution = discrete.solve();
+  // On distorted cells no quadrature is exact; Galerkin's orthogonality asks for all digits.
+  const Oracle oracle(solution, 20);
   EXPECT_LE(oracle.residual(solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
   EXPECT_GT(discrete.system.B_prescribed.linfty_norm(), 0.);
   const double a = oracle.energy_product(solution.u);
@@ -394,7 +398,65 @@ TEST(Equilibrium, HoldsWithEveryKindOfDataOnADistortedRandomMesh)
           .energy_product,
       a, 1e-10 * a);
   EXPECT_NEAR(discrete.system.work(solution.u), oracle.work(solution.u), 1e-10 * a);
-  expect_complementary(solution, discrete.system, tolerance);
+  return expect_complementary(solution, discrete.system, scene.solver.qp_tolerance);
+}
+
+TEST(Equilibrium, HoldsWithEveryKindOfDataOnADistortedRandomMesh)
+{
+  const unsigned int n_weak = expect_equilibrium(scene_of_every_kind("0.1 + 0.2*x"));
+  const unsigned int n_strong = expect_equilibrium(scene_of_every_kind("10 + 20*x"));
+  EXPECT_GT(n_weak, n_strong); // where all slips, B u has a sign only
+}
+
+/** B u = B_free x + B_prescribed for any x: FEValues knows nothing of the two parts. */
+TEST(Coupling, OfPrescribedDisplacementsIsPartOfTheWhole)
+{
+  const Scene<2> scene = scene_of_every_kind("0.1 + 0.2*x");
+  const RandomMesh mesh(scene, 3, 2);
+  const Discretisation discrete(scene, mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  for (const double factor : {0., 1.})
+  {
+    Vector<double> x(discrete.system.f.size());
+    for (double &value : x)
+      value = factor * uniform(random);
+    Solution<2> field = discrete.random_field(random);
+    field.u = discrete.system.recover(x);
+    Vector<double> moments = Oracle(field).tangential_moments(field.u);
+    const double largest = moments.linfty_norm();
+    EXPECT_GT(largest, 0.);
+    moments -= discrete.system.B_prescribed;
+    for (unsigned int m = 0; m < moments.size(); ++m)
+      for (unsigned int k = 0; k < discrete.system.B.n(); ++k)
+        moments[m] -= discrete.system.B(m, k) * x[discrete.system.contact_unknowns[k]];
+    EXPECT_LE(moments.linfty_norm(), 1e-12 * largest);
+  }
+}
+
+/** `p + 2` Gauss points on cells and edges take loads that are three degrees higher than p. */
+TEST(Loads, OfDegreePPlusThreeAreIntegratedExactly)
+{
+  for (const unsigned int p : {1u, 2u, 3u, 5u})
+  {
+    const std::string power = "^" + std::to_string(p + 3);
+    const std::string smooth = "(x" + power + " - 0.5*x); (0.3 - y" + power + ")";
+    for (const std::string loaded : {"Boundary right/Traction", "Boundary bottom/Traction",
+                                     "Boundary left/Traction", "Body force/Expression"})
+    {
+      const Scene<2> scene = scene_of({{"Geometry/Upper corner", "1, 1.5"},
+                                       {"Geometry/Subdivisions", "1, 2"},
+                                       {"Boundary top/Displacement", "0; 0"},
+                                       {loaded, smooth}});
+      const RandomMesh mesh(scene, 1, 1, p, p);
+      const Discretisation discrete(scene, mesh);
+      std::mt19937 random(p);
+      const Solution<2> field = discrete.random_field(random);
+      const double work = Oracle(field, 5).work(field.u);
+      EXPECT_NEAR(discrete.system.work(field.u), work, 1e-12) << loaded << ", p = " << p;
+      EXPECT_GT(std::abs(work), 1e-3);
+    }
+  }
 }
 
 // ---------------------------------------------------------------- patch tests
@@ -439,11 +501,12 @@ std::ostream &operator<<(std::ostream &out, const Block &block)
 struct Shear
 {
   double foot, strain, friction_bound;
+  bool top_is_held = true; ///< else friction alone holds the block
 };
 
 constexpr double young = 2.6, poisson = 0.3, shear_modulus = 1.;
 
-/** The sides carry the traction of the shear stress, the top follows the displacement. */
+/** The sides carry the traction of the shear stress; the top does, or follows the displacement. */
 Scene<2> shear_scene(const Block &block, const Shear &shear)
 {
   Overrides entries = {{"Geometry/Shape", "quadrilateral"},
@@ -453,19 +516,22 @@ Scene<2> shear_scene(const Block &block, const Shear &shear)
                        {"Material/Poisson's ratio", text(poisson)},
                        {"Boundary bottom/Contact", "bilateral"},
                        {"Boundary bottom/Friction bound", text(shear.friction_bound)}};
+  std::vector<std::tuple<std::string, int, int>> loaded = {{"right", 1, 2}, {"left", 3, 0}};
   const Tensor<1, 2> along = block.turned(Point<2>(1., 0.));
   const std::string u =
       "(" + text(shear.foot) + " + " + text(shear.strain) + "*" + block.height() + ")";
-  entries.emplace_back("Boundary top/Displacement",
-                       text(along[0]) + "*" + u + "; " + text(along[1]) + "*" + u);
+  if (shear.top_is_held)
+    entries.emplace_back("Boundary top/Displacement",
+                         text(along[0]) + "*" + u + "; " + text(along[1]) + "*" + u);
+  else
+    loaded.emplace_back("top", 2, 3);
   const double tau = shear_modulus * shear.strain;
-  for (const auto &[side, first, second] :
-       {std::make_tuple("right", 1, 2), std::make_tuple("left", 3, 0)})
+  for (const auto &[side, first, second] : loaded)
   {
     const Tensor<1, 2> edge = block.corners[second] - block.corners[first];
     const Tensor<1, 2> n = Point<2>(edge[1], -edge[0]) / edge.norm();
     const Tensor<1, 2> traction = block.turned(Point<2>(tau * n[1], tau * n[0]));
-    entries.emplace_back(std::string("Boundary ") + side + "/Traction",
+    entries.emplace_back("Boundary " + side + "/Traction",
                          text(traction[0]) + "; " + text(traction[1]));
   }
   return scene_of(entries);
@@ -512,10 +578,12 @@ protected:
                       const double height = x * block.turned(Point<2>(0., 1.));
                       return (shear.foot + shear.strain * height) * block.turned(Point<2>(1., 0.));
                     });
-    EXPECT_LE(error, 1e-10 * largest);
+    // Where friction alone holds the block, a soft spring does for the solver, at a loss of digits.
+    const double loss = shear.top_is_held ? 1. : 1000.;
+    EXPECT_LE(error, 1e-10 * loss * largest);
     for (const double lambda : solution.lambda)
-      EXPECT_NEAR(lambda, multiplier, 1e-10);
-    EXPECT_LE(estimate_error(solution, discrete.tables).total(), 1e-9 * young * largest);
+      EXPECT_NEAR(lambda, multiplier, 1e-10 * loss);
+    EXPECT_LE(estimate_error(solution, discrete.tables).total(), 1e-9 * loss * young * largest);
   }
 };
 
@@ -544,6 +612,12 @@ TEST_P(PatchTest, TinyBound)
 TEST_P(PatchTest, WithoutFrictionTheBlockRolls)
 {
   expect_exact({0.3, 0., 0.}, 0.);
+}
+
+TEST_P(PatchTest, FrictionAloneHoldsTheBlock)
+{
+  expect_exact({0., 0.04, 0.1, false}, 0.4);
+  expect_exact({0., -0.09, 0.1, false}, -0.9);
 }
 
 const double thirty_degrees = numbers::PI / 6;
@@ -582,7 +656,7 @@ TEST(LargeFrictionBound, TheWholeContactBoundarySticks)
   const Scene<2> scene = shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5e6"}});
   const RandomMesh mesh(scene, 11, 2);
   const Discretisation discrete(scene, mesh);
-  const Solution<2> solution = discrete.solve(1e-12);
+  const Solution<2> solution = discrete.solve();
   const Vector<double> moments = Oracle(solution).tangential_moments(solution.u);
   EXPECT_LT(solution.lambda.linfty_norm(), 1e-3);
   EXPECT_LE(moments.linfty_norm(), 1e-10 * 4.5e6 * solution.u.linfty_norm());
@@ -858,7 +932,7 @@ TEST(StagesNotNamed, NoMultiplierWhereTheBoundVanishes)
   }
   EXPECT_EQ(discrete.contact_space.n_multipliers(), n_multipliers);
   EXPECT_GT(n_multipliers, 0u);
-  const Solution<2> solution = discrete.solve(1e-11);
+  const Solution<2> solution = discrete.solve();
   const Oracle oracle(solution);
   EXPECT_LE(oracle.residual(solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
 }

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <hpvi/adaptive_solver.h>
 #include <hpvi/internal_forces.h>
-#include <hpvi/schur_complement.h>
 
 #include <cmath>
 #include <filesystem>
@@ -126,21 +125,17 @@ public:
     return qp;
   }
 
-  /** @p tolerance of the quadratic program; it bounds how exact the solution can be. */
-  Solution<2> solve(const double tolerance = 1e-13) const
+  /** By the scene's solver and tolerance, from zero. */
+  Solution<2> solve() const
   {
     const SchurComplement schur_complement = reduce();
-    Vector<double> lambda;
-    if (contact_space.n_multipliers() > 0)
-    {
-      Mprgp::Settings settings;
-      settings.tolerance = tolerance;
-      lambda.reinit(contact_space.n_multipliers());
-      const QpReport report = Mprgp(settings).solve(quadratic_program(schur_complement), lambda);
-      EXPECT_TRUE(report.converged) << "projected gradient " << report.projected_gradient;
-    }
-    Vector<double> u = system.recover(schur_complement.displacement(lambda));
-    return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
+    Reduction reduction;
+    reduction.lambda.reinit(contact_space.n_multipliers());
+    AlgebraicError error;
+    Vector<double> u = IterativeRefinement<2>(scene, displacement_space, contact_space, tables,
+                                              system, stiffnesses, schur_complement)
+                           .solve(reduction, error);
+    return {scene, displacement_space, contact_space, std::move(u), std::move(reduction.lambda)};
   }
 
   /** Random displacement that meets all constraints, with any multiplier. */

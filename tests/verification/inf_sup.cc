@@ -4,6 +4,8 @@
 
 #include <hpvi/inf_sup.h>
 
+#include <limits>
+
 namespace
 {
 using namespace verification;
@@ -21,6 +23,94 @@ double beta(const unsigned int n, const unsigned int p, const int offset,
   make_mesh(scene, mesh);
   const Degrees degrees(mesh.n_active_cells(), p);
   return measure_inf_sup(scene, mesh, degrees, ShapeTables<2>()).beta;
+}
+
+/** Row m holds the values of multiplier m of @p coarse at the Gauss points of @p fine. */
+FullMatrix<double> values_at(const ContactSpace<2> &coarse, const ContactSpace<2> &fine)
+{
+  FullMatrix<double> T(coarse.n_multipliers(), fine.n_multipliers());
+  for (const ContactFace<2> &part : fine.faces())
+    for (unsigned int i = 0; i < part.n_multipliers; ++i)
+      for (const ContactFace<2> &face : coarse.faces())
+      {
+        const Point<2> x = part.point(QGauss<1>(part.n_multipliers).point(i)[0]);
+        const Tensor<1, 2> edge = face.point(1.) - face.point(0.);
+        const double s = (x - face.point(0.)) * edge / edge.norm_square();
+        if (s > 0 && s < 1)
+        {
+          const std::vector<double> psi = coarse.basis_values(face, s);
+          for (unsigned int m = 0; m < psi.size(); ++m)
+            T(face.first_multiplier + m, part.first_multiplier + i) = psi[m];
+        }
+      }
+  return T;
+}
+
+/**
+ * beta on the square of Example 5.2 in 4 by 4 cells of degree @p p, against the space of degree
+ * p + @p more on the mesh bisected @p n_bisections times.
+ */
+double beta_against(const unsigned int p, const unsigned int n_bisections, const unsigned int more)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  Triangulation<2> mesh, fine_mesh;
+  make_mesh(scene, mesh);
+  make_mesh(scene, fine_mesh);
+  fine_mesh.refine_global(n_bisections);
+  const Discretisation own(scene, mesh, Degrees(mesh.n_active_cells(), p));
+  const Discretisation fine(scene, fine_mesh, Degrees(fine_mesh.n_active_cells(), p + more));
+  const FullMatrix<double> T = values_at(own.contact_space, fine.contact_space);
+  const SchurComplement own_reduced = own.reduce(), fine_reduced = fine.reduce();
+  FullMatrix<double> S(T.m(), T.m()), fine_S(T.n(), T.n()), TS(T.m(), T.n()),
+      reference(T.m(), T.m());
+  for (unsigned int i = 0; i < T.m(); ++i)
+    for (unsigned int j = 0; j < T.m(); ++j)
+      S(i, j) = own_reduced.S()(i, j);
+  for (unsigned int i = 0; i < T.n(); ++i)
+    for (unsigned int j = 0; j < T.n(); ++j)
+      fine_S(i, j) = fine_reduced.S()(i, j);
+  T.mmult(TS, fine_S);
+  TS.mTmult(reference, T);
+  reference.gauss_jordan();
+  FullMatrix<double> quotient(T.m(), T.m());
+  reference.mmult(quotient, S);
+  LAPACKFullMatrix<double> eigenvalues(T.m());
+  eigenvalues = quotient;
+  eigenvalues.compute_eigenvalues();
+  double smallest = std::numeric_limits<double>::max();
+  for (unsigned int k = 0; k < T.m(); ++k)
+    smallest = std::min(smallest, eigenvalues.eigenvalue(k).real());
+  return std::sqrt(smallest);
+}
+
+/** |.|_* grows with the space in which it is measured; in the program's it has nearly settled. */
+TEST(InfSup, IsMeasuredAgainstASpaceThatIsRichEnough)
+{
+  for (const unsigned int p : {2U, 3U, 4U})
+  {
+    const double measured = beta(4, p, -2), richer = beta_against(p, 2, 6);
+    EXPECT_NEAR(beta_against(p, 0, 0), 1., 1e-10); // V_N itself
+    EXPECT_NEAR(measured, beta_against(p, 1, 4), 1e-9);
+    EXPECT_LE(richer, measured + 1e-10);
+    EXPECT_NEAR(measured, richer, 4e-3) << "p = " << p;
+  }
+}
+
+TEST(InfSup, NamesTheDegreesOnTheContactBoundary)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  Degrees degrees(mesh.n_active_cells(), 9);
+  unsigned int degree = 3;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->center()[1] < 1.)
+      degrees[cell->active_cell_index()] = degree++;
+  const InfSup result = measure_inf_sup(scene, mesh, degrees, ShapeTables<2>());
+  EXPECT_EQ(result.lowest_degree, 3U);
+  EXPECT_EQ(result.highest_degree, 6U);
+  EXPECT_EQ(result.n_multipliers, 2U + 3U + 4U + 5U);
+  EXPECT_NEAR(result.bound(), 1 / (std::sqrt(6) * std::pow(std::log(6), 1.5)), 1e-14);
 }
 
 TEST(InfSup, DoesNotDependOnTheMeshForTheThesisPair)

@@ -92,6 +92,12 @@ TEST(Semicoercive, BeyondTheFrictionLimitThereIsNoEquilibrium)
   }
 }
 
+TEST(Semicoercive, OnePartInAMillionBeyondTheLimitIsBeyondIt)
+{
+  EXPECT_NO_THROW(run(sheared_block(0.3 * (1 - 1e-6))));
+  EXPECT_THROW(run(sheared_block(0.3 * (1 + 1e-6))), NumericalFailure);
+}
+
 /** The shipped bar at its limit: a point or two may miss |lambda| = 1 by more than round-off. */
 TEST(Semicoercive, TheLimitIsSeenOnAdaptiveMeshes)
 {

@@ -218,6 +218,27 @@ TEST(Conditioning, ScalingAndTheStepBeforeKeepProductsFew)
   EXPECT_GE(most_products("false", "false"), 5 * scaled);
 }
 
+/** g multiplies the rows of S: scaling takes that away, without it the square remains. */
+TEST(Conditioning, OfTheScaledMatrixDoesNotDependOnTheBound)
+{
+  const auto last = [](const std::string &bound)
+  {
+    std::pair<double, double> result;
+    AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "1"},
+                                                 {"Solver/Condition number", "true"},
+                                                 {"Boundary bottom/Friction bound", bound}}))
+        .run(
+            [&](const Step<2> &step) {
+              result = {step.condition_raw, step.condition_scaled};
+            });
+    return result;
+  };
+  const auto even = last("4.5"), uneven = last("if(x < 2, 4.5, 0.045)");
+  EXPECT_NEAR(uneven.second, even.second, 1e-8 * even.second);
+  EXPECT_GT(uneven.first, 1e3 * even.first);
+  EXPECT_NEAR(last("450").first, even.first, 1e-8 * even.first);
+}
+
 // ---------------------------------------------------------------- 11 aspect ratio and distortion
 
 TEST(CoarseMeshes, DoNotChangeTheLimit)

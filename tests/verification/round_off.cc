@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What double precision leaves of a solution: slender bodies against the same discrete problem in
+// quadruple precision, bodies far displaced, and where a run has nothing left to gain.
+#include "discretisation.h"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace
+{
+using namespace verification;
+
+// ---------------------------------------------------------------- slender bodies
+
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+
+/** int_0^1 of products of quadratic Lagrange polynomials at 0, 1/2, 1 and their derivatives, times 30. */
+constexpr int mass[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
+constexpr int stiffness[3][3] = {{70, -80, 10}, {-80, 160, -80}, {10, -80, 70}};
+constexpr int mixed[3][3] = {{-15, 20, -5}, {-20, 0, 20}, {5, -20, 15}}; // phi_i phi_j'
+
+/**
+ * The cantilever of `length` unit squares with p = 2 in plane strain, E = 1, nu = 0.3, under the end
+ * traction (0, t): `a(u,u)` of the discrete problem by a banded Cholesky factorisation in quadruple
+ * precision. Nodes column by column, three in each, from x = 1/2 on.
+ */
+class QuadrupleCantilever
+{
+public:
+  QuadrupleCantilever(const unsigned int length, const double t)
+      : n(2 * 3 * 2 * length), rows(n, std::array<Quad, band>{})
+  {
+    for (unsigned int cell = 0; cell < length; ++cell)
+      add_cell(cell);
+    load.assign(n, 0);
+    for (unsigned int j = 0; j < 3; ++j) // int phi_j over the end: Simpson's weights
+      load[n - 6 + 2 * j + 1] = Quad(t) * (j == 1 ? 4 : 1) / 6;
+  }
+
+  /** f' A^-1 f = |L^-1 f|^2 */
+  double energy_product()
+  {
+    Quad sum = 0;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const unsigned int first = i < band ? 0 : i - band + 1;
+      for (unsigned int j = first; j <= i; ++j)
+      {
+        Quad value = entry(i, j);
+        for (unsigned int k = std::max<unsigned int>(first, j < band ? 0 : j - band + 1); k < j;
+             ++k)
+          value -= entry(i, k) * entry(j, k);
+        entry(i, j) = j < i ? Quad(value / entry(j, j)) : Quad(sqrt(value));
+      }
+      for (unsigned int k = first; k < i; ++k)
+        load[i] -= entry(i, k) * load[k];
+      load[i] /= entry(i, i);
+      sum += load[i] * load[i];
+    }
+    return sum.convert_to<double>();
+  }
+
+private:
+  static constexpr unsigned int band = 18; ///< three columns of three nodes
+
+  /** Of the lower triangle. */
+  Quad &entry(const unsigned int i, const unsigned int j)
+  {
+    return rows[i][i - j];
+  }
+
+  void add_cell(const unsigned int cell)
+  {
+    const Quad nu = Quad(3) / 10, mu = 1 / (2 * (1 + nu)), lambda = nu / ((1 + nu) * (1 - 2 * nu));
+    // int d_c phi_a d_d phi_b on the unit square, times 900
+    const auto product =
+        [](const unsigned int a, const unsigned int b, const unsigned int c, const unsigned int d)
+    {
+      const auto factor = [](const unsigned int i, const unsigned int j, const bool di,
+                             const bool dj) {
+        return di && dj ? stiffness[i][j] : dj ? mixed[i][j] : di ? mixed[j][i] : mass[i][j];
+      };
+      return factor(a / 3, b / 3, c == 0, d == 0) * factor(a % 3, b % 3, c == 1, d == 1);
+    };
+    for (unsigned int a = 3 * (cell == 0); a < 9; ++a) // the first column is clamped
+      for (unsigned int b = 3 * (cell == 0); b < 9; ++b)
+        for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            const int i = 2 * (6 * cell + a) - 6 + c, j = 2 * (6 * cell + b) - 6 + d;
+            Quad value = lambda * product(a, b, c, d) + mu * product(a, b, d, c);
+            for (unsigned int e = 0; c == d && e < 2; ++e)
+              value += mu * product(a, b, e, e);
+            if (j <= i)
+              entry(i, j) += value / 900;
+          }
+  }
+
+  const unsigned int n;
+  std::vector<std::array<Quad, band>> rows;
+  std::vector<Quad> load;
+};
+
+Overrides cantilever(const unsigned int length)
+{
+  return {{"Geometry/Upper corner", std::to_string(length) + ", 1"},
+          {"Geometry/Subdivisions", std::to_string(length) + ", 1"},
+          {"Boundary left/Displacement", "0; 0"},
+          {"Boundary right/Traction", "0; 1e-6"},
+          {"Adaptivity/Method", "hup2"},
+          {"Adaptivity/Maximum steps", "1"}};
+}
+
+/** The tip moves by L(u)/t on average, and L(u) = a(u,u). */
+TEST(SlenderCantilever, IsThatOfQuadruplePrecision)
+{
+  for (const auto &[length, tolerance] :
+       {std::make_pair(100u, 1e-6), std::make_pair(300u, 1e-4), std::make_pair(1000u, 1e-2)})
+  {
+    const double expected = QuadrupleCantilever(length, 1e-6).energy_product();
+    const Scene<2> scene = scene_of(cantilever(length));
+    AdaptiveSolver<2>(scene).run(
+        [&, length = length, tolerance = tolerance](const Step<2> &step)
+        {
+          const double tip = -2 * step.energies.energy; // J = a/2 - L = -L/2
+          EXPECT_NEAR(tip, expected, tolerance * expected) << length;
+          EXPECT_NEAR(step.energies.norm * step.energies.norm, tip, tolerance * tip) << length;
+          EXPECT_LT(step.algebraic.total(), tolerance) << length;
+        });
+  }
+}
+
+/** Corrections are for those who need them. */
+TEST(IterativeRefinement, LeavesOrdinaryBodiesAlone)
+{
+  for (const std::string name : {"han-6-12", "han-6-13", "stick-slip"})
+    AdaptiveSolver<2>(shipped_scene(name))
+        .run([&](const Step<2> &step) { EXPECT_EQ(step.algebraic.corrections, 0u) << name; });
+}
+
+/** A displacement spoilt at random comes back, whatever data the scene has. */
+TEST(IterativeRefinement, CorrectsASpoiltDisplacement)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                                   {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
+                                   {"Geometry/Subdivisions", "2, 2"},
+                                   {"Body force/Expression", "x*y; 1 - x"},
+                                   {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
+                                   {"Boundary right/Traction", "1 + y; -x"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "0.1"}});
+  const RandomMesh mesh(scene, 3, 2);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  const SchurComplement reduced = discrete.reduce();
+  std::mt19937 random(1);
+  Vector<double> spoilt = discrete.random_field(random).u;
+  const AlgebraicError error =
+      IterativeRefinement<2>(scene, discrete.displacement_space, discrete.contact_space,
+                             discrete.tables, discrete.system, discrete.stiffnesses, reduced)
+          .improve(solution.lambda, spoilt);
+  EXPECT_GT(error.corrections, 0u);
+  EXPECT_LE(error.total(), 1e-12);
+  spoilt -= solution.u;
+  EXPECT_LE(spoilt.linfty_norm(), 1e-11 * solution.u.linfty_norm());
+}
+
+/**
+ * A cantilever that rests on a short contact at its end, a lever of 300 away: friction there obeys its
+ * conditions in the corrected displacement, not in that of the factorisation.
+ */
+TEST(SlenderCantilever, RubsAgainstItsEnd)
+{
+  Overrides entries = cantilever(300);
+  entries.emplace_back("Boundary right/Contact", "bilateral");
+  entries.emplace_back("Boundary right/Friction bound", "1e-7");
+  entries.emplace_back("Boundary right/Traction", "0; 2e-6");
+  entries.emplace_back("Adaptivity/Method", "hup3");
+  const Scene<2> scene = scene_of(entries);
+  AdaptiveSolver<2>(scene).run(
+      [&](const Step<2> &step)
+      {
+        const Solution<2> &u = step.solution;
+        const ShapeTables<2> tables;
+        ElementStiffnesses<2> stiffnesses(scene, tables);
+        const ElasticSystem<2> system(scene, u.displacement_space, u.contact_space, tables,
+                                      stiffnesses);
+        const Vector<double> moments = system.tangential_moments(u.u);
+        ASSERT_EQ(u.lambda.size(), 2u);
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          EXPECT_EQ(u.lambda[i], 1.);
+          EXPECT_GT(moments[i], 0.);
+        }
+        EXPECT_LT(step.algebraic.total(), 1e-6);
+      });
+}
+
+// ---------------------------------------------------------------- far displacements and the floor
+
+/** Uniaxial stress sigma in plane strain: a(u,u) = sigma^2 (1 - nu^2)/E times the area. */
+TEST(FarDisplacement, DoesNotDrownTheEnergy)
+{
+  for (const std::string shift : {"0", "1e5"})
+  {
+    const Scene<2> scene = scene_of({{"Geometry/Subdivisions", "3, 2"},
+                                     {"Boundary left/Displacement", shift + "; free"},
+                                     {"Boundary bottom/Displacement", "free; " + shift},
+                                     {"Boundary top/Traction", "0; 0.37"}});
+    unsigned int steps = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const Step<2> &step)
+        {
+          const double a = 0.37 * 0.37 * 0.91;
+          EXPECT_NEAR(step.energies.norm * step.energies.norm, a, 1e-8 * a) << shift;
+          EXPECT_TRUE(step.warnings.empty()) << step.warnings.front();
+          ++steps;
+        });
+    EXPECT_EQ(steps, 1u);
+  }
+}
+
+TEST(Floor, AnExactSolutionStopsTheRun)
+{
+  const Scene<2> scene = scene_of({{"Boundary left/Displacement", "0; free"},
+                                   {"Boundary bottom/Displacement", "free; 0"},
+                                   {"Boundary top/Traction", "0; 0.37"}});
+  AdaptiveSolver<2>(scene).run(
+      [](const Step<2> &step)
+      {
+        EXPECT_EQ(step.number, 1u);
+        EXPECT_EQ(step.stopped_by, "exact to round-off");
+      });
+}
+
+/** The run stops, not before the true error has reached its own floor. */
+TEST(Floor, IsWhereTheTrueErrorFallsNoFurther)
+{
+  const Scene<2> scene = shipped_scene("stick-slip", {{"Adaptivity/Maximum steps", "60"},
+                                                      {"Adaptivity/Method", "hpa3"},
+                                                      {"Adaptivity/Tolerance", "0"}});
+  std::vector<double> errors;
+  std::string stopped_by;
+  AdaptiveSolver<2>(scene).run(
+      [&](const Step<2> &step)
+      {
+        errors.push_back(step.errors.energy / step.errors.energy_norm);
+        stopped_by = step.stopped_by;
+      });
+  EXPECT_EQ(stopped_by, "exact to round-off");
+  EXPECT_LT(errors.size(), 40u);
+  EXPECT_LT(errors.back(), 2e-12);
+  EXPECT_GT(errors.back(), 0.3 * errors[errors.size() - 2]); // it has stopped falling
+}
+} // namespace

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Whole runs that write every file, short enough for a Debug build: there deal.II's assertions speak.
+#include "discretisation.h"
+
+#include <hpvi/inf_sup.h>
+#include <hpvi/output.h>
+
+#include <ostream>
+
+namespace
+{
+using namespace verification;
+namespace fs = std::filesystem;
+
+/** A directory for the time of a test. */
+class Directory
+{
+public:
+  const fs::path path =
+      fs::path(::testing::TempDir()) / ("hpvi-smoke-" + std::to_string(std::random_device()()));
+
+  ~Directory()
+  {
+    fs::remove_all(path);
+  }
+};
+
+/** Solve, and write what a run of the program writes. */
+void run(const Scene<2> &scene, const fs::path &directory)
+{
+  AdaptiveSolver<2> solver(scene);
+  Output<2> output(scene, directory.string());
+  std::string last;
+  solver.run(
+      [&](const Step<2> &step)
+      {
+        output.write_step(step);
+        last = (step.number < 10 ? "-0" : "-") + std::to_string(step.number);
+        EXPECT_GT(step.energies.norm, 0.);
+      });
+  output.finish("done");
+  for (const std::string &name :
+       std::vector<std::string>{"solution" + last + ".vtu", "mesh" + last + ".svg",
+                                "convergence.csv", "degrees.csv", "scene.prm", "summary.json"})
+    EXPECT_GT(fs::file_size(directory / name), 20U) << name;
+  EXPECT_EQ(fs::exists(directory / ("contact" + last + ".csv")), scene.has_contact());
+}
+
+struct Case
+{
+  std::string name, scene;
+  Overrides overrides;
+};
+
+std::ostream &operator<<(std::ostream &out, const Case &item)
+{
+  return out << item.name;
+}
+
+std::vector<Case> cases()
+{
+  std::vector<Case> result;
+  for (const std::string method :
+       {"hup2", "hup3", "hup4", "hap2", "hap3", "hap4", "pu", "hpa1", "hpa2", "hpa3"})
+    result.push_back(
+        {method, "han-6-12", {{"Adaptivity/Method", method}, {"Adaptivity/Start degree", "0"}}});
+  result.push_back({"bar", "han-6-13", {}});
+  result.push_back({"stick_slip", "stick-slip", {{"Exact solution/Transition", "0.1"}}});
+  result.push_back({"plane_strain", "plane-strain", {}});
+  result.push_back({"smooth", "smooth", {}});
+  result.push_back({"semicoercive", "semicoercive", {}});
+  result.push_back({"threshold", "threshold", {}});
+  result.push_back({"mprgp",
+                    "han-6-12",
+                    {{"Solver/QP solver", "mprgp"},
+                     {"Solver/QP warm start", "false"},
+                     {"Solver/Diagonal scaling", "false"},
+                     {"Solver/Condition number", "true"}}});
+  result.push_back({"rich_multiplier", "han-6-12", {{"Solver/Multiplier degree offset", "-1"}}});
+  result.push_back({"no_friction", "han-6-12", {{"Boundary bottom/Friction bound", "0"}}});
+  result.push_back({"no_contact",
+                    "han-6-12",
+                    {{"Boundary bottom/Contact", "none"},
+                     {"Boundary bottom/Friction bound", ""},
+                     {"Body force/Expression", "0; -x"}}});
+  result.push_back({"graded",
+                    "han-6-12",
+                    {{"Geometry/Graded towards", "1, 0; 4, 0"}, {"Geometry/Grading levels", "3"}}});
+  result.push_back({"quadrilateral",
+                    "han-6-12",
+                    {{"Geometry/Shape", "quadrilateral"},
+                     {"Geometry/Corners", "0, 0; 4, 0.5; 3.5, 4; -0.5, 3.5"},
+                     {"Geometry/Lower corner", "0, 0"},
+                     {"Geometry/Upper corner", "1, 1"},
+                     {"Body force/Expression", "x*y; 1"}}});
+  result.push_back({"two_contacts",
+                    "han-6-12",
+                    {{"Boundary top/Contact", "bilateral"},
+                     {"Boundary top/Friction bound", "if(x < 2, 0, 1 + x)"}}});
+  return result;
+}
+
+class EveryKind : public ::testing::TestWithParam<Case>
+{
+};
+
+TEST_P(EveryKind, RunsAndWrites)
+{
+  Overrides overrides = {{"Adaptivity/Maximum steps", "3"}};
+  const Overrides &more = GetParam().overrides;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const Directory directory;
+  run(shipped_scene(GetParam().scene, overrides), directory.path);
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryKind, ::testing::ValuesIn(cases()),
+                         [](const auto &info) { return info.param.name; });
+
+TEST(Smoke, ReferencesAreWrittenAndRead)
+{
+  const Directory first, second;
+  const Overrides steps = {{"Adaptivity/Maximum steps", "3"},
+                           {"Output/Reference solution", "true"}};
+  run(shipped_scene("han-6-12", steps), first.path);
+  run(shipped_scene("han-6-12",
+                    {{"Adaptivity/Maximum steps", "2"},
+                     {"Error/Reference solution", (first.path / "reference.dat").string()}}),
+      second.path);
+}
+
+TEST(Smoke, InfSup)
+{
+  const Scene<2> scene = shipped_scene("han-6-13");
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const InfSup result =
+      measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3), ShapeTables<2>());
+  EXPECT_GT(result.beta, 0.5);
+}
+
+/** Whether this build would notice at all. */
+TEST(Smoke, AssertionsEndADebugBuild)
+{
+#ifdef DEBUG
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const Vector<double> empty;
+  EXPECT_DEATH(EXPECT_EQ(empty(0), 0.), "An error occurred");
+#else
+  GTEST_SKIP() << "no Debug build";
+#endif
+}
+} // namespace
