@@ -7,9 +7,12 @@
 #include <hpvi/output.h>
 #include <hpvi/stress.h>
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <numeric>
 #include <regex>
@@ -276,6 +279,65 @@ std::string contact_table(const Solution<dim> &solution, const ShapeTables<dim> 
   return csv(records);
 }
 
+// ---------------------------------------------------------------- VTU
+
+/** As VTK reads it: one block that zlib has compressed, in base64 behind its sizes. */
+std::string encoded(const std::vector<double> &numbers)
+{
+  const uLong size = numbers.size() * sizeof(double);
+  uLongf compressed_size = compressBound(size);
+  std::vector<unsigned char> compressed(compressed_size);
+  const int status = compress2(compressed.data(), &compressed_size,
+                               reinterpret_cast<const Bytef *>(numbers.data()), size, Z_BEST_SPEED);
+  AssertThrow(status == Z_OK, ExcInternalError());
+  compressed.resize(compressed_size);
+  const std::uint32_t sizes[] = {1, std::uint32_t(size), std::uint32_t(size),
+                                 std::uint32_t(compressed_size)};
+  const auto *const head = reinterpret_cast<const unsigned char *>(sizes);
+  return Utilities::encode_base64({head, head + sizeof sizes}) +
+         Utilities::encode_base64(compressed);
+}
+
+/**
+ * deal.II rounds coordinates to seven digits: far from the origin, or close to a transition, cells
+ * would have no size. These have all digits.
+ */
+template <int dim>
+class PreciseDataOut : public DataOut<dim>
+{
+public:
+  std::string vtu() const
+  {
+    std::ostringstream file;
+    this->write_vtu(file);
+    const std::string text = file.str(), opening = "<Points>", closing = "</Points>";
+    const std::size_t start = text.find(opening), end = text.find(closing);
+    AssertThrow(start < end && end != std::string::npos, ExcInternalError());
+    return text.substr(0, start + opening.size()) +
+           "\n    <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n" +
+           encoded(coordinates()) + "\n    </DataArray>\n  " + text.substr(end);
+  }
+
+private:
+  /** x, y, z of the points in deal.II's order: patch by patch, x runs fastest. */
+  std::vector<double> coordinates() const
+  {
+    static_assert(dim == 2, "patches are quadrilaterals");
+    std::vector<double> result;
+    for (const auto &patch : this->get_patches())
+      for (unsigned int j = 0; j <= patch.n_subdivisions; ++j)
+        for (unsigned int i = 0; i <= patch.n_subdivisions; ++i)
+        {
+          const Point<2> unit(double(i) / patch.n_subdivisions, double(j) / patch.n_subdivisions);
+          Point<2> x;
+          for (unsigned int v = 0; v < GeometryInfo<2>::vertices_per_cell; ++v)
+            x += GeometryInfo<2>::d_linear_shape_function(unit, v) * patch.vertices[v];
+          result.insert(result.end(), {x[0], x[1], 0.});
+        }
+    return result;
+  }
+};
+
 // ---------------------------------------------------------------- the directory
 
 [[noreturn]] void reject_directory(const fs::path &directory, const std::string &reason)
@@ -475,30 +537,29 @@ void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name) cons
     estimate[k] = step.estimate.indicator(k);
   }
   const StressFields<dim> stress_fields(scene.material);
-  DataOut<dim> data_out;
-  const std::string length = xml_text(scene.length_unit), pressure = xml_text(scene.stress_unit);
+  PreciseDataOut<dim> data_out;
   DataOutBase::VtkFlags flags;
   flags.time = step.number;
   flags.cycle = step.number;
   flags.print_date_and_time = false; // equal runs write equal files
   flags.compression_level = DataOutBase::VtkFlags::best_speed;
-  flags.physical_units["displacement"] = length;
+  if (!scene.length_unit.empty())
+    flags.physical_units["displacement"] = xml_text(scene.length_unit);
   for (const std::string &field : stress_fields.get_names())
-    flags.physical_units[field] = pressure;
+    if (!scene.stress_unit.empty())
+      flags.physical_units[field] = xml_text(scene.stress_unit);
   data_out.set_flags(flags);
+  data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(space.dof_handler(), step.solution.u,
                            std::vector<std::string>(dim, "displacement"),
                            std::vector<DataComponentInterpretation::DataComponentInterpretation>(
                                dim, DataComponentInterpretation::component_is_part_of_vector));
   data_out.add_data_vector(space.dof_handler(), step.solution.u, stress_fields);
-  data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(degree, "degree", DataOut<dim>::type_cell_data);
   data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
   const unsigned int p_max = *std::max_element(space.degrees().begin(), space.degrees().end());
   data_out.build_patches(std::min(p_max, 8U));
-  std::ostringstream file;
-  data_out.write_vtu(file);
-  write(name, file.str());
+  write(name, data_out.vtu());
 }
 
 template class Output<2>;
