@@ -62,6 +62,7 @@ struct AdaptiveSolver<dim>::Stages
   StageTimes times;              ///< of the current step
   double seconds = 0;
   unsigned int number = 0;
+  std::function<void()> before_stage;
 
   explicit Stages(const Scene<dim> &scene)
       : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
@@ -83,11 +84,13 @@ struct AdaptiveSolver<dim>::Stages
 template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
+  before_stage();
   std::unique_ptr<Discretisation<dim>> next;
   {
     StageTimer timer(times.setup);
     next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees, tables);
   }
+  before_stage();
   StageTimer timer(times.assemble);
   next->system = std::make_unique<const ElasticSystem<dim>>(
       scene, next->displacement_space, next->contact_space, tables, stiffnesses);
@@ -101,11 +104,13 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   const ElasticSystem<dim> &system = *discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
   std::unique_ptr<const SchurComplement> schur_complement;
+  before_stage();
   {
     StageTimer timer(times.factor);
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
+  before_stage();
   if (contact_space.n_multipliers() > 0)
   {
     StageTimer timer(times.qp);
@@ -120,6 +125,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
     }
   }
 
+  before_stage();
   StageTimer timer(times.recover);
   Vector<double> x = schur_complement->displacement(reduction.lambda);
   if (scene.free_translation)
@@ -131,6 +137,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
+  before_stage();
   StageTimer timer(times.estimate);
   return estimate_error(solution, tables);
 }
@@ -139,6 +146,7 @@ template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
                                                const ErrorEstimate &estimate)
 {
+  before_stage();
   StageTimer timer(times.decide);
   return mark(scene.adaptivity, degrees, estimate,
               [&](const unsigned int cell)
@@ -148,6 +156,7 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
+  before_stage();
   StageTimer timer(times.refine);
   degrees = refine_mesh(triangulation, degrees, refinement);
 }
@@ -208,8 +217,10 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
 } // namespace
 
 template <int dim>
-void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
+void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step,
+                              const std::function<void()> &before_stage)
 {
+  stages->before_stage = before_stage;
   std::vector<double> estimates;
   for (bool finished = false; !finished;)
   {
