@@ -66,6 +66,7 @@ struct AdaptiveSolver<dim>::Stages
   StageTimes times;              ///< of the current step
   double seconds = 0;
   unsigned int number = 0;
+  std::function<void()> before_stage;
 
   explicit Stages(const Scene<dim> &scene)
       : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
@@ -87,11 +88,13 @@ struct AdaptiveSolver<dim>::Stages
 template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
+  before_stage();
   std::unique_ptr<Discretisation<dim>> next;
   {
     StageTimer timer(times.setup);
     next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees, tables);
   }
+  before_stage();
   StageTimer timer(times.assemble);
   next->system = std::make_unique<const ElasticSystem<dim>>(
       scene, next->displacement_space, next->contact_space, tables, stiffnesses);
@@ -105,11 +108,13 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   const ElasticSystem<dim> &system = *discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
   std::unique_ptr<const SchurComplement> schur_complement;
+  before_stage();
   {
     StageTimer timer(times.factor);
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
+  before_stage();
   reduction.lambda = previous.values(contact_space, tables);
   reduction.translation = translation;
   const Timer timer;
@@ -130,6 +135,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
+  before_stage();
   StageTimer timer(times.estimate);
   return estimate_error(solution, tables);
 }
@@ -138,6 +144,7 @@ template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
                                                const ErrorEstimate &estimate)
 {
+  before_stage();
   StageTimer timer(times.decide);
   return mark(scene.adaptivity, degrees, estimate,
               [&](const unsigned int cell)
@@ -147,6 +154,7 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
+  before_stage();
   StageTimer timer(times.refine);
   degrees = refine_mesh(triangulation, degrees, refinement);
 }
@@ -199,8 +207,10 @@ namespace
 template <int dim>
 bool is_exact_to_round_off(const Step<dim> &step, const ShapeTables<dim> &tables)
 {
-  return step.relative_estimate < 1e-7 &&
-         step.estimate.total() <= 4 * round_off_of_estimate(step.solution, tables);
+  const Solution<dim> &solution = step.solution;
+  const double small = 1e-7 * solution.scene.material.mu() * solution.u.linfty_norm();
+  return step.estimate.total() <= small &&
+         step.estimate.total() <= 4 * round_off_of_estimate(solution, tables);
 }
 
 /** Which limit of the scene does this step reach? Empty: none. */
@@ -220,10 +230,7 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step,
     return "Maximum seconds";
   return {};
 }
-} // namespace
 
-namespace
-{
 void check_algebraic_error(const AlgebraicError &error)
 {
   if (error.total() <= AlgebraicError::useless)
@@ -239,8 +246,10 @@ void check_algebraic_error(const AlgebraicError &error)
 } // namespace
 
 template <int dim>
-void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
+void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step,
+                              const std::function<void()> &before_stage)
 {
+  stages->before_stage = before_stage;
   std::vector<double> estimates;
   for (bool finished = false; !finished;)
   {

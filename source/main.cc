@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptive_solver.h>
 #include <hpvi/command_line.h>
+#include <hpvi/formatting.h>
 #include <hpvi/inf_sup.h>
+#include <hpvi/interruption.h>
 #include <hpvi/output.h>
+#include <hpvi/text.h>
 
 #include <deal.II/base/exceptions.h>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +37,8 @@ std::string version_line()
 /** The one line for stderr. What deal.II's exceptions say in what() fills a page. */
 std::string failure_line(const std::exception &error)
 {
-  if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error))
+  if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
+      dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error))
     return error.what();
   std::ostringstream text;
   if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
@@ -43,6 +50,34 @@ std::string failure_line(const std::exception &error)
   while (words >> word)
     line += " " + word;
   return line;
+}
+
+int exit_status(const std::exception &error)
+{
+  if (const auto *interruption = dynamic_cast<const Interruption *>(&error))
+    return 128 + interruption->signal;
+  return dynamic_cast<const InputError *>(&error) ? 1 : 2;
+}
+
+/**
+ * A standard stream that is closed gets a descriptor that cannot be written: else the first file of
+ * results would take its number, and the text meant for the stream.
+ */
+void occupy_standard_streams()
+{
+  int descriptor;
+  do
+    descriptor = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO)
+    close(descriptor);
+}
+
+/** What could not be printed is no result; @p complete says what is there nonetheless. */
+void check_standard_output(const std::string &complete)
+{
+  if (!std::cout.flush())
+    throw OutputFailure("hpvi: standard output cannot be written" + complete);
 }
 
 // ---------------------------------------------------------------- what a run prints
@@ -94,11 +129,12 @@ void print_stages(const StageTimes &times)
 void run(const Scene<dim> &scene, const std::string &directory)
 {
   AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
+  note_interruptions();
   Output<dim> output(scene, directory);
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
-  std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
+  std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
   {
@@ -110,19 +146,27 @@ void run(const Scene<dim> &scene, const std::string &directory)
           stopped_by = step.stopped_by;
           warnings = step.warnings;
           output.write_step(step);
-        });
+        },
+        stop_if_interrupted);
+  }
+  catch (const Interruption &interruption)
+  {
+    output.give_up("interrupted", interruption.what());
+    throw Interruption(interruption.signal,
+                       "; " + output.safe_steps() + " in " + printable(directory));
   }
   catch (const std::exception &error)
   {
-    output.finish(failure_line(error)); // the finished steps stay
+    output.give_up("failed", failure_line(error)); // the finished steps stay
     throw;
   }
-  output.finish("done");
+  output.finish();
   print_stages(times);
   for (const std::string &warning : warnings)
     std::cout << "\nwarning: " << warning;
   std::cout << (warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/" << stopped_by
             << "\nresults in " << directory << std::endl;
+  check_standard_output("; the results in " + printable(directory) + " are complete");
 }
 
 void print_inf_sup_row(const Step<dim> &step, const InfSup &inf_sup)
@@ -163,8 +207,9 @@ void print_inf_sup(const Scene<dim> &scene)
   const Scene<dim> refining = refining_scene(scene);
   const ShapeTables<dim> tables;
   AdaptiveSolver<dim> solver(refining);
+  note_interruptions();
   std::cout << version_line() << '\n'
-            << scene.title << "\n\n"
+            << legible(scene.title) << "\n\n"
             << "multiplier degree " << multiplier_degree(scene.solver.multiplier_offset)
             << "; p_min and p_max on the contact boundary; "
             << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
@@ -176,7 +221,8 @@ void print_inf_sup(const Scene<dim> &scene)
         const DisplacementSpace<dim> &space = step.solution.displacement_space;
         print_inf_sup_row(step,
                           measure_inf_sup(scene, space.triangulation(), space.degrees(), tables));
-      });
+      },
+      stop_if_interrupted);
 }
 
 void obey(const CommandLine &command_line)
@@ -194,7 +240,7 @@ void obey(const CommandLine &command_line)
     if (command_line.print_parameters)
       std::cout << scene.effective_parameters;
     else if (command_line.validate)
-      std::cout << scene.file << ": valid: " << scene.title << std::endl;
+      std::cout << scene.file << ": valid: " << legible(scene.title) << std::endl;
     else if (command_line.inf_sup)
       print_inf_sup(scene);
     else
@@ -206,14 +252,17 @@ void obey(const CommandLine &command_line)
 
 int main(int argc, char *argv[])
 {
+  occupy_standard_streams();
+  survive_failed_writes();
   try
   {
     obey(parse(argc, argv));
+    check_standard_output("");
     return 0;
   }
   catch (const std::exception &error)
   {
     std::cerr << failure_line(error) << std::endl;
-    return dynamic_cast<const InputError *>(&error) ? 1 : 2;
+    return exit_status(error);
   }
 }

@@ -43,6 +43,23 @@ std::vector<double> tick_marks(const double lower, const double upper, const dou
   return marks;
 }
 
+/** What to subtract from coordinates whose differences six digits would not show; else 0. */
+double axis_offset(const double lower, const double upper)
+{
+  if (std::max(std::abs(lower), std::abs(upper)) < 1e4 * (upper - lower))
+    return 0;
+  const double unit = std::pow(10., std::ceil(std::log10(upper - lower)) + 1);
+  return unit * std::floor(lower / unit);
+}
+
+/** As in "x - 1000000 [mm]": a coordinate, the offset its numbers are relative to, the unit. */
+std::string axis_label(const std::string &coordinate, const double offset, const std::string &unit)
+{
+  const std::string difference =
+      offset == 0 ? "" : (offset > 0 ? " - " : " + ") + text(std::abs(offset), 15);
+  return coordinate + difference + (unit.empty() ? "" : " [" + unit + "]");
+}
+
 /**
  * The mesh as scalable vector graphics. Digits and lines shrink with the cells, so that zooming in
  * shows a graded corner as clearly as the rest. Lengths on the page are pixels.
@@ -166,24 +183,28 @@ void MeshPicture::draw_axes()
 {
   constexpr double gap = 14., tick = 5.;
   const std::string unit = step.solution.scene.length_unit;
-  const std::string suffix = unit.empty() ? "" : " [" + unit + "]";
+  const Point<2> offset(axis_offset(box.lower_bound(0), box.upper_bound(0)),
+                        axis_offset(box.lower_bound(1), box.upper_bound(1)));
   draw_line(left, bottom + gap, left + width, bottom + gap);
-  for (const double x : tick_marks(box.lower_bound(0), box.upper_bound(0), width / 60.))
+  for (const double x :
+       tick_marks(box.lower_bound(0) - offset[0], box.upper_bound(0) - offset[0], width / 60.))
   {
-    const double at = page({x, 0})[0];
+    const double at = page({offset[0] + x, 0})[0];
     draw_line(at, bottom + gap, at, bottom + gap + tick);
     draw_label(at, bottom + gap + 18, text(x, 6), " text-anchor=\"middle\"");
   }
-  draw_label(left + width / 2, bottom + gap + 36, "x" + suffix, " text-anchor=\"middle\"");
+  draw_label(left + width / 2, bottom + gap + 36, axis_label("x", offset[0], unit),
+             " text-anchor=\"middle\"");
   draw_line(left - gap, top, left - gap, bottom);
-  for (const double y : tick_marks(box.lower_bound(1), box.upper_bound(1), height / 60.))
+  for (const double y :
+       tick_marks(box.lower_bound(1) - offset[1], box.upper_bound(1) - offset[1], height / 60.))
   {
-    const double at = page({0, y})[1];
+    const double at = page({0, offset[1] + y})[1];
     draw_line(left - gap, at, left - gap - tick, at);
     draw_label(left - gap - tick - 3, at + 4, text(y, 6), " text-anchor=\"end\"");
   }
   const std::string place = text(top + height / 2, 6);
-  draw_label(18, top + height / 2, "y" + suffix,
+  draw_label(18, top + height / 2, axis_label("y", offset[1], unit),
              " text-anchor=\"middle\" transform=\"rotate(-90 18 " + place + ")\"");
 }
 

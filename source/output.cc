@@ -7,10 +7,11 @@
 #include <hpvi/output.h>
 #include <hpvi/stress.h>
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <numeric>
 #include <regex>
 #include <sstream>
@@ -18,7 +19,6 @@
 namespace hpvi
 {
 using namespace dealii;
-namespace fs = std::filesystem;
 
 namespace
 {
@@ -276,88 +276,128 @@ std::string contact_table(const Solution<dim> &solution, const ShapeTables<dim> 
   return csv(records);
 }
 
-// ---------------------------------------------------------------- the directory
+// ---------------------------------------------------------------- VTU
 
-[[noreturn]] void reject_directory(const fs::path &directory, const std::string &reason)
+/** As VTK reads it: one block that zlib has compressed, in base64 behind its sizes. */
+std::string encoded(const std::vector<double> &numbers)
 {
-  throw InputError("output directory '" + directory.string() + "' cannot be used: " + reason +
-                   "; choose another one with --output");
+  const uLong size = numbers.size() * sizeof(double);
+  uLongf compressed_size = compressBound(size);
+  std::vector<unsigned char> compressed(compressed_size);
+  const int status = compress2(compressed.data(), &compressed_size,
+                               reinterpret_cast<const Bytef *>(numbers.data()), size, Z_BEST_SPEED);
+  AssertThrow(status == Z_OK, ExcInternalError());
+  compressed.resize(compressed_size);
+  const std::uint32_t sizes[] = {1, std::uint32_t(size), std::uint32_t(size),
+                                 std::uint32_t(compressed_size)};
+  const auto *const head = reinterpret_cast<const unsigned char *>(sizes);
+  return Utilities::encode_base64({head, head + sizeof sizes}) +
+         Utilities::encode_base64(compressed);
 }
 
-/** With all its parents, or none of them. */
-void create(const fs::path &directory)
+/**
+ * deal.II rounds coordinates to seven digits: far from the origin, or close to a transition, cells
+ * would have no size. These have all digits.
+ */
+template <int dim>
+class PreciseDataOut : public DataOut<dim>
 {
-  std::error_code error, ignored;
-  std::vector<fs::path> missing;
-  for (fs::path path = fs::absolute(directory).lexically_normal();
-       path.has_relative_path() && !fs::exists(fs::symlink_status(path, ignored));
-       path = path.parent_path())
-    missing.push_back(path);
-  fs::create_directories(directory, error);
-  if (!error && fs::is_directory(directory, ignored))
-    return;
-  for (const fs::path &path : missing)
-    fs::remove(path, ignored);
-  reject_directory(directory, error ? error.message() : "it is not a directory");
-}
+public:
+  std::string vtu() const
+  {
+    std::ostringstream file;
+    this->write_vtu(file);
+    const std::string text = file.str(), opening = "<Points>", closing = "</Points>";
+    const std::size_t start = text.find(opening), end = text.find(closing);
+    AssertThrow(start < end && end != std::string::npos, ExcInternalError());
+    return text.substr(0, start + opening.size()) +
+           "\n    <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n" +
+           encoded(coordinates()) + "\n    </DataArray>\n  " + text.substr(end);
+  }
 
-/** Is this the name of a file that belongs to single steps or to a whole earlier run? */
-bool is_result(const std::string &name)
-{
-  static const std::regex pattern(
-      "(contact-[0-9]{2,}\\.csv|solution-[0-9]{2,}\\.vtu|"
-      "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|"
-      "degrees\\.csv|reference\\.dat|summary\\.json|scene\\.prm)(\\.tmp)?");
-  return std::regex_match(name, pattern);
-}
+private:
+  /** x, y, z of the points in deal.II's order: patch by patch, x runs fastest. */
+  std::vector<double> coordinates() const
+  {
+    static_assert(dim == 2, "patches are quadrilaterals");
+    std::vector<double> result;
+    for (const auto &patch : this->get_patches())
+      for (unsigned int j = 0; j <= patch.n_subdivisions; ++j)
+        for (unsigned int i = 0; i <= patch.n_subdivisions; ++i)
+        {
+          const Point<2> unit(double(i) / patch.n_subdivisions, double(j) / patch.n_subdivisions);
+          Point<2> x;
+          for (unsigned int v = 0; v < GeometryInfo<2>::vertices_per_cell; ++v)
+            x += GeometryInfo<2>::d_linear_shape_function(unit, v) * patch.vertices[v];
+          result.insert(result.end(), {x[0], x[1], 0.});
+        }
+    return result;
+  }
+};
 } // namespace
 
 // ---------------------------------------------------------------- Output
 
 template <int dim>
-Output<dim>::Output(const Scene<dim> &scene, const std::string &directory)
-    : scene(scene), directory(directory)
+Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
+    : scene(scene), directory(path, [this](const std::string &name) { return writes(name); },
+                              {scene.file, scene.reference_solution})
 {
-  prepare_directory();
-}
-
-template <int dim>
-void Output<dim>::prepare_directory() const
-{
-  create(directory);
-  std::error_code error;
-  if (fs::equivalent(scene.file, directory / "scene.prm", error))
-    reject_directory(directory, "its scene.prm is the scene itself and would be overwritten");
-  write("scene.prm", scene.effective_parameters);
-  std::vector<fs::path> stale;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
-       entry.increment(error))
-    if (is_result(entry->path().filename()) && entry->path().filename() != "scene.prm")
-      stale.push_back(entry->path());
-  for (std::size_t i = 0; !error && i < stale.size(); ++i)
-    fs::remove(stale[i], error);
-  if (error)
-    reject_directory(directory, "earlier results cannot be removed: " + error.message());
-}
-
-/** The file appears under its name only when it is whole. */
-template <int dim>
-void Output<dim>::write(const std::string &name, const std::string &content) const
-{
-  const fs::path partial = directory / (name + ".tmp");
-  errno = 0;
-  std::ofstream file(partial, std::ios::binary);
-  file << content;
-  file.close();
-  std::error_code error(file ? 0 : (errno != 0 ? errno : EIO), std::generic_category());
-  if (!error)
-    fs::rename(partial, directory / name, error);
-  if (error)
+  try
   {
-    std::error_code ignored;
-    fs::remove(partial, ignored);
-    reject_directory(directory, name + " cannot be written: " + error.message());
+    write_summary("running", ""); // names the files of earlier runs as long as there are any
+    directory.remove_earlier();
+    write("scene.prm", scene.effective_parameters);
   }
+  catch (const InputError &error)
+  {
+    give_up("failed", error.what());
+    throw;
+  }
+  is_usable = true;
+}
+
+template <int dim>
+bool Output<dim>::writes(const std::string &name) const
+{
+  const auto matches = [&name](const char *pattern)
+  { return std::regex_match(name, std::regex(pattern)); };
+  return matches("scene\\.prm|convergence\\.csv|degrees\\.csv|summary\\.json") ||
+         (scene.output.contact && scene.has_contact() && matches("contact-[0-9]{2,}\\.csv")) ||
+         (scene.output.mesh_picture && matches("mesh-[0-9]{2,}\\.svg")) ||
+         (scene.output.vtu && matches("solution(-[0-9]{2,}\\.vtu|\\.pvd)")) ||
+         (scene.output.reference && matches("reference\\.dat"));
+}
+
+template <int dim>
+void Output<dim>::write(const std::string &name, const std::string &content)
+{
+  if (directory.add(name))
+    write_summary("running", "");
+  replace(name, content);
+}
+
+template <int dim>
+void Output<dim>::replace(const std::string &name, const std::string &content) const
+{
+  const std::error_code error = directory.write(name, content);
+  if (!error)
+    return;
+  const std::string reason = name + " cannot be written: " + error.message();
+  if (!is_usable)
+    directory.reject(reason);
+  throw OutputFailure(directory.name() + ": " + reason + "; " + safe_steps());
+}
+
+template <int dim>
+std::string Output<dim>::safe_steps() const
+{
+  if (finished_steps == 0)
+    return "no step is finished";
+  const bool one = finished_steps == 1;
+  return (one ? "step 1" : "steps 1 to " + std::to_string(finished_steps)) +
+         (directory.is_gone() ? (one ? " has" : " have") + std::string(" vanished with it")
+                              : (one ? " is" : " are") + std::string(" safe"));
 }
 
 template <int dim>
@@ -383,25 +423,31 @@ void Output<dim>::write_step(const Step<dim> &step)
     StoredSolution<dim>(step.solution, tables, step.energies.energy).write(file);
     write("reference.dat", file.str());
   }
-  stopped_by = step.stopped_by;
-  warnings = step.warnings;
   add_rows(step); // last: the tables name no step whose files are missing
   write_tables();
+  ++finished_steps;
+  stopped_by = step.stopped_by;
+  warnings = step.warnings;
   write_summary("running", "");
 }
 
 template <int dim>
-void Output<dim>::finish(const std::string &status)
+void Output<dim>::finish()
 {
-  if (status == "done")
-    return write_summary("done", "");
+  write_summary("done", "");
+}
+
+template <int dim>
+void Output<dim>::give_up(const std::string &status, const std::string &message)
+{
+  convergence.resize(finished_steps);
   try
   {
-    write_summary("failed", status);
+    write_summary(status, message);
   }
-  catch (const InputError &)
+  catch (const std::runtime_error &)
   {
-    // the failure itself is what the user has to hear of
+    // the message itself is what the user has to hear of
   }
 }
 
@@ -416,7 +462,7 @@ void Output<dim>::add_rows(const Step<dim> &step)
 }
 
 template <int dim>
-void Output<dim>::write_tables() const
+void Output<dim>::write_tables()
 {
   write("convergence.csv", csv(convergence));
   write("degrees.csv", degree_table(degrees));
@@ -437,7 +483,7 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
       list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_value(value);
     return "{" + list + "\n  }";
   };
-  const auto list = [](const std::vector<std::string> &lines) -> std::string
+  const auto list = [](const auto &lines) -> std::string
   {
     std::string result;
     for (const std::string &line : lines)
@@ -459,13 +505,13 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
           "\n  },\n  \"steps\": " + std::to_string(convergence.size()) +
           ",\n  \"final\": " + (convergence.empty() ? "null" : object(convergence.back())) +
           ",\n  \"seconds\": " + object(stage_record(times)) + ",\n  \"warnings\": [" +
-          list(warnings) + "]\n}\n";
-  write("summary.json", json);
+          list(warnings) + "],\n  \"files\": [" + list(directory.files()) + "]\n}\n";
+  replace("summary.json", json);
 }
 
 /** Linear cells, subdivided as finely as the highest degree asks for, up to a readable file. */
 template <int dim>
-void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name) const
+void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   Vector<float> degree(space.degrees().size()), estimate(space.degrees().size());
@@ -475,16 +521,17 @@ void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name) cons
     estimate[k] = step.estimate.indicator(k);
   }
   const StressFields<dim> stress_fields(scene.material);
-  DataOut<dim> data_out;
-  const std::string length = xml_text(scene.length_unit), pressure = xml_text(scene.stress_unit);
+  PreciseDataOut<dim> data_out;
   DataOutBase::VtkFlags flags;
   flags.time = step.number;
   flags.cycle = step.number;
   flags.print_date_and_time = false; // equal runs write equal files
   flags.compression_level = DataOutBase::VtkFlags::best_speed;
-  flags.physical_units["displacement"] = length;
+  if (!scene.length_unit.empty())
+    flags.physical_units["displacement"] = xml_text(scene.length_unit);
   for (const std::string &field : stress_fields.get_names())
-    flags.physical_units[field] = pressure;
+    if (!scene.stress_unit.empty())
+      flags.physical_units[field] = xml_text(scene.stress_unit);
   data_out.set_flags(flags);
   data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(space.dof_handler(), step.solution.u,
@@ -496,9 +543,7 @@ void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name) cons
   data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
   const unsigned int p_max = *std::max_element(space.degrees().begin(), space.degrees().end());
   data_out.build_patches(std::min(p_max, 8U));
-  std::ostringstream file;
-  data_out.write_vtu(file);
-  write(name, file.str());
+  write(name, data_out.vtu());
 }
 
 template class Output<2>;

@@ -99,8 +99,13 @@ public:
   explicit AdaptiveSolver(const Scene<dim> &scene);
   ~AdaptiveSolver();
 
-  /** Runs until a limit of the scene is reached. Throws NumericalFailure. */
-  void run(const std::function<void(const Step<dim> &)> &finished_step);
+  /**
+   * Runs until a limit of the scene is reached. Throws NumericalFailure. @p before_stage is called
+   * when a stage begins, and may throw to give up the step.
+   */
+  void run(
+      const std::function<void(const Step<dim> &)> &finished_step,
+      const std::function<void()> &before_stage = [] {});
 
 private:
   struct Stages;

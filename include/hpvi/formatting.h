@@ -14,10 +14,16 @@ std::string text(double value, int digits);
 
 std::string text(unsigned int value);
 
-/** @p content in quotes, as JSON wants it. */
+/**
+ * @p content as UTF-8 that any reader takes: control characters become blanks, bytes that are no
+ * UTF-8 the Latin-1 characters that they may have been.
+ */
+std::string legible(const std::string &content);
+
+/** legible() in quotes, as JSON wants it. */
 std::string json_string(const std::string &content);
 
-/** @p content with the characters escaped that XML reserves. */
+/** legible() with the characters escaped that XML reserves. */
 std::string xml_text(const std::string &content);
 } // namespace hpvi
 

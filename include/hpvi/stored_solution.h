@@ -22,14 +22,17 @@ public:
   StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables, double energy = 0);
 
   /**
-   * Read a file made by write(). Throws InputError if it does not fit to the coarse mesh of
-   * @p scene.
+   * Read a file made by write(). Throws InputError if it is not whole, or belongs to another problem
+   * or another coarse mesh than @p scene, and says what differs.
    */
   StoredSolution(const Scene<dim> &scene, const std::string &file);
 
   double energy() const; ///< J(u)
 
-  /** J(u), then one line per cell: its path from the coarse mesh, its degree, its coefficients. */
+  /**
+   * The format, a checksum (CRC-32) of all that follows, the entries that make up the problem, J(u),
+   * then one line per cell: its path from the coarse mesh, its degree, its coefficients.
+   */
   void write(std::ostream &out) const;
 
   const dealii::Triangulation<dim> &triangulation() const;
@@ -41,6 +44,7 @@ public:
 private:
   dealii::Triangulation<dim> own_mesh; ///< empty where the mesh is another's
   const dealii::Triangulation<dim> *mesh;
+  std::vector<std::string> problem; ///< entries "Section/Entry = value" of the scene it solves
   double energy_value;
   Degrees degrees;
   std::vector<std::vector<double>> cell_coefficients;

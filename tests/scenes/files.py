@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""files.py HPVI: the numbers in tables, VTU files, mesh pictures, summary.json and on standard
+output, against closed forms and against each other."""
+
+import collections
+import math
+import re
+import subprocess
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from runs import PROGRAM, RunTest, read_vtu
+
+SVG = "{http://www.w3.org/2000/svg}"
+STEPS = 4
+
+
+def picture(path):
+    """(corners, colour, digit, place of the digit) of every cell, largest cells first."""
+    group = ElementTree.parse(path).getroot().find(SVG + "g")
+    shapes, labels = group.findall(SVG + "path"), group.findall(SVG + "text")
+    cells = []
+    for shape, label in zip(shapes, labels, strict=True):
+        corners = [tuple(map(float, corner.split())) for corner in
+                   re.fullmatch("M(.*)Z", shape.get("d")).group(1).split("L")]
+        place = re.match(r"translate\((\S+) (\S+)\)", label.get("transform")).groups()
+        cells.append((corners, shape.get("fill"), int(label.text), tuple(map(float, place))))
+    return cells
+
+
+class Uniaxial(RunTest):
+    """sigma_xx = 3: deviator, Hooke's law and displacement in closed form."""
+
+    def run_bar(self, *settings):
+        self.run_scene(*settings, scene=self.bar())
+        return read_vtu(self.out / "solution-01.vtu")
+
+    def check_field(self, field, expected):
+        for value in field:
+            self.assertLess(abs(value - expected), 1e-5)
+
+    def test_stress_and_displacement(self):
+        young, nu, tension = 10., 0.25, 3.
+        for plane in ("stress", "strain"):
+            grid = self.run_bar(f"Material/Plane={plane}")
+            out_of_plane = nu * tension if plane == "strain" else 0.
+            mises = math.sqrt(tension ** 2 - tension * out_of_plane + out_of_plane ** 2)
+            self.check_field(grid["von_mises"], mises)
+            self.check_field(grid["sigma_xx"], tension)
+            self.check_field(grid["sigma_yy"], 0)
+            self.check_field(grid["sigma_xy"], 0)
+            axial = (tension - nu * out_of_plane) / young
+            lateral = -nu * (tension + out_of_plane) / young
+            self.assertEqual(len(grid["points"]), len(grid["displacement"]))
+            for (x, y, _), (u_x, u_y, u_z) in zip(grid["points"], grid["displacement"]):
+                self.assertLess(abs(u_x - axial * x), 1e-6)
+                self.assertLess(abs(u_y - lateral * y), 1e-6)
+                self.assertEqual(u_z, 0)
+
+    def test_shear(self):
+        grid = self.run_bar("Boundary left/Displacement=0.5*y; 0.2*x",
+                            "Boundary right/Displacement=0.5*y; 0.2*x", "Boundary right/Traction=",
+                            "Boundary bottom/Displacement=0.5*y; 0.2*x",
+                            "Boundary top/Displacement=0.5*y; 0.2*x")
+        sigma_xy = 10 / (2 * 1.25) * 0.7
+        self.check_field(grid["sigma_xy"], sigma_xy)
+        self.check_field(grid["von_mises"], math.sqrt(3) * sigma_xy)
+        self.check_field(grid["sigma_xx"], 0)
+
+    def test_degrees_of_uniform_methods(self):
+        self.run_scene("Adaptivity/Method=hup3", "Geometry/Subdivisions=3, 2", scene=self.bar())
+        self.assertEqual((self.out / "degrees.csv").read_text(),
+                         "step,elements,p1,p2,p3\n1,6,0,0,6\n")
+        self.run_scene("Adaptivity/Method=pu", "Adaptivity/Maximum steps=2")
+        self.assertEqual((self.out / "degrees.csv").read_text(),
+                         "step,elements,p1,p2,p3\n1,16,0,16,0\n2,16,0,0,16\n")
+
+
+class Adaptive(RunTest):
+    """Four steps of Example 5.2, whose files must tell the same story."""
+
+    def setUp(self):
+        super().setUp()
+        self.printed = self.run_scene(f"Adaptivity/Maximum steps={STEPS}").splitlines()
+
+    def test_everything(self):
+        for step in range(1, STEPS + 1):
+            row, degrees = self.rows()[step - 1], self.rows("degrees.csv")[step - 1]
+            count = {int(name[1:]): int(degrees[name]) for name in degrees if name[0] == "p"}
+            self.assertEqual(int(degrees["elements"]), int(row["elements"]))
+            self.assertEqual(sum(count.values()), int(row["elements"]))
+            used = [p for p, number in count.items() if number > 0]
+            self.assertEqual([min(used), max(used)], [int(row["p_min"]), int(row["p_max"])])
+            self.check_vtu(step, row, count)
+            self.check_picture(step, count)
+        self.assertGreater(len(used), 1)
+        self.check_summary()
+        self.check_printed()
+
+    def check_vtu(self, step, row, count):
+        grid = read_vtu(self.out / f"solution-{step:02}.vtu")
+        points = (min(int(row["p_max"]), 8) + 1) ** 2  # of each cell; all hold its degree
+        self.assertEqual(collections.Counter(grid["degree"]),
+                         {p: number * points for p, number in count.items() if number > 0})
+        squares = math.fsum(eta ** 2 for eta in grid["estimate"]) / points
+        self.assertTrue(math.isclose(math.sqrt(squares), float(row["estimate"]), rel_tol=1e-5))
+
+    def check_picture(self, step, count):
+        cells = picture(self.out / f"mesh-{step:02}.svg")
+        self.assertEqual(collections.Counter(digit for _, _, digit, _ in cells),
+                         {p: number for p, number in count.items() if number > 0})
+        colours = {digit: colour for _, colour, digit, _ in cells}
+        self.assertEqual(len(set(colours.values())), len(colours))
+        area = 0
+        for corners, colour, digit, (x, y) in cells:
+            self.assertEqual(colour, colours[digit])
+            left, right = min(c[0] for c in corners), max(c[0] for c in corners)
+            top, bottom = min(c[1] for c in corners), max(c[1] for c in corners)
+            self.assertTrue(math.isclose(x, (left + right) / 2) and
+                            math.isclose(y, (top + bottom) / 2))
+            area += (right - left) * (bottom - top)
+        brightness = [sum(int(colours[p][k:k + 2], 16) for k in (1, 3, 5)) for p in sorted(colours)]
+        self.assertEqual(brightness, sorted(brightness, reverse=True))
+        self.assertTrue(math.isclose(area, 800 ** 2, rel_tol=1e-6))  # the body fills its square
+
+    def check_summary(self):
+        summary, rows = self.summary(), self.rows()
+        self.assertEqual([summary[name] for name in ("status", "stopped_by", "scene", "title",
+                                                     "steps")],
+                         ["done", "Maximum steps", "han-6-12",
+                          "Example 5.2: square block pushed along a plane", STEPS])
+        version = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True,
+                                 check=True).stdout
+        self.assertEqual(version, f"{summary['program']} ({summary['build']} build), "
+                                  f"deal.II {summary['deal.II']}\n")
+        self.assertEqual(set(summary["final"]), set(rows[-1]))
+        for name, value in summary["final"].items():
+            written = rows[-1][name]
+            if isinstance(value, str) or value is None:
+                self.assertEqual(value or "", written)
+            else:
+                self.assertEqual(value, float(written))
+        for stage, seconds in summary["seconds"].items():
+            self.assertLess(abs(seconds - sum(float(row["seconds_" + stage]) for row in rows)),
+                            1e-4 * seconds + 1e-12)
+        self.assertNotIn("message", summary)
+
+    def check_printed(self):
+        self.assertRegex(self.printed[0], r"^hpvi \S+ \(\w+ build\), deal.II \S+$")
+        self.assertEqual(self.printed[1], self.summary()["title"])
+        head = next(k for k, line in enumerate(self.printed) if line.startswith("step "))
+        self.assertEqual(self.printed[head].split(),
+                         "step elements dofs_free multipliers p estimate relative slack qp_products "
+                         "seconds".split())
+        for row, line in zip(self.rows(), self.printed[head + 1:]):
+            words = line.split()
+            self.assertEqual(words[:5], [row["step"], row["elements"], row["dofs_free"],
+                                         row["multipliers"], f"{row['p_min']}-{row['p_max']}"])
+            self.assertEqual(words[5:9], [f"{float(row['estimate']):.3e}",
+                                          f"{float(row['estimate_relative']):.1e}",
+                                          f"{float(row['slack']):.3e}", row["qp_multiplications"]])
+            self.assertLess(abs(float(words[9]) - float(row["seconds"])), 0.0051)
+        self.assertEqual(self.printed[head + 1 + STEPS], "")
+        self.assertIn("stopped by Adaptivity/Maximum steps", self.printed)
+        self.assertEqual(self.printed[-1], f"results in {self.out}")
+        for warning in self.summary()["warnings"]:
+            self.assertIn("warning: " + warning, self.printed)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""labels.py HPVI: titles and units of any bytes, none at all, and bodies far from the origin leave
+files that parsers read and numbers that tell points apart."""
+
+import math
+import re
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from runs import BAR, RunTest, read_vtu
+
+SVG = "{http://www.w3.org/2000/svg}"
+FAR = 1e6
+
+
+def texts(path):
+    return [element.text for element in ElementTree.parse(path).iter(SVG + "text")]
+
+
+class Labels(RunTest):
+    def run_text(self, text):
+        """The bar with these lines before it; its printed title and the texts of its picture."""
+        scene = self.home / "bar.prm"
+        scene.write_bytes(text + BAR.encode())
+        printed = self.run_scene(scene=scene)
+        return printed.splitlines()[1], texts(self.out / "mesh-01.svg")
+
+    def test_titles_of_any_bytes(self):
+        titles = {b"Gr\xf6\xdfe": "Größe", "Größe 三".encode(): "Größe 三",
+                  b"a\x01b\x1b[31mc\td\x7fe": "a b [31mc d e", b"\"<&>\\ 'n": "\"<&>\\ 'n",
+                  b"a\xed\xa0\x80b\xc0\x80c\xffd": "aí\u00a0 bÀ cÿd",
+                  b"end\xe2\x82": "endâ ", "c1\u0085, \uffff".encode(): "c1 , \ufffd",
+                  "\U0001f600".encode(): "\U0001f600"}
+        for title, shown in titles.items():
+            printed, drawn = self.run_text(b"set Title = " + title + b"\n")
+            self.assertEqual(printed.rstrip(), shown.rstrip())
+            self.assertEqual(drawn[0].rstrip(), shown.rstrip())
+            self.assertEqual(self.summary()["title"].rstrip(), shown.rstrip())
+            read_vtu(self.out / "solution-01.vtu")
+
+    def test_units_of_any_bytes(self):
+        drawn = self.run_text(b"subsection Units\nset Length = \xb5\x02m\nset Stress = <\xb5&\"\nend\n")[1]
+        self.assertIn("x [µ m]", drawn)
+        self.assertEqual(self.summary()["units"], {"length": "µ m", "stress": "<µ&\""})
+        fields = {field.get("Name"): field.get("units") for field in
+                  ElementTree.parse(self.out / "solution-01.vtu").iter("DataArray")}
+        self.assertEqual((fields["displacement"], fields["von_mises"]), ("µ m", "<µ&\""))
+
+    def test_no_units_are_no_label(self):
+        drawn = self.run_text(b"")[1]
+        self.assertIn("x", drawn)
+        self.assertIn("y", drawn)
+        self.assertEqual(self.summary()["units"], {"length": "", "stress": ""})
+        self.assertNotIn(b"units=", (self.out / "solution-01.vtu").read_bytes())
+        self.run_scene("Units/Length=", "Units/Stress=", "Adaptivity/Maximum steps=2")
+        self.assertRegex(" ".join(self.summary()["warnings"]), r"tensile, up to [0-9.]+ at \(")
+
+    def test_shipped_units_are_named_by_the_scenes(self):
+        for name, units in (("han-6-12", ("mm", "kN/mm^2")), ("han-6-13", ("mm", "kN/mm^2")),
+                            ("semicoercive", ("mm", "kN/mm^2")), ("smooth", ("1", "E"))):
+            self.run_scene("Adaptivity/Maximum steps=1", scene=self.scene.parent / f"{name}.prm")
+            self.assertEqual(tuple(self.summary()["units"].values()), units)
+            self.assertIn(f"x [{units[0]}]", texts(self.out / "mesh-01.svg"))
+
+
+class Coordinates(RunTest):
+    def run_bar(self, x, y, *settings):
+        self.run_scene(f"Geometry/Lower corner={x!r}, {y!r}",
+                       f"Geometry/Upper corner={x + 2!r}, {y + 1!r}", *settings, scene=self.bar())
+        return read_vtu(self.out / "solution-01.vtu")["points"], texts(self.out / "mesh-01.svg")
+
+    def test_far_bodies_keep_their_points(self):
+        near, ticks = self.run_bar(0., 0.)
+        self.assertEqual(sorted({x for x, y, z in near}), [0, 0.5, 1, 1.5, 2])
+        far, far_ticks = self.run_bar(FAR, -FAR)
+        self.assertEqual(len(near), len(far))
+        for (x, y, _), (far_x, far_y, z) in zip(near, far):
+            self.assertLess(abs(far_x - FAR - x), 1e-9)
+            self.assertLess(abs(far_y + FAR - y), 1e-9)
+            self.assertEqual(z, 0)
+        self.assertEqual([tick.replace(" - 1000000", "").replace(" + 1000000", "")
+                          for tick in far_ticks], ticks)
+        self.assertIn("x - 1000000", far_ticks)
+        self.assertIn("y + 1000000", far_ticks)
+
+    def test_ticks_differ_at_any_distance(self):
+        for x in (900., 19999.5, 123456.7, -3.25e8):
+            drawn = self.run_bar(x, 0.)[1]
+            label = next(text for text in drawn if re.match(r"x( [-+] [0-9]+)?$", text))
+            sign, offset = (label.split()[1:] + ["+", "0"])[:2]
+            ticks = [float(text) for text in drawn[:drawn.index(label)]
+                     if re.match(r"-?[0-9.]+$", text)][2:]  # behind the degrees of two cells
+            self.assertEqual(len(set(ticks)), len(ticks))
+            self.assertGreater(len(ticks), 5)
+            values = [tick + float(offset) * (1 if sign == "-" else -1) for tick in ticks]
+            self.assertLess(abs(values[-1] - values[0] - 2), 0.5)
+            self.assertTrue(x - 1e-6 <= values[0] and values[-1] <= x + 2 + 1e-6)
+
+    def test_deep_cells_keep_their_size(self):
+        self.run_scene("Geometry/Graded towards=2, 0", "Geometry/Grading levels=36",
+                       scene=self.bar())
+        grid = read_vtu(self.out / "solution-01.vtu")
+        areas = []
+        for cell in grid["cells"]:
+            corners = [grid["points"][k] for k in cell]
+            areas.append(sum(a[0] * b[1] - a[1] * b[0]
+                             for a, b in zip([(x - 2, y) for x, y, _ in corners],
+                                             [(x - 2, y) for x, y, _ in corners[1:] + corners[:1]]))
+                         / 2)
+        self.assertGreater(min(areas), 0)
+        self.assertTrue(math.isclose(math.fsum(areas), 2, rel_tol=1e-12))
+        self.assertLess(min(areas), 1e-20)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of whole runs share: the program, scenes, readers of its files."""
+
+import base64
+import csv
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+import zlib
+
+PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+SCENES = pathlib.Path(__file__).resolve().parents[2] / "prm"
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "LC_ALL": "C"}
+
+# A bar under uniaxial tension: the exact solution is linear, sigma_xx = 3 and nothing else.
+BAR = """
+subsection Geometry
+  set Upper corner = 2, 1
+  set Subdivisions = 2, 1
+end
+subsection Material
+  set Young's modulus = 10
+  set Poisson's ratio = 0.25
+  set Plane           = stress
+end
+subsection Boundary left
+  set Displacement = 0; free
+end
+subsection Boundary bottom
+  set Displacement = free; 0
+end
+subsection Boundary right
+  set Traction = 3; 0
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+"""
+
+
+def command(scene, output, *settings):
+    line = [PROGRAM, "--output", output, scene]
+    for setting in settings:
+        line += ["--set", setting]
+    return line
+
+
+class RunTest(unittest.TestCase):
+    """Each test has a directory of its own and runs with han-6-12.prm unless it names a scene."""
+
+    scene = SCENES / "han-6-12.prm"
+
+    def setUp(self):
+        self.home = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.home, ignore_errors=True)
+        self.out = self.home / "out"
+
+    def bar(self):
+        scene = self.home / "bar.prm"
+        scene.write_text(BAR)
+        return scene
+
+    def run_scene(self, *settings, status=0, scene=None, output=None, **options):
+        """Run to the end; returns what it printed. A failure is one line on stderr."""
+        done = subprocess.run(command(scene or self.scene, output or self.out, *settings),
+                              stderr=subprocess.PIPE, env=ENVIRONMENT, timeout=300, check=False,
+                              **{"stdout": subprocess.PIPE, **options})
+        errors = done.stderr.decode()
+        self.assertEqual(done.returncode, status, errors)
+        self.assertEqual(len(errors.splitlines()), 0 if status == 0 else 1, errors)
+        return (done.stdout or b"").decode() if status == 0 else errors.rstrip("\n")
+
+    def start(self, *settings, scene=None, rows=1, **options):
+        """A run that has printed so many rows of its table."""
+        run = subprocess.Popen(command(scene or self.scene, self.out, *settings), text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,
+                               **options)
+        self.addCleanup(self.end, run)
+        for line in run.stdout:
+            if line.startswith("step ") and rows == 0 or line.split()[:1] == [str(rows)]:
+                return run
+        return self.fail("the run has ended: " + run.stderr.read())
+
+    def stopped(self, *settings, **options):
+        """The same, and it stands still."""
+        run = self.start(*settings, **options)
+        run.send_signal(signal.SIGSTOP)
+        return run
+
+    @staticmethod
+    def end(run):
+        run.kill()
+        run.communicate()
+
+    def names(self):
+        return sorted(path.name for path in self.out.iterdir())
+
+    def contents(self):
+        return {path.name: path.read_bytes() for path in self.out.iterdir()}
+
+    def summary(self):
+        return json.loads((self.out / "summary.json").read_text())
+
+    def rows(self, name="convergence.csv"):
+        with open(self.out / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def check_whole(self):
+        """Every file of every step that the tables name is there and whole, and no other one."""
+        steps = len(self.rows())
+        self.assertEqual(self.summary()["steps"], steps)
+        self.assertEqual(len(self.rows("degrees.csv")), steps)
+        self.assertEqual(self.names(), result_names(steps))
+        self.assertEqual(self.summary()["files"], self.names())
+        for step in range(1, steps + 1):
+            self.rows(f"contact-{step:02}.csv")
+            ElementTree.parse(self.out / f"mesh-{step:02}.svg")
+            read_vtu(self.out / f"solution-{step:02}.vtu")
+        return steps
+
+
+def result_names(steps):
+    names = ["convergence.csv", "degrees.csv", "scene.prm", "summary.json", "solution.pvd"]
+    for step in range(1, steps + 1):
+        names += [f"contact-{step:02}.csv", f"mesh-{step:02}.svg", f"solution-{step:02}.vtu"]
+    return sorted(names)
+
+
+def size_limit(size):
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+# ---------------------------------------------------------------- VTU
+
+FORMATS = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt32": "I", "Int64": "q", "UInt64": "Q",
+           "UInt8": "B"}
+
+
+def numbers(array):
+    """A DataArray: digits, or base64 of block sizes and of what zlib made of them."""
+    kind = FORMATS[array.get("type")]
+    if array.get("format") == "ascii":
+        return [float(word) if kind in "fd" else int(word) for word in array.text.split()]
+    text = array.text.strip()
+    n_blocks = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
+    head = 4 * (3 + n_blocks)
+    digits = 4 * ((head + 2) // 3)
+    sizes = struct.unpack(f"<{3 + n_blocks}I", base64.b64decode(text[:digits])[:head])[3:]
+    data, result = base64.b64decode(text[digits:]), b""
+    for size in sizes:
+        result += zlib.decompress(data[:size])
+        data = data[size:]
+    return list(struct.unpack(f"<{len(result) // struct.calcsize(kind)}{kind}", result))
+
+
+def read_vtu(path):
+    """Points, cells as lists of point numbers, fields of points and cells by name."""
+    piece = ElementTree.parse(path).getroot().find("UnstructuredGrid/Piece")
+    flat = numbers(piece.find("Points/DataArray"))
+    cells = {array.get("Name"): numbers(array) for array in piece.find("Cells")}
+    grid = {"points": [tuple(flat[k:k + 3]) for k in range(0, len(flat), 3)], "cells": []}
+    start = 0
+    for end in cells["offsets"]:
+        grid["cells"].append(cells["connectivity"][start:end])
+        start = end
+    for place in ("PointData", "CellData"):
+        for array in piece.find(place) or ():
+            width = int(array.get("NumberOfComponents", "1"))
+            values = numbers(array)
+            grid[array.get("Name")] = values if width == 1 else \
+                [tuple(values[k:k + width]) for k in range(0, len(values), width)]
+    return grid
