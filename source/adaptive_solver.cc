@@ -4,7 +4,12 @@
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
+#include <hpvi/text.h>
 #include <hpvi/warnings.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace hpvi
 {
@@ -28,6 +33,34 @@ private:
   Timer timer;
   double &seconds;
 };
+
+/** What overflows must not pass for a result. */
+void check_finite(const char *const name, const double value)
+{
+  if (!std::isfinite(value))
+    throw NumericalFailure(std::string(name) + " is not finite: numbers overflow or elements are "
+                                               "degenerate; choose units in which loads, Friction "
+                                               "bound and Young's modulus are moderate");
+}
+
+/** Nor what underflows: energies are squares, of which a small solution would leave zero. */
+template <int dim>
+void check_underflow(const Solution<dim> &solution)
+{
+  const double largest = solution.u.linfty_norm();
+  const double negligible =
+      std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+  if (largest > 0 && solution.scene.material.young * largest * largest < negligible)
+    throw NumericalFailure("the energy underflows: Young's modulus " +
+                           to_string(solution.scene.material.young) + " and displacements up to " +
+                           to_string(largest) + "; choose units in which loads are moderate");
+}
+
+/** Part of a whole that may be zero, which has no parts. */
+double ratio(const double part, const double whole)
+{
+  return part == 0 ? 0. : part / whole;
+}
 
 /** One discrete problem: spaces and system; each member is built from the ones above it. */
 template <int dim>
@@ -100,6 +133,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 {
   const ElasticSystem<dim> &system = *discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
+  check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
   std::unique_ptr<const SchurComplement> schur_complement;
   {
     StageTimer timer(times.factor);
@@ -132,7 +166,9 @@ template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
   StageTimer timer(times.estimate);
-  return estimate_error(solution, tables);
+  ErrorEstimate result = estimate_error(solution, tables);
+  check_finite("the error indicator", result.total());
+  return result;
 }
 
 template <int dim>
@@ -170,14 +206,18 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
   {
     StageTimer timer(times.recover);
     step_energies = energies(solution, *discretisation->system, tables);
+    check_finite("the energy", step_energies.energy);
+    check_finite("the Lagrangian", step_energies.lagrangian);
+    check_finite("the energy norm", step_energies.norm);
+    check_underflow(solution);
   }
-  const double scaled_estimate = estimate.total() / std::sqrt(2 * scene.material.mu());
+  const double scaled_estimate = estimate.total() / std::sqrt(scene.material.coercivity(dim));
   seconds += times.total();
   return {++number,
           solution,
           estimate,
           scaled_estimate,
-          scaled_estimate / step_energies.norm,
+          ratio(scaled_estimate, step_energies.norm),
           step_energies,
           true_error.measure(solution),
           reduction.qp,
@@ -191,10 +231,12 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
 
 namespace
 {
-/** Which limit of the scene does this step reach? Empty: none. */
+/** Which limit of the scene does this step reach, or that of numbers? Empty: none. */
 template <int dim>
 std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
 {
+  if (step.estimate.total() == 0)
+    return "round-off";
   if (step.relative_estimate < limits.tolerance)
     return "Tolerance";
   if (step.number >= limits.maximum_steps)
@@ -205,12 +247,24 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
     return "Maximum seconds";
   return {};
 }
+
+/** Empty fields of the table are explained once. */
+std::string no_condition_number(const std::vector<unsigned int> &steps)
+{
+  std::string list;
+  for (const unsigned int step : steps)
+    list += (list.empty() ? "" : ", ") + std::to_string(step);
+  return "S is singular up to round-off in step " + list +
+         ": there the table has no condition number; Friction bound may differ too much from point "
+         "to point, or a multiplier act nowhere";
+}
 } // namespace
 
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
 {
   std::vector<double> estimates;
+  std::vector<unsigned int> singular; ///< steps whose S has no condition number
   for (bool finished = false; !finished;)
   {
     stages->discretise();
@@ -221,11 +275,15 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     Step<dim> step = stages->report(solution, estimate, reduction);
     step.stopped_by = reached_limit(stages->scene.adaptivity, step);
     if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
-      step.stopped_by = "Maximum degree";
+      step.stopped_by = nothing_marked(stages->scene.adaptivity);
     estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
+    if (!std::isfinite(step.condition_raw) || !std::isfinite(step.condition_scaled))
+      singular.push_back(step.number);
     if (finished)
       step.warnings = warnings(solution, stages->tables, estimates);
+    if (finished && !singular.empty())
+      step.warnings.push_back(no_condition_number(singular));
     finished_step(step);
     stages->times = StageTimes();
     if (!finished)

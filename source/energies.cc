@@ -5,6 +5,9 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -105,7 +108,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
     }
   const double a = system.energy_product(solution.u);
   const double potential = 0.5 * a - system.work(solution.u);
-  return {potential + coupling, potential + friction, std::sqrt(a), resultant, friction - coupling};
+  const double norm =
+      std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
+  return {potential + coupling, potential + friction, norm, resultant, friction - coupling};
 }
 
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &);

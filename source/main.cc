@@ -3,8 +3,7 @@
 #include <hpvi/command_line.h>
 #include <hpvi/inf_sup.h>
 #include <hpvi/output.h>
-
-#include <deal.II/base/exceptions.h>
+#include <hpvi/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,21 +27,12 @@ std::string version_line()
   return "hpvi " HPVI_VERSION " (" + build + " build), deal.II " DEAL_II_PACKAGE_VERSION;
 }
 
-/** The one line for stderr. What deal.II's exceptions say in what() fills a page. */
+/** The one line for stderr. */
 std::string failure_line(const std::exception &error)
 {
-  if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error))
-    return error.what();
-  std::ostringstream text;
-  if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
-    dealii_error->print_info(text);
-  else
-    text << error.what();
-  std::istringstream words(text.str());
-  std::string word, line = "hpvi: internal error:";
-  while (words >> word)
-    line += " " + word;
-  return line;
+  const bool foreseen =
+      dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error);
+  return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
 }
 
 // ---------------------------------------------------------------- what a run prints
@@ -121,8 +111,9 @@ void run(const Scene<dim> &scene, const std::string &directory)
   print_stages(times);
   for (const std::string &warning : warnings)
     std::cout << "\nwarning: " << warning;
-  std::cout << (warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/" << stopped_by
-            << "\nresults in " << directory << std::endl;
+  std::cout << (warnings.empty() ? "" : "\n") << "\nstopped by "
+            << (stopped_by == "round-off" ? "" : "Adaptivity/") << stopped_by << "\nresults in "
+            << directory << std::endl;
 }
 
 void print_inf_sup_row(const Step<dim> &step, const InfSup &inf_sup)

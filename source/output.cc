@@ -90,8 +90,8 @@ template <int dim>
 Record convergence_record(const Step<dim> &step, const unsigned int p_min, const unsigned int p_max)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
-  const auto condition = [](const double value) { return value == 0 ? "" : text(value); };
-  const auto known = [](const double value) { return std::isnan(value) ? "" : text(value); };
+  const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
+  const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
   Record record{{"step", text(step.number)},
                 {"elements", text(space.triangulation().n_active_cells())},
                 {"dofs", text(space.n_dofs())},
@@ -118,7 +118,7 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
                 {"condition_raw", condition(step.condition_raw)},
                 {"condition_scaled", condition(step.condition_scaled)},
                 {"estimate_scaled", text(step.scaled_estimate)},
-                {"estimate_relative", text(step.relative_estimate)},
+                {"estimate_relative", known(step.relative_estimate)},
                 {"energy_norm", text(step.energies.norm)},
                 {"friction_resultant", text(step.energies.resultant)},
                 {"error_energy", known(step.errors.energy)},
