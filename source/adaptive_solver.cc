@@ -5,8 +5,12 @@
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
+#include <hpvi/text.h>
 #include <hpvi/warnings.h>
 
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace hpvi
@@ -31,6 +35,34 @@ private:
   Timer timer;
   double &seconds;
 };
+
+/** What overflows must not pass for a result. */
+void check_finite(const char *const name, const double value)
+{
+  if (!std::isfinite(value))
+    throw NumericalFailure(std::string(name) + " is not finite: numbers overflow or elements are "
+                                               "degenerate; choose units in which loads, Friction "
+                                               "bound and Young's modulus are moderate");
+}
+
+/** Nor what underflows: energies are squares, of which a small solution would leave zero. */
+template <int dim>
+void check_underflow(const Solution<dim> &solution)
+{
+  const double largest = solution.u.linfty_norm();
+  const double negligible =
+      std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+  if (largest > 0 && solution.scene.material.young * largest * largest < negligible)
+    throw NumericalFailure("the energy underflows: Young's modulus " +
+                           to_string(solution.scene.material.young) + " and displacements up to " +
+                           to_string(largest) + "; choose units in which loads are moderate");
+}
+
+/** Part of a whole that may be zero, which has no parts. */
+double ratio(const double part, const double whole)
+{
+  return part == 0 ? 0. : part / whole;
+}
 
 /** One discrete problem: spaces and system; each member is built from the ones above it. */
 template <int dim>
@@ -107,6 +139,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 {
   const ElasticSystem<dim> &system = *discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
+  check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
   std::unique_ptr<const SchurComplement> schur_complement;
   before_stage();
   {
@@ -137,7 +170,9 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 {
   before_stage();
   StageTimer timer(times.estimate);
-  return estimate_error(solution, tables);
+  ErrorEstimate result = estimate_error(solution, tables);
+  check_finite("the error indicator", result.total());
+  return result;
 }
 
 template <int dim>
@@ -177,14 +212,18 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
   {
     StageTimer timer(times.recover);
     step_energies = energies(solution, *discretisation->system, tables);
+    check_finite("the energy", step_energies.energy);
+    check_finite("the Lagrangian", step_energies.lagrangian);
+    check_finite("the energy norm", step_energies.norm);
+    check_underflow(solution);
   }
-  const double scaled_estimate = estimate.total() / std::sqrt(2 * scene.material.mu());
+  const double scaled_estimate = estimate.total() / std::sqrt(scene.material.coercivity(dim));
   seconds += times.total();
   return {++number,
           solution,
           estimate,
           scaled_estimate,
-          scaled_estimate / step_energies.norm,
+          ratio(scaled_estimate, step_energies.norm),
           step_energies,
           true_error.measure(solution),
           algebraic,
@@ -213,13 +252,13 @@ bool is_exact_to_round_off(const Step<dim> &step, const ShapeTables<dim> &tables
          step.estimate.total() <= 4 * round_off_of_estimate(solution, tables);
 }
 
-/** Which limit of the scene does this step reach? Empty: none. */
+/** Which limit of the scene does this step reach, or that of numbers? Empty: none. */
 template <int dim>
 std::string reached_limit(const Adaptivity &limits, const Step<dim> &step,
                           const ShapeTables<dim> &tables)
 {
   if (is_exact_to_round_off(step, tables))
-    return "exact to round-off";
+    return "round-off";
   if (step.relative_estimate < limits.tolerance)
     return "Tolerance";
   if (step.number >= limits.maximum_steps)
@@ -243,6 +282,17 @@ void check_algebraic_error(const AlgebraicError &error)
          "support it better, or choose fewer Geometry/Subdivisions and a higher degree";
   throw NumericalFailure(line.str());
 }
+
+/** Empty fields of the table are explained once. */
+std::string no_condition_number(const std::vector<unsigned int> &steps)
+{
+  std::string list;
+  for (const unsigned int step : steps)
+    list += (list.empty() ? "" : ", ") + std::to_string(step);
+  return "S is singular up to round-off in step " + list +
+         ": there the table has no condition number; Friction bound may differ too much from point "
+         "to point, or a multiplier act nowhere";
+}
 } // namespace
 
 template <int dim>
@@ -251,6 +301,7 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
 {
   stages->before_stage = before_stage;
   std::vector<double> estimates;
+  std::vector<unsigned int> singular; ///< steps whose S has no condition number
   for (bool finished = false; !finished;)
   {
     stages->discretise();
@@ -262,12 +313,16 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     check_algebraic_error(step.algebraic);
     step.stopped_by = reached_limit(stages->scene.adaptivity, step, stages->tables);
     if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
-      step.stopped_by = "Maximum degree";
+      step.stopped_by = nothing_marked(stages->scene.adaptivity);
     estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
+    if (!std::isfinite(step.condition_raw) || !std::isfinite(step.condition_scaled))
+      singular.push_back(step.number);
     if (finished)
     {
       step.warnings = warnings(solution, stages->tables, estimates, step.algebraic);
+      if (!singular.empty())
+        step.warnings.push_back(no_condition_number(singular));
       step.equilibrium = equilibrium(solution, *stages->discretisation->system, stages->tables);
     }
     finished_step(step);

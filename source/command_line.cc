@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/command_line.h>
 #include <hpvi/scene.h>
+#include <hpvi/text.h>
 
 #include <boost/program_options.hpp>
 
@@ -53,7 +54,7 @@ std::pair<std::string, std::string> split_override(const std::string &text)
 {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
-    throw InputError("hpvi: --set " + text +
+    throw InputError("hpvi: --set " + printable(text) +
                      ": has no '='; write --set \"Section/Entry=value\" with quotes around it");
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
@@ -68,7 +69,7 @@ CommandLine parse(const int argc, const char *const argv[])
   }
   catch (const po::error &error)
   {
-    throw InputError(std::string("hpvi: ") + error.what() + "; see hpvi --help");
+    throw InputError("hpvi: " + printable(error.what()) + "; see hpvi --help");
   }
 
   CommandLine result;
@@ -86,7 +87,7 @@ CommandLine parse(const int argc, const char *const argv[])
   result.version = values.count("version");
 
   if (result.inf_sup && !result.output_directory.empty())
-    throw InputError("hpvi: --output " + result.output_directory +
+    throw InputError("hpvi: --output " + printable(result.output_directory, 400) +
                      ": --inf-sup writes no file; remove one of the two");
   const bool defaults = result.print_parameters && !result.validate && result.overrides.empty();
   if (result.scene_file.empty() && !result.help && !result.version && !defaults)

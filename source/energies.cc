@@ -6,6 +6,9 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -108,7 +111,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
       internal_forces(solution.scene.material, solution.displacement_space, tables, solution.u)
           .energy_product;
   const double potential = 0.5 * a - system.work(solution.u);
-  return {potential + coupling, potential + friction, std::sqrt(a), resultant, friction - coupling};
+  const double norm =
+      std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
+  return {potential + coupling, potential + friction, norm, resultant, friction - coupling};
 }
 
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/expressions.h>
 
+#include <hpvi/input_error.h>
 #include <hpvi/text.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <regex>
 
 namespace hpvi
 {
@@ -50,6 +53,29 @@ bool is_number(const std::string &text, double &value)
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
   return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+template <int dim>
+std::string message(const std::string &place, const std::string &problem, const Point<dim> &x,
+                    const double value, const std::string &remedy)
+{
+  return place + ": " + problem + " at " + to_string(x) + ": " + to_string(value) + "; " + remedy;
+}
+
+/** @p function, which must be finite wherever it is asked. */
+template <int dim>
+std::shared_ptr<const Function<dim>> finite(const std::shared_ptr<const Function<dim>> &function,
+                                            const std::string &place, const std::string &text)
+{
+  const auto value = [=](const Point<dim> &x)
+  {
+    const double result = function->value(x);
+    if (!std::isfinite(result))
+      throw InputError(message(place, "\"" + printable(text) + "\" is not finite", x, result,
+                               "give an expression that is finite everywhere it applies"));
+    return result;
+  };
+  return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
 }
 
 bool is_absent(const std::string &text, const std::string &absent)
@@ -131,12 +157,34 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
                       "\"" + printable(text) + "\" is not an expression of x and y (" +
                           parser_message(error) + "); mend it, constants are pi, E, nu, mu");
   }
+  const Expression result = finite<dim>(function, parameters.place(section, name), text);
   for (const Point<dim> &point : points)
-    if (!std::isfinite(function->value(point)))
-      parameters.reject(section, name,
-                        "\"" + text + "\" is not finite at " + to_string(point) +
-                            "; give an expression that is finite everywhere it applies");
-  return function;
+    result->value(point);
+  return result;
+}
+
+template <int dim>
+typename ExpressionReader<dim>::Expression
+ExpressionReader<dim>::read_bound(const std::string &section, const std::string &name,
+                                  const std::vector<Point<dim>> &points) const
+{
+  const Expression g = read<1>(section, name, "0", points)[0];
+  if (g == nullptr)
+    return nullptr;
+  double largest = 0;
+  for (const Point<dim> &point : points)
+    largest = std::max(largest, std::abs(g->value(point)));
+  const auto value = [g, largest, place = parameters.place(section, name)](const Point<dim> &x)
+  {
+    const double result = g->value(x);
+    if (result < -1e-12 * largest) // round-off, as in sin(2*pi), is no sign
+      throw InputError(message(place, "is negative", x, result, "Tresca's bound needs g >= 0"));
+    return std::max(result, 0.);
+  };
+  const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
+  for (const Point<dim> &point : points)
+    bound->value(point);
+  return bound;
 }
 
 template <int dim>
@@ -145,20 +193,26 @@ void ExpressionReader<dim>::check_misreadings(const std::string &section, const 
 {
   if (text.empty())
     parameters.reject(section, name, "has an empty component; write 0 for zero");
+  static const std::regex random("\\brand(_seed)?\\b");
+  if (std::regex_search(text, random))
+    parameters.reject(section, name,
+                      "\"" + printable(text) +
+                          "\" is random, and equal runs must give equal results; write a function "
+                          "of x and y");
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i)
   {
     depth += (text[i] == '(') - (text[i] == ')');
     if (text[i] == ',' && depth == 0) // "4,5" would be two numbers, of which the last counts
       parameters.reject(section, name,
-                        "\"" + text +
+                        "\"" + printable(text) +
                             "\" has a comma outside a function's arguments; write decimals with "
                             "'.' and separate components by ';'");
     const bool comparison = (i > 0 && std::strchr("=<>!", text[i - 1]) != nullptr) ||
                             (i + 1 < text.size() && text[i + 1] == '=');
     if (text[i] == '=' && !comparison) // "x=3" would change x
       parameters.reject(section, name,
-                        "\"" + text +
+                        "\"" + printable(text) +
                             "\" assigns a value; write the expression alone, and == "
                             "to compare");
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/geometry.h>
 
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -13,6 +17,19 @@ std::vector<Point<2>> Edge::sample() const
     points.push_back(ends[0] + (double(i) / n) * (ends[1] - ends[0]));
   points.push_back(ends[1]); // exactly, for conditions at corners
   return points;
+}
+
+std::array<double, 4> corner_angles(const Geometry<2> &geometry)
+{
+  std::array<double, 4> angles;
+  for (unsigned int c = 0; c < angles.size(); ++c)
+  {
+    // Neighbours differ in one bit of the lexicographic number.
+    const Tensor<1, 2> a = geometry.corners[c ^ 1u] - geometry.corners[c],
+                       b = geometry.corners[c ^ 2u] - geometry.corners[c];
+    angles[c] = std::atan2(std::abs(a[0] * b[1] - a[1] * b[0]), a * b) * 180. / numbers::PI;
+  }
+  return angles;
 }
 
 Point<2> centre_of(const Geometry<2> &geometry)

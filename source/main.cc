@@ -7,8 +7,6 @@
 #include <hpvi/output.h>
 #include <hpvi/text.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -34,22 +32,13 @@ std::string version_line()
   return "hpvi " HPVI_VERSION " (" + build + " build), deal.II " DEAL_II_PACKAGE_VERSION;
 }
 
-/** The one line for stderr. What deal.II's exceptions say in what() fills a page. */
+/** The one line for stderr. */
 std::string failure_line(const std::exception &error)
 {
-  if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
-      dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error))
-    return error.what();
-  std::ostringstream text;
-  if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
-    dealii_error->print_info(text);
-  else
-    text << error.what();
-  std::istringstream words(text.str());
-  std::string word, line = "hpvi: internal error:";
-  while (words >> word)
-    line += " " + word;
-  return line;
+  const bool foreseen =
+      dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
+      dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
+  return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
 }
 
 int exit_status(const std::exception &error)
@@ -134,6 +123,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
+  std::pair<std::string, std::string> balance;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
@@ -145,6 +135,8 @@ void run(const Scene<dim> &scene, const std::string &directory)
           times += step.times;
           stopped_by = step.stopped_by;
           warnings = step.warnings;
+          balance = {text(step.equilibrium.force_imbalance, 2),
+                     text(step.equilibrium.moment_imbalance, 2)};
           output.write_step(step);
         },
         stop_if_interrupted);
@@ -162,9 +154,13 @@ void run(const Scene<dim> &scene, const std::string &directory)
   }
   output.finish();
   print_stages(times);
+  std::cout << "\nbalance: forces to " << balance.first << ", moments to " << balance.second
+            << " of their absolute sums\n";
   for (const std::string &warning : warnings)
     std::cout << "\nwarning: " << warning;
-  std::cout << (warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/" << stopped_by
+  std::cout << (warnings.empty() ? "" : "\n") << '\n'
+            << (stopped_by == "round-off" ? "stopped: exact to round-off"
+                                          : "stopped by Adaptivity/" + stopped_by)
             << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }

@@ -64,6 +64,9 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
     GridTools::transform([&](const Point<dim> &x) { return map_to_body(geometry, x); },
                          triangulation);
   }
+  // Boundary conditions are looked up by the ids of faces, which refinement hands on.
+  AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
+              ExcMessage("The scene has no boundary of the number that a face carries."));
   grade_towards_points(geometry, triangulation);
 }
 

@@ -90,8 +90,8 @@ template <int dim>
 Record convergence_record(const Step<dim> &step, const unsigned int p_min, const unsigned int p_max)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
-  const auto condition = [](const double value) { return value == 0 ? "" : text(value); };
-  const auto known = [](const double value) { return std::isnan(value) ? "" : text(value); };
+  const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
+  const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
   Record record{{"step", text(step.number)},
                 {"elements", text(space.triangulation().n_active_cells())},
                 {"dofs", text(space.n_dofs())},
@@ -118,7 +118,7 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
                 {"condition_raw", condition(step.condition_raw)},
                 {"condition_scaled", condition(step.condition_scaled)},
                 {"estimate_scaled", text(step.scaled_estimate)},
-                {"estimate_relative", text(step.relative_estimate)},
+                {"estimate_relative", known(step.relative_estimate)},
                 {"energy_norm", text(step.energies.norm)},
                 {"friction_resultant", text(step.energies.resultant)},
                 {"error_energy", known(step.errors.energy)},
@@ -164,6 +164,37 @@ std::string degree_table(const std::vector<std::vector<unsigned int>> &degrees)
     records.push_back(record);
   }
   return csv(records);
+}
+
+// ---------------------------------------------------------------- forces
+
+template <int dim>
+std::string json_point(const Tensor<1, dim> &x)
+{
+  std::string list;
+  for (unsigned int d = 0; d < dim; ++d)
+    list += (d > 0 ? ", " : "") + text(x[d]);
+  return "[" + list + "]";
+}
+
+template <int dim>
+std::string json_force(const BoundaryForce<dim> &force)
+{
+  return json_string(force.boundary) + ": {\"force\": " + json_point(force.force) +
+         ", \"moment\": " + text(force.moment) + "}";
+}
+
+/** Two members of summary.json: forces by boundary, and how well they balance. */
+template <int dim>
+std::string json_equilibrium(const Equilibrium<dim> &equilibrium)
+{
+  std::string forces = "\n    " + json_force(equilibrium.loads);
+  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
+    forces += ",\n    " + json_force(reaction);
+  return "  \"forces\": {" + forces +
+         "\n  },\n  \"balance\": {\n    \"force\": " + text(equilibrium.force_imbalance) +
+         ",\n    \"moment\": " + text(equilibrium.moment_imbalance) +
+         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
 }
 
 // ---------------------------------------------------------------- stress
@@ -428,6 +459,7 @@ void Output<dim>::write_step(const Step<dim> &step)
   ++finished_steps;
   stopped_by = step.stopped_by;
   warnings = step.warnings;
+  equilibrium = step.equilibrium;
   write_summary("running", "");
 }
 
@@ -503,8 +535,9 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
           ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
           ",\n    \"stress\": " + json_string(scene.stress_unit) +
           "\n  },\n  \"steps\": " + std::to_string(convergence.size()) +
-          ",\n  \"final\": " + (convergence.empty() ? "null" : object(convergence.back())) +
-          ",\n  \"seconds\": " + object(stage_record(times)) + ",\n  \"warnings\": [" +
+          ",\n  \"final\": " + (convergence.empty() ? "null" : object(convergence.back())) + ",\n" +
+          (stopped_by.empty() ? "" : json_equilibrium(equilibrium)) +
+          "  \"seconds\": " + object(stage_record(times)) + ",\n  \"warnings\": [" +
           list(warnings) + "],\n  \"files\": [" + list(directory.files()) + "]\n}\n";
   replace("summary.json", json);
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace hpvi
 {
@@ -19,17 +20,13 @@ namespace
 class FileScanner
 {
 public:
-  explicit FileScanner(const std::string &file) : file(file)
+  explicit FileScanner(const std::string &file) : file(file), shown(printable(file, 400))
   {
   }
 
   std::vector<Assignment> scan()
   {
-    if (std::filesystem::is_directory(file))
-      throw InputError(file + ": is a directory; name a scene file (.prm)");
-    std::ifstream stream(file);
-    if (!stream)
-      throw InputError(file + ": cannot be read; check the name and the permissions of the file");
+    std::istringstream stream(content());
     for (std::string line; next_line(stream, line);)
       if (!line.empty())
         read_statement(line);
@@ -39,6 +36,24 @@ public:
   }
 
 private:
+  /** A device or a picture would be read for ever. */
+  std::string content() const
+  {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+      throw InputError(shown + ": is a directory; name a scene file (.prm)");
+    std::ifstream stream(file, std::ios::binary);
+    const std::size_t limit = 1 << 20;
+    std::string text(limit + 1, '\0');
+    stream.read(text.data(), text.size());
+    if (stream.bad() || !stream.is_open())
+      throw InputError(shown + ": cannot be read; check the name and the permissions of the file");
+    text.resize(stream.gcount());
+    if (text.size() > limit)
+      throw InputError(shown + ": is larger than a megabyte; name a scene file (.prm)");
+    return text;
+  }
+
   /** Without comment and surrounding blanks; lines that end in a backslash are joined. */
   bool next_line(std::istream &stream, std::string &line)
   {
@@ -61,7 +76,7 @@ private:
 
   void read_statement(const std::string &line)
   {
-    const std::string where = file + ":" + std::to_string(line_number);
+    const std::string where = shown + ":" + std::to_string(line_number);
     const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
     const std::string keyword = lower_case(line.substr(0, gap));
     const std::string rest = Utilities::trim(line.substr(gap));
@@ -83,7 +98,7 @@ private:
   {
     if (!section.empty())
       fail(where, "subsection " + name,
-           "stands inside subsection " + section + " of " + section_start +
+           "stands inside subsection " + printable(section) + " of " + section_start +
                "; close that one with \"end\" first");
     section = name;
     section_start = where;
@@ -97,7 +112,7 @@ private:
     section.clear();
   }
 
-  const std::string file;
+  const std::string file, shown;
   unsigned int line_number = 0;
   std::string section, section_start;
   std::vector<Assignment> assignments;

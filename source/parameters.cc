@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/parameters.h>
 
+#include <hpvi/input_error.h>
 #include <hpvi/text.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace hpvi
@@ -28,7 +30,7 @@ void Parameters::in_section(const std::string &section, const Action &action)
 }
 
 Parameters::Parameters(std::vector<Entry> all_entries, const std::string &file)
-    : entries(std::move(all_entries)), file(file)
+    : entries(std::move(all_entries)), file(file), shown(printable(file, 400))
 {
   for (const Entry &entry : entries)
     in_section(entry.section,
@@ -51,16 +53,19 @@ void Parameters::assign(const Assignment &assignment)
   const Entry *entry = known_entry(assignment);
   if (entry == nullptr)
     return;
-  if (!entry->pattern->match(assignment.value))
-    fail(assignment.where, entry->path() + " = " + assignment.value,
+  std::string value = assignment.value;
+  std::replace_if( // deal.II's lists trim nothing but blanks
+      value.begin(), value.end(), [](const unsigned char c) { return std::isspace(c); }, ' ');
+  if (!entry->pattern->match(value))
+    fail(assignment.where, entry->path() + " = " + value,
          "is not accepted here; give " + entry->wanted);
   origins[entry->path()] = assignment.where;
-  set(entry->section, entry->name, assignment.value);
+  set(entry->section, entry->name, value);
 }
 
 void Parameters::assign(const std::pair<std::string, std::string> &override)
 {
-  const std::string where = file + " (--set)";
+  const std::string where = shown + " (--set)";
   const std::string value = Utilities::trim(override.second);
   const std::size_t slash = override.first.rfind('/');
   const bool top = slash == std::string::npos;
@@ -84,9 +89,20 @@ std::string Parameters::text(const std::string &section, const std::string &name
   return section.empty() ? prm.get(name) : prm.get({section}, name);
 }
 
+namespace
+{
+/** As the patterns read it: deal.II's conversion throws where a number is below the normal ones. */
+double to_number(const std::string &text)
+{
+  double value = 0;
+  std::istringstream(text) >> value;
+  return value;
+}
+} // namespace
+
 double Parameters::number(const std::string &section, const std::string &name) const
 {
-  return prm.get_double({section}, name);
+  return to_number(text(section, name));
 }
 
 unsigned int Parameters::integer(const std::string &section, const std::string &name) const
@@ -106,21 +122,25 @@ std::vector<Point<dim>> Parameters::points(const std::string &section,
   std::vector<Point<dim>> result;
   for (const std::string &point : Utilities::split_string_list(text(section, name), ';'))
   {
-    const std::vector<double> x =
-        Utilities::string_to_double(Utilities::split_string_list(point, ','));
+    const std::vector<std::string> x = Utilities::split_string_list(point, ',');
     result.emplace_back();
-    std::copy(x.begin(), x.end(), result.back().begin_raw());
+    std::transform(x.begin(), x.end(), result.back().begin_raw(), to_number);
   }
   return result;
+}
+
+std::string Parameters::place(const std::string &section, const std::string &name) const
+{
+  const std::string path = section.empty() ? name : section + "/" + name;
+  const auto origin = origins.find(path);
+  return (origin == origins.end() ? shown : origin->second) + ": " +
+         printable(path + " = " + text(section, name));
 }
 
 void Parameters::reject(const std::string &section, const std::string &name,
                         const std::string &problem) const
 {
-  const std::string path = section.empty() ? name : section + "/" + name;
-  const auto origin = origins.find(path);
-  fail(origin == origins.end() ? file : origin->second, path + " = " + text(section, name),
-       problem);
+  throw InputError(place(section, name) + ": " + problem);
 }
 
 std::string Parameters::print(const bool documented) const

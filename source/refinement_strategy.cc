@@ -119,4 +119,23 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const Erro
   }
   return result;
 }
+
+std::string nothing_marked(const Adaptivity &adaptivity)
+{
+  switch (adaptivity.method)
+  {
+  case Method::hap2:
+  case Method::hap3:
+  case Method::hap4:
+    return "hap threshold";
+  case Method::hpa1:
+    return "hpa1 bisected fraction";
+  case Method::hpa2:
+    return "hpa2 marked fraction";
+  case Method::hpa3:
+    return "hpa3 threshold";
+  default:
+    return "Maximum degree";
+  }
+}
 } // namespace hpvi

@@ -21,6 +21,15 @@ using namespace dealii;
 
 namespace
 {
+/** Squares of lengths, stresses and displacements, and their products, must not over- or underflow. */
+constexpr double smallest = 1e-100, largest = 1e100;
+
+/** Without squares, which over- and underflow. */
+double length(const Tensor<1, 2> &edge)
+{
+  return std::hypot(edge[0], edge[1]);
+}
+
 template <int dim>
 std::array<Point<dim>, GeometryInfo<dim>::vertices_per_cell> read_box(const Parameters &parameters)
 {
@@ -29,7 +38,7 @@ std::array<Point<dim>, GeometryInfo<dim>::vertices_per_cell> read_box(const Para
   std::array<Point<dim>, GeometryInfo<dim>::vertices_per_cell> corners;
   for (unsigned int d = 0; d < dim; ++d)
   {
-    if (!(lower[d] < upper[d]) || !std::isfinite(upper[d] - lower[d]))
+    if (!(lower[d] < upper[d]))
       parameters.reject("Geometry", "Upper corner",
                         "is not above and right of the lower corner " + to_string(lower) +
                             "; enlarge every coordinate beyond it");
@@ -42,7 +51,7 @@ std::array<Point<dim>, GeometryInfo<dim>::vertices_per_cell> read_box(const Para
   return corners;
 }
 
-/** Turned into deal.II's order; each corner must turn left by an angle well below pi. */
+/** Turned into deal.II's order; each corner must turn left. */
 std::array<Point<2>, 4> read_quadrilateral(const Parameters &parameters)
 {
   const std::vector<Point<2>> around = parameters.points<2>("Geometry", "Corners");
@@ -53,14 +62,43 @@ std::array<Point<2>, 4> read_quadrilateral(const Parameters &parameters)
   for (unsigned int c = 0; c < 4; ++c)
   {
     const Tensor<1, 2> in = around[c] - around[(c + 3) % 4], out = around[(c + 1) % 4] - around[c];
-    const double sine = (in[0] * out[1] - in[1] * out[0]) / (in.norm() * out.norm());
-    if (!(sine > 1e-6))
+    const double sine =
+        in[0] / length(in) * (out[1] / length(out)) - in[1] / length(in) * (out[0] / length(out));
+    if (!(sine > 1e-12)) // no more than round-off
       parameters.reject("Geometry", "Corners",
                         "is degenerate, clockwise or not convex at " + to_string(around[c]) +
                             "; give the corners of a convex quadrilateral counterclockwise from "
                             "the bottom left");
   }
   return {{around[0], around[1], around[3], around[2]}};
+}
+
+/** Lengths that can be squared, edges that are more than round-off, corners that are corners. */
+void check_shape(const Parameters &parameters, const Geometry<2> &geometry)
+{
+  const std::string entry = geometry.shape == Shape::box ? "Upper corner" : "Corners";
+  double farthest = 0, shortest = std::numeric_limits<double>::max();
+  for (const Point<2> &corner : geometry.corners)
+    farthest = std::max({farthest, std::abs(corner[0]), std::abs(corner[1])});
+  for (const Edge &edge : edges_of(geometry))
+    shortest = std::min(shortest, length(edge.ends[1] - edge.ends[0]));
+  if (!(farthest <= largest) || !(shortest >= smallest))
+    parameters.reject("Geometry", entry,
+                      "has lengths from " + to_string(shortest) + " to " + to_string(farthest) +
+                          " and they must lie between 1e-100 and 1e100; choose another unit");
+  if (shortest < 1e-10 * farthest)
+    parameters.reject("Geometry", entry,
+                      "has an edge of length " + to_string(shortest) + " and coordinates up to " +
+                          to_string(farthest) +
+                          ", which round-off blurs; move the body towards "
+                          "the origin");
+  const std::array<double, 4> angles = corner_angles(geometry);
+  for (unsigned int c = 0; c < angles.size(); ++c)
+    if (angles[c] < 0.1 || angles[c] > 179.9)
+      parameters.reject("Geometry", entry,
+                        "has an angle of " + to_string(angles[c]) + " degrees at " +
+                            to_string(geometry.corners[c]) +
+                            "; give a quadrilateral with angles between 0.1 and 179.9 degrees");
 }
 
 void check_grading(const Parameters &parameters, const Geometry<2> &geometry)
@@ -85,6 +123,7 @@ Geometry<dim> read_geometry(const Parameters &parameters)
   const bool box = parameters.text("Geometry", "Shape") == "box";
   geometry.shape = box ? Shape::box : Shape::quadrilateral;
   geometry.corners = box ? read_box<dim>(parameters) : read_quadrilateral(parameters);
+  check_shape(parameters, geometry);
 
   const std::vector<int> subdivisions = Utilities::string_to_int(
       Utilities::split_string_list(parameters.text("Geometry", "Subdivisions"), ','));
@@ -121,7 +160,7 @@ double constant_friction_bound(const Parameters &parameters, const ExpressionRea
                                const std::string &boundary, const Edge &edge)
 {
   const std::vector<Point<2>> points = edge.sample();
-  const auto bound = expressions.read<1>("Boundary " + boundary, "Friction bound", "0", points)[0];
+  const auto bound = expressions.read_bound("Boundary " + boundary, "Friction bound", points);
   if (bound == nullptr || parameters.text("Boundary " + boundary, "Contact") == "none")
     return 0.;
   const double value = bound->value(points[0]);
@@ -175,7 +214,7 @@ void check_loads(const Parameters &parameters, const std::string &section,
 /** What contact excludes on the same boundary. */
 template <int dim>
 void check_contact(const Parameters &parameters, const std::string &section,
-                   const BoundaryCondition<dim> &boundary, const std::vector<Point<dim>> &points)
+                   const BoundaryCondition<dim> &boundary)
 {
   if (!boundary.bilateral_contact)
   {
@@ -187,16 +226,26 @@ void check_contact(const Parameters &parameters, const std::string &section,
   if (boundary.has_displacement())
     parameters.reject(section, "Displacement",
                       "stands beside Contact = bilateral; keep only one of the two");
-  if (boundary.friction_bound == nullptr)
-    return;
+}
 
-  double largest = 0;
-  for (const Point<dim> &point : points)
-    largest = std::max(largest, std::abs(boundary.friction_bound->value(point)));
-  for (const Point<dim> &point : points) // round-off, as in sin(2*pi), is no sign
-    if (boundary.friction_bound->value(point) < -1e-12 * largest)
-      parameters.reject(section, "Friction bound",
-                        "is negative at " + to_string(point) + "; Tresca's bound needs g >= 0");
+/** Loads and displacements enter energies as squares. */
+template <int dim>
+void check_magnitude(const Parameters &parameters, const std::string &section,
+                     const std::string &name,
+                     const std::array<typename BoundaryCondition<dim>::Expression, dim> &components,
+                     const std::vector<Point<dim>> &points)
+{
+  for (const auto &component : components)
+  {
+    double magnitude = 0;
+    for (const Point<dim> &point : points)
+      if (component)
+        magnitude = std::max(magnitude, std::abs(component->value(point)));
+    if (magnitude > largest || (magnitude > 0 && magnitude < smallest))
+      parameters.reject(section, name,
+                        "has a component of magnitude " + to_string(magnitude) +
+                            ", outside 1e-100 to 1e100; choose other units or write 0");
+  }
 }
 
 template <int dim>
@@ -230,9 +279,11 @@ BoundaryCondition<dim> read_boundary(const Parameters &parameters,
   boundary.traction =
       expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
   boundary.bilateral_contact = parameters.text(section, "Contact") == "bilateral";
-  boundary.friction_bound = expressions.template read<1>(section, "Friction bound", "0", points)[0];
+  boundary.friction_bound = expressions.read_bound(section, "Friction bound", points);
+  check_magnitude<dim>(parameters, section, "Displacement", boundary.displacement, points);
+  check_magnitude<dim>(parameters, section, "Traction", boundary.traction, points);
   check_loads(parameters, section, boundary);
-  check_contact(parameters, section, boundary, points);
+  check_contact(parameters, section, boundary);
   return boundary;
 }
 
@@ -394,8 +445,9 @@ Scene<dim> Scene<dim>::read(const std::string &file,
   scene.geometry = read_geometry<dim>(parameters);
   scene.material = read_material(parameters);
   const ExpressionReader<dim> expressions(parameters, scene.material);
-  scene.body_force =
-      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
+  const std::vector<Point<dim>> inside = sample_body(scene.geometry);
+  scene.body_force = expressions.template read<dim>("Body force", "Expression", "0", inside);
+  check_magnitude<dim>(parameters, "Body force", "Expression", scene.body_force, inside);
   scene.exact_solution = read_exact_solution(parameters, expressions, scene);
   for (types::boundary_id b = 0; b < GeometryInfo<dim>::faces_per_cell; ++b)
     scene.boundaries.push_back(read_boundary(parameters, expressions, scene, b));

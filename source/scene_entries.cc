@@ -58,8 +58,8 @@ void add_problem_entries(std::vector<Entry> &entries)
         "Points of the body towards which the coarse mesh is bisected."},
        {"Geometry", "Grading levels", "0", matching(Patterns::Integer(0, 40)),
         "an integer from 0 to 40", "How often the cells that touch such a point are bisected."},
-       {"Material", "Young's modulus", "1",
-        matching(Patterns::Double(std::numeric_limits<double>::min())), "a number E > 0 (a stress)",
+       {"Material", "Young's modulus", "1", matching(Patterns::Double(1e-100, 1e100)),
+        "a number E > 0 (a stress) from 1e-100 to 1e100",
         "E > 0 [stress]; constant E in expressions."},
        {"Material", "Poisson's ratio", "0.3", number, "a number nu with -1 < nu < 1/2",
         "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu))."},
@@ -149,7 +149,8 @@ void add_method_entries(std::vector<Entry> &entries)
        {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
         "No step is started after this time of computing; 0: no limit."},
        {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",
-        "Stop where the relative indicator eta/((2 mu)^(1/2) |u_N|_a) falls below; 0: never."}});
+        "Stop where the relative indicator eta/((2 mu)^(1/2) |u_N|_a) falls below, with "
+        "2 mu + 2 lambda for 2 mu where nu < 0; 0: never."}});
 }
 
 void add_program_entries(std::vector<Entry> &entries)

@@ -13,13 +13,61 @@ namespace hpvi
 {
 using namespace dealii;
 
-std::string printable(std::string text)
+namespace
 {
-  std::replace_if(
-      text.begin(), text.end(),
-      [](const char c) { return std::iscntrl(static_cast<unsigned char>(c)); }, '?');
-  const std::size_t limit = 120;
-  return text.size() <= limit ? text : text.substr(0, limit) + "...";
+/** A character and the number of bytes that it takes; none where they are no UTF-8. */
+struct Character
+{
+  char32_t code;
+  std::size_t length;
+};
+
+Character character_at(const std::string &text, const std::size_t start)
+{
+  const unsigned char first = text[start];
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC0 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                                            : 4;
+  char32_t code = length < 2 ? first : first & (0x7F >> length);
+  for (std::size_t i = start + 1; i < start + length; ++i)
+  {
+    if (i == text.size() || (text[i] & 0xC0) != 0x80)
+      return {0, 0};
+    code = code << 6 | (text[i] & 0x3F);
+  }
+  constexpr char32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  return code < smallest[length] || code > 0x10FFFF || surrogate ? Character{0, 0}
+                                                                 : Character{code, length};
+}
+
+bool is_control(const char32_t code)
+{
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+} // namespace
+
+std::string printable(const std::string &text, const std::size_t limit)
+{
+  std::string result;
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const Character character = character_at(text, i);
+    const std::size_t length = std::max<std::size_t>(character.length, 1);
+    if (result.size() + length > limit)
+      return result + "...";
+    if (std::isspace(static_cast<unsigned char>(text[i])))
+      result += ' ';
+    else if (character.length == 0 || is_control(character.code))
+      result += '?';
+    else
+      result.append(text, i, length);
+    i += length;
+  }
+  return result;
 }
 
 std::string lower_case(std::string text)
@@ -87,12 +135,13 @@ std::string to_string(const double value)
 
 std::string one_line(const std::exception &error)
 {
+  const std::size_t limit = 1000;
+  const auto *dealii_error = dynamic_cast<const ExceptionBase *>(&error);
+  if (dealii_error == nullptr)
+    return printable(error.what(), limit);
   std::ostringstream text;
-  if (const auto *dealii_error = dynamic_cast<const ExceptionBase *>(&error))
-    dealii_error->print_info(text);
-  else
-    text << error.what();
-  return single_spaced(text.str());
+  dealii_error->print_info(text);
+  return printable(single_spaced(text.str()), limit);
 }
 
 template std::string to_string(const Point<2> &);

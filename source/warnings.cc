@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/formatting.h>
 #include <hpvi/stress.h>
 #include <hpvi/true_error.h>
 #include <hpvi/warnings.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -157,6 +157,22 @@ std::string elongated_elements(const Solution<dim> &solution)
               "Geometry/Subdivisions");
 }
 
+/** Elements cannot be better than the corners that they fill. */
+std::string sharp_corners(const Geometry<2> &geometry)
+{
+  const std::array<double, 4> angles = corner_angles(geometry);
+  std::string list;
+  for (unsigned int c = 0; c < angles.size(); ++c)
+    if (angles[c] < 5 || angles[c] > 175)
+      list += line(list.empty() ? "" : ", ", text(angles[c], 5), " degrees at (",
+                   geometry.corners[c], ")");
+  if (list.empty())
+    return {};
+  return "the body has angles of " + list +
+         ": elements are as distorted, errors and round-off "
+         "larger; cut the body in another way or compare with a finer mesh";
+}
+
 /** With lambda/mu large, low degrees lock: doc/stability.md shows by how much. */
 template <int dim>
 std::string locking(const Solution<dim> &solution)
@@ -170,8 +186,7 @@ std::string locking(const Solution<dim> &solution)
   const double ratio = material.lambda(dim) / material.mu();
   if (ratio < 50 || lowest >= 4)
     return {};
-  return line("Poisson's ratio ", std::setprecision(8), material.poisson,
-              " is near 1/2 (lambda/mu = ", std::setprecision(3), ratio,
+  return line("Poisson's ratio ", text(material.poisson), " is near 1/2 (lambda/mu = ", ratio,
               ") and elements of degree ", lowest, " may lock; use Adaptivity/Start degree = 6");
 }
 
@@ -218,8 +233,8 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
         coarse_transition(solution), stagnating_estimate(estimates), round_off(algebraic),
-        elongated_elements(solution), locking(solution), rich_multiplier(solution),
-        whole_body_slips(solution, tables)})
+        elongated_elements(solution), sharp_corners(solution.scene.geometry), locking(solution),
+        rich_multiplier(solution), whole_body_slips(solution, tables)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

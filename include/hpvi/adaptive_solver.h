@@ -70,8 +70,9 @@ struct Step
   const Solution<dim> &solution;
   const ErrorEstimate &estimate;
   /**
-   * eta/(2 mu)^{1/2}, in the unit of the energy norm. The residual bounds the error through
-   * `2 mu |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the material.
+   * eta/c^{1/2}, in the unit of the energy norm. The residual bounds the error through
+   * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the material:
+   * Material::coercivity(), 2 mu unless nu < 0.
    */
   double scaled_estimate;
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator

@@ -17,7 +17,11 @@
 
 namespace hpvi
 {
-/** Turns the text of an entry into functions and tries each of them where it will be used. */
+/**
+ * Turns the text of an entry into functions and tries each of them on the part of the body where it
+ * will be used. What it cannot see there, a pole or a negative bound between the points, is an
+ * InputError with entry, point and value wherever the function is asked for it.
+ */
 template <int dim>
 class ExpressionReader
 {
@@ -39,6 +43,10 @@ public:
   std::array<Expression, n_components>
   read(const std::string &section, const std::string &name, const std::string &absent,
        const std::vector<dealii::Point<dim>> &points, const ExactField &exact = {}) const;
+
+  /** Tresca's bound: one function, null where the entry is empty or zero, and nowhere negative. */
+  Expression read_bound(const std::string &section, const std::string &name,
+                        const std::vector<dealii::Point<dim>> &points) const;
 
 private:
   Expression make_exact(const std::string &section, const std::string &name,

@@ -47,6 +47,9 @@ std::vector<Edge> edges_of(const Geometry<2> &geometry);
 /** Points all over the body, its boundary included. */
 std::vector<dealii::Point<2>> sample_body(const Geometry<2> &geometry);
 
+/** The angles of the body at its corners, in degrees and in the order of the corners. */
+std::array<double, 4> corner_angles(const Geometry<2> &geometry);
+
 /** The mean of the corners. */
 dealii::Point<2> centre_of(const Geometry<2> &geometry);
 } // namespace hpvi

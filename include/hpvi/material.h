@@ -28,6 +28,13 @@ struct Material
   double lambda(int dim) const;
 
   /**
+   * The largest c with `c eps : eps <= sigma(eps) : eps`, the smallest eigenvalue of Hooke's law on
+   * symmetric tensors: 2 mu without, `2 mu + dim lambda` with change of volume, which is the
+   * smaller one where nu < 0.
+   */
+  double coercivity(int dim) const;
+
+  /**
    * Kolosov's constant of plane elasticity, `(lambda + 3 mu)/(lambda + mu)`: 3 - 4 nu in plane
    * strain, (3 - nu)/(1 + nu) in plane stress.
    */

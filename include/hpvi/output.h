@@ -91,6 +91,7 @@ private:
   StageTimes times;                               ///< sums over the steps
   std::string stopped_by;                         ///< the limit that ended the run
   std::vector<std::string> warnings;
+  Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
   std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
 };
 } // namespace hpvi

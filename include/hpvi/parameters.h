@@ -54,6 +54,9 @@ public:
   template <int dim>
   std::vector<dealii::Point<dim>> points(const std::string &section, const std::string &name) const;
 
+  /** FILE:LINE: Section/Entry = value, where the line about a wrong value begins. */
+  std::string place(const std::string &section, const std::string &name) const;
+
   /** The one line about an entry whose value is wrong. */
   [[noreturn]] void reject(const std::string &section, const std::string &name,
                            const std::string &problem_and_remedy) const;
@@ -73,7 +76,7 @@ private:
   std::string nearest_entry(const Entry &written) const;
 
   const std::vector<Entry> entries;
-  const std::string file;
+  const std::string file, shown; ///< as it is, and as messages name it
   dealii::ParameterHandler prm;
   std::map<std::string, std::string> origins;
 };

@@ -6,6 +6,7 @@
 #include <hpvi/residual_estimator.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -28,6 +29,9 @@ namespace hpvi
  */
 Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
                 const std::function<double(unsigned int cell)> &decay_rate);
+
+/** The entry of section Adaptivity for which mark() had no cell to refine. */
+std::string nothing_marked(const Adaptivity &adaptivity);
 } // namespace hpvi
 
 #endif

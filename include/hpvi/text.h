@@ -4,14 +4,18 @@
 
 #include <deal.II/base/point.h>
 
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <vector>
 
 namespace hpvi
 {
-/** @p text fit for one line of a message: no control characters, not endless. */
-std::string printable(std::string text);
+/**
+ * @p text fit for one line of a message: white space is a blank; what is no UTF-8, control
+ * characters and those that break or turn lines are '?'; no more than @p limit bytes.
+ */
+std::string printable(const std::string &text, std::size_t limit = 120);
 
 std::string lower_case(std::string text);
 
@@ -31,7 +35,7 @@ std::string to_string(const dealii::Point<dim> &x);
 /** With six digits at most. */
 std::string to_string(double value);
 
-/** What a library's exception says, on one line: deal.II's what() fills a page. */
+/** What an exception says, on one line: what() of deal.II's fills a page. */
 std::string one_line(const std::exception &error);
 } // namespace hpvi
 

@@ -38,7 +38,7 @@ void run(const Scene<2> &scene, const fs::path &directory)
         last = (step.number < 10 ? "-0" : "-") + std::to_string(step.number);
         EXPECT_GT(step.energies.norm, 0.);
       });
-  output.finish("done");
+  output.finish();
   for (const std::string &name :
        std::vector<std::string>{"solution" + last + ".vtu", "mesh" + last + ".svg",
                                 "convergence.csv", "degrees.csv", "scene.prm", "summary.json"})
