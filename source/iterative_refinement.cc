@@ -107,7 +107,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
   Vector<double> z = precondition(r), p(z), best(u);
   double square = dot(r, z), least = square;
   const double exact = 1e-28 * energy_product;
-  const unsigned int most = 30, patience = 2;
+  const unsigned int most = 60, patience = 6;
   for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
        ++error.corrections)
   {

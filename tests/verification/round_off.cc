@@ -4,6 +4,7 @@
 #include "discretisation.h"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <hpvi/warnings.h>
 
 #include <algorithm>
 #include <array>
@@ -130,6 +131,33 @@ TEST(SlenderCantilever, IsThatOfQuadruplePrecision)
           EXPECT_LT(step.algebraic.total(), tolerance) << length;
         });
   }
+}
+
+/** What double precision cannot solve is no result. */
+TEST(SlenderCantilever, BeyondAllPrecisionIsRefused)
+{
+  Overrides entries = cantilever(1000);
+  entries[0].second = "1e7, 1";
+  EXPECT_THROW(AdaptiveSolver<2>(scene_of(entries)).run([](const Step<2> &) {}), NumericalFailure);
+}
+
+TEST(IterativeRefinement, DoubtfulDigitsAreWarnedOf)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  const RandomMesh mesh(scene, 1, 1);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  const auto says_so = [&](const double relative)
+  {
+    AlgebraicError error;
+    error.relative = relative;
+    for (const std::string &warning : warnings(solution, discrete.tables, {1.}, error))
+      if (warning.find("round-off reaches") != std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_FALSE(says_so(0.9e-6));
+  EXPECT_TRUE(says_so(1.1e-6));
 }
 
 /** Corrections are for those who need them. */
