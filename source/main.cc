@@ -2,15 +2,23 @@
 #include <hpvi/adaptive_solver.h>
 #include <hpvi/command_line.h>
 #include <hpvi/inf_sup.h>
+#include <hpvi/memory.h>
 #include <hpvi/output.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <new>
 #include <sstream>
+
+#include <unistd.h>
+
+// Present where OpenBLAS is the BLAS in use.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
 
 namespace
 {
@@ -33,6 +41,9 @@ std::string failure_line(const std::exception &error)
 {
   if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error))
     return error.what();
+  if (dynamic_cast<const std::bad_alloc *>(&error))
+    return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
+           "Geometry/Subdivisions or allow more memory";
   std::ostringstream text;
   if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
     dealii_error->print_info(text);
@@ -89,6 +100,41 @@ void print_stages(const StageTimes &times)
   print_stage("total", times.total(), times.total());
 }
 
+/** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
+class ProgressLine
+{
+public:
+  ~ProgressLine()
+  {
+    erase();
+  }
+
+  void show(const Progress &progress)
+  {
+    erase();
+    if (!progress.note.empty() && !noted)
+      std::cout << "note: " << progress.note << std::endl;
+    noted = noted || !progress.note.empty();
+    const std::string line = "step " + std::to_string(progress.step) + ": " + progress.stage;
+    if (is_terminal)
+      std::cout << line << " ..." << std::flush;
+    shown = is_terminal;
+  }
+
+  void erase()
+  {
+    const char *const return_and_clear = "\r\033[K";
+    if (shown)
+      std::cout << return_and_clear << std::flush;
+    shown = false;
+  }
+
+private:
+  const bool is_terminal = isatty(STDOUT_FILENO);
+  bool shown = false;
+  bool noted = false; ///< a note is worth saying once, not with every step
+};
+
 // ---------------------------------------------------------------- what the program does
 
 void run(const Scene<dim> &scene, const std::string &directory)
@@ -98,6 +144,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
+  ProgressLine progress;
   std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
@@ -105,12 +152,14 @@ void run(const Scene<dim> &scene, const std::string &directory)
     solver.run(
         [&](const Step<dim> &step)
         {
+          progress.erase();
           print_row(step);
           times += step.times;
           stopped_by = step.stopped_by;
           warnings = step.warnings;
           output.write_step(step);
-        });
+        },
+        [&](const Progress &stage) { progress.show(stage); });
   }
   catch (const std::exception &error)
   {
@@ -170,13 +219,18 @@ void print_inf_sup(const Scene<dim> &scene)
             << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
             << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
             << std::endl;
+  ProgressLine progress;
   solver.run(
       [&](const Step<dim> &step)
       {
+        progress.show({step.number, "measuring the inf-sup constant", ""});
         const DisplacementSpace<dim> &space = step.solution.displacement_space;
-        print_inf_sup_row(step,
-                          measure_inf_sup(scene, space.triangulation(), space.degrees(), tables));
-      });
+        const InfSup inf_sup =
+            measure_inf_sup(scene, space.triangulation(), space.degrees(), tables);
+        progress.erase();
+        print_inf_sup_row(step, inf_sup);
+      },
+      [&](const Progress &stage) { progress.show(stage); });
 }
 
 void obey(const CommandLine &command_line)
@@ -202,10 +256,27 @@ void obey(const CommandLine &command_line)
                                                        : command_line.output_directory);
   }
 }
+
+/**
+ * OpenBLAS starts its threads when it is loaded. Each takes a buffer of 128 MB, tries for ever where
+ * it gets none, and is waited for at the end. A run uses one thread alone: where memory is limited
+ * the program begins again without the others.
+ */
+void do_without_threads_of_openblas(char *argv[])
+{
+  const std::string variable = "OPENBLAS_NUM_THREADS", none = "1";
+  const char *const value = std::getenv(variable.c_str());
+  if (!mapping_is_limited() || !openblas_get_num_threads || openblas_get_num_threads() == 1 ||
+      (value && value == none))
+    return;
+  setenv(variable.c_str(), none.c_str(), 1);
+  execv("/proc/self/exe", argv); // comes back only where it fails
+}
 } // namespace
 
 int main(int argc, char *argv[])
 {
+  do_without_threads_of_openblas(argv);
   try
   {
     obey(parse(argc, argv));
