@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/dense_work.h>
 #include <hpvi/iterative_refinement.h>
+#include <hpvi/memory.h>
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
@@ -97,17 +99,20 @@ struct AdaptiveSolver<dim>::Stages
   AlgebraicError algebraic;      ///< of the current step
   StageTimes times;              ///< of the current step
   double seconds = 0;
-  unsigned int number = 0;
-  std::function<void()> before_stage;
+  unsigned int number = 0; ///< of the last finished step
+  std::function<void(const Progress &)> about_to;
 
   explicit Stages(const Scene<dim> &scene)
       : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
         true_error(scene, tables)
   {
+    prepare_blas();
     make_mesh(scene, triangulation);
     degrees.assign(triangulation.n_active_cells(), scene.adaptivity.start_degree);
   }
 
+  void begin(const std::string &stage, const std::string &note = {}) const;
+  std::string dense_note() const;
   void discretise();
   Solution<dim> solve(Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
@@ -118,15 +123,28 @@ struct AdaptiveSolver<dim>::Stages
 };
 
 template <int dim>
+void AdaptiveSolver<dim>::Stages::begin(const std::string &stage, const std::string &note) const
+{
+  about_to({number + 1, stage, note});
+}
+
+/** Of the step whose system is assembled. */
+template <int dim>
+std::string AdaptiveSolver<dim>::Stages::dense_note() const
+{
+  return DenseWork{discretisation->system->B.n(), discretisation->system->B.m()}.note();
+}
+
+template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
-  before_stage();
+  begin("numbering the unknowns of " + std::to_string(degrees.size()) + " elements");
   std::unique_ptr<Discretisation<dim>> next;
   {
     StageTimer timer(times.setup);
     next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees, tables);
   }
-  before_stage();
+  begin("assembling " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.assemble);
   next->system = std::make_unique<const ElasticSystem<dim>>(
       scene, next->displacement_space, next->contact_space, tables, stiffnesses);
@@ -141,13 +159,16 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
   check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
   std::unique_ptr<const SchurComplement> schur_complement;
-  before_stage();
+  begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
   {
     StageTimer timer(times.factor);
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
                                                                system.contact_unknowns, system.B);
   }
-  before_stage();
+  begin(contact_space.n_multipliers() > 0
+            ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
+                  " multipliers"
+            : "finding the displacement");
   reduction.lambda = previous.values(contact_space, tables);
   reduction.translation = translation;
   const Timer timer;
@@ -168,7 +189,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
-  before_stage();
+  begin("estimating the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.estimate);
   ErrorEstimate result = estimate_error(solution, tables);
   check_finite("the error indicator", result.total());
@@ -179,7 +200,7 @@ template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
                                                const ErrorEstimate &estimate)
 {
-  before_stage();
+  begin("deciding on h and p");
   StageTimer timer(times.decide);
   return mark(scene.adaptivity, degrees, estimate,
               [&](const unsigned int cell)
@@ -189,7 +210,7 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
-  before_stage();
+  begin("refining");
   StageTimer timer(times.refine);
   degrees = refine_mesh(triangulation, degrees, refinement);
 }
@@ -297,9 +318,9 @@ std::string no_condition_number(const std::vector<unsigned int> &steps)
 
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step,
-                              const std::function<void()> &before_stage)
+                              const std::function<void(const Progress &)> &about_to)
 {
-  stages->before_stage = before_stage;
+  stages->about_to = about_to;
   std::vector<double> estimates;
   std::vector<unsigned int> singular; ///< steps whose S has no condition number
   for (bool finished = false; !finished;)
@@ -323,6 +344,8 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
       step.warnings = warnings(solution, stages->tables, estimates, step.algebraic);
       if (!singular.empty())
         step.warnings.push_back(no_condition_number(singular));
+      if (!stages->dense_note().empty())
+        step.warnings.push_back(stages->dense_note());
       step.equilibrium = equilibrium(solution, *stages->discretisation->system, stages->tables);
     }
     finished_step(step);

@@ -4,6 +4,7 @@
 #include <hpvi/formatting.h>
 #include <hpvi/inf_sup.h>
 #include <hpvi/interruption.h>
+#include <hpvi/memory.h>
 #include <hpvi/output.h>
 #include <hpvi/text.h>
 
@@ -12,9 +13,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <new>
 #include <sstream>
+
+#include <unistd.h>
+
+// Present where OpenBLAS is the BLAS in use.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
 
 namespace
 {
@@ -38,6 +46,9 @@ std::string failure_line(const std::exception &error)
   const bool foreseen =
       dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
       dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
+  if (dynamic_cast<const std::bad_alloc *>(&error))
+    return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
+           "Geometry/Subdivisions or allow more memory";
   return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
 }
 
@@ -113,6 +124,41 @@ void print_stages(const StageTimes &times)
   print_stage("total", times.total(), times.total());
 }
 
+/** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
+class ProgressLine
+{
+public:
+  ~ProgressLine()
+  {
+    erase();
+  }
+
+  void show(const Progress &progress)
+  {
+    erase();
+    if (!progress.note.empty() && !noted)
+      std::cout << "note: " << progress.note << std::endl;
+    noted = noted || !progress.note.empty();
+    const std::string line = "step " + std::to_string(progress.step) + ": " + progress.stage;
+    if (is_terminal)
+      std::cout << line << " ..." << std::flush;
+    shown = is_terminal;
+  }
+
+  void erase()
+  {
+    const char *const return_and_clear = "\r\033[K";
+    if (shown)
+      std::cout << return_and_clear << std::flush;
+    shown = false;
+  }
+
+private:
+  const bool is_terminal = isatty(STDOUT_FILENO);
+  bool shown = false;
+  bool noted = false; ///< a note is worth saying once, not with every step
+};
+
 // ---------------------------------------------------------------- what the program does
 
 void run(const Scene<dim> &scene, const std::string &directory)
@@ -124,6 +170,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::string stopped_by;
   std::vector<std::string> warnings;
   std::pair<std::string, std::string> balance;
+  ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
@@ -131,6 +178,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
     solver.run(
         [&](const Step<dim> &step)
         {
+          progress.erase();
           print_row(step);
           times += step.times;
           stopped_by = step.stopped_by;
@@ -139,10 +187,15 @@ void run(const Scene<dim> &scene, const std::string &directory)
                      text(step.equilibrium.moment_imbalance, 2)};
           output.write_step(step);
         },
-        stop_if_interrupted);
+        [&](const Progress &stage)
+        {
+          stop_if_interrupted();
+          progress.show(stage);
+        });
   }
   catch (const Interruption &interruption)
   {
+    progress.erase();
     output.give_up("interrupted", interruption.what());
     throw Interruption(interruption.signal,
                        "; " + output.safe_steps() + " in " + printable(directory));
@@ -211,14 +264,22 @@ void print_inf_sup(const Scene<dim> &scene)
             << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
             << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
             << std::endl;
+  ProgressLine progress;
   solver.run(
       [&](const Step<dim> &step)
       {
+        progress.show({step.number, "measuring the inf-sup constant", ""});
         const DisplacementSpace<dim> &space = step.solution.displacement_space;
-        print_inf_sup_row(step,
-                          measure_inf_sup(scene, space.triangulation(), space.degrees(), tables));
+        const InfSup inf_sup =
+            measure_inf_sup(scene, space.triangulation(), space.degrees(), tables);
+        progress.erase();
+        print_inf_sup_row(step, inf_sup);
       },
-      stop_if_interrupted);
+      [&](const Progress &stage)
+      {
+        stop_if_interrupted();
+        progress.show(stage);
+      });
 }
 
 void obey(const CommandLine &command_line)
@@ -244,10 +305,27 @@ void obey(const CommandLine &command_line)
                                                        : command_line.output_directory);
   }
 }
+
+/**
+ * OpenBLAS starts its threads when it is loaded. Each takes a buffer of 128 MB, tries for ever where
+ * it gets none, and is waited for at the end. A run uses one thread alone: where memory is limited
+ * the program begins again without the others.
+ */
+void do_without_threads_of_openblas(char *argv[])
+{
+  const std::string variable = "OPENBLAS_NUM_THREADS", none = "1";
+  const char *const value = std::getenv(variable.c_str());
+  if (!mapping_is_limited() || !openblas_get_num_threads || openblas_get_num_threads() == 1 ||
+      (value && value == none))
+    return;
+  setenv(variable.c_str(), none.c_str(), 1);
+  execv("/proc/self/exe", argv); // comes back only where it fails
+}
 } // namespace
 
 int main(int argc, char *argv[])
 {
+  do_without_threads_of_openblas(argv);
   occupy_standard_streams();
   survive_failed_writes();
   try

@@ -89,6 +89,14 @@ struct Step
   Equilibrium<dim> equilibrium;      ///< likewise of the last step alone
 };
 
+/** What a run is about to do, for those who wait for it. */
+struct Progress
+{
+  unsigned int step; ///< from 1
+  std::string stage; ///< as in "factorising 120000 unknowns"
+  std::string note;  ///< what to know before that, one line; mostly empty
+};
+
 /**
  * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene. Owns the stages; prints
  * nothing and writes no file: each finished step goes to a callback.
@@ -101,12 +109,12 @@ public:
   ~AdaptiveSolver();
 
   /**
-   * Runs until a limit of the scene is reached. Throws NumericalFailure. @p before_stage is called
-   * when a stage begins, and may throw to give up the step.
+   * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
+   * may throw to give up the step. Throws NumericalFailure.
    */
   void run(
       const std::function<void(const Step<dim> &)> &finished_step,
-      const std::function<void()> &before_stage = [] {});
+      const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
 
 private:
   struct Stages;
