@@ -3,10 +3,14 @@
 #include <hpvi/assembly.h>
 #include <hpvi/dense_work.h>
 #include <hpvi/memory.h>
+#include <hpvi/numerical_failure.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <sstream>
+#include <string>
 
 namespace hpvi
 {
@@ -33,7 +37,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
                                   const ContactSpace<dim> &contact_space,
                                   const ShapeTables<dim> &tables,
                                   ElementStiffnesses<dim> &stiffnesses)
-    : space(displacement_space), load(displacement_space.n_dofs()),
+    : space(displacement_space), contact_space(contact_space), load(displacement_space.n_dofs()),
       interior_loads(scene.has_body_force())
 {
   for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -46,7 +50,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
     contributions.push_back(reduce(cell, stiffnesses));
   sum_up(contributions);
   stiffnesses.forget_unused();
-  assemble_contact(contact_space, tables);
+  assemble_contact(tables);
   if (scene.free_translation)
     hold(*scene.free_translation);
 }
@@ -284,18 +288,14 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
                                  const ContactSpace<dim> &contact_space,
                                  const ShapeTables<dim> &tables)
 {
-  // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2 for
-  // multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
-  const unsigned int n_gauss = std::max(face.degree + 1, face.n_multipliers);
-  const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
+  const FrictionRule &rule = face.friction;
+  const ShapeTable<dim> &table = face.friction_table(tables);
   const LocalNumbering &numbering = tables.numbering(face.degree);
-  const QGauss<1> &gauss = tables.gauss(n_gauss);
   FullMatrix<double> local(face.n_multipliers, numbering.shape.size());
-  for (unsigned int q = 0; q < n_gauss; ++q)
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
   {
-    const double s = gauss.point(q)[0];
-    const double weight = gauss.weight(q) * face.length() * face.friction_bound(face.point(s));
-    const std::vector<double> psi = contact_space.basis_values(face, s);
+    const double weight = rule.weights[q] * face.length() * rule.values[q];
+    const std::vector<double> psi = contact_space.basis_values(face, rule.points[q]);
     for (unsigned int i = 0; i < local.n(); ++i)
     {
       const double v_t = face.tangent[numbering.component[i]] * table.values(q, numbering.shape[i]);
@@ -309,11 +309,9 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
 } // namespace
 
 template <int dim>
-void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space,
-                                          const ShapeTables<dim> &tables)
+void ElasticSystem<dim>::assemble_contact(const ShapeTables<dim> &tables)
 {
   const AffineConstraints<double> &constraints = space.constraints();
-  contact_faces = contact_space.faces();
   std::vector<bool> touches(contact_space.n_multipliers() > 0 ? unknowns.size() : 0, false);
   const double negligible = 1e-14;
   for (const ContactFace<dim> &face : contact_space.faces())
@@ -363,6 +361,22 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
   }
 }
 
+namespace
+{
+/** Why a body that friction alone could hold has no friction on this mesh. */
+template <int dim>
+std::string nothing_resists(const Tensor<1, dim> &direction, const double load)
+{
+  std::ostringstream line;
+  line
+      << "nothing holds the body along (" << direction << "): the loads push it with "
+      << std::abs(load)
+      << ", friction can resist with 0, for Friction bound vanishes wherever this mesh samples it; "
+         "raise Geometry/Subdivisions, set Geometry/Graded towards where it acts, or add a support";
+  return line.str();
+}
+} // namespace
+
 /**
  * The spring is soft beside the body: for the quadratic program it is a penalty of weight 1/spring on
  * R'(f - B' lambda), and a strong one converges fast. It costs as many digits of u along R alone.
@@ -380,7 +394,8 @@ void ElasticSystem<dim>::hold(const Tensor<1, dim> &free_translation)
             free_translation[cell->get_fe().system_to_component_index(i).first];
   }
   if (contact_unknowns.empty())
-    return;
+    throw NumericalFailure(nothing_resists(
+        free_translation, std::inner_product(f.begin(), f.end(), translation.begin(), 0.)));
   const unsigned int held =
       *std::max_element(contact_unknowns.begin(), contact_unknowns.end(),
                         [this](const auto a, const auto b)
@@ -435,12 +450,13 @@ Vector<double> ElasticSystem<dim>::friction_forces(const Vector<double> &lambda,
   Vector<double> forces(space.n_dofs());
   for (unsigned int k = 0; k < couplings.size(); ++k)
   {
-    if (only != numbers::invalid_boundary_id && contact_faces[k].condition->id != only)
+    if (only != numbers::invalid_boundary_id && contact_space.faces()[k].condition->id != only)
       continue;
-    const auto dofs = space.cell_dofs(contact_faces[k].cell->active_cell_index());
+    const auto dofs = space.cell_dofs(contact_space.faces()[k].cell->active_cell_index());
     for (unsigned int m = 0; m < couplings[k].m(); ++m)
       for (unsigned int i = 0; i < couplings[k].n(); ++i)
-        forces[dofs[i]] += couplings[k](m, i) * lambda[contact_faces[k].first_multiplier + m];
+        forces[dofs[i]] +=
+            couplings[k](m, i) * lambda[contact_space.faces()[k].first_multiplier + m];
   }
   return forces;
 }
@@ -451,10 +467,10 @@ Vector<double> ElasticSystem<dim>::tangential_moments(const Vector<double> &u) c
   Vector<double> moments(B.m());
   for (unsigned int k = 0; k < couplings.size(); ++k)
   {
-    const auto dofs = space.cell_dofs(contact_faces[k].cell->active_cell_index());
+    const auto dofs = space.cell_dofs(contact_space.faces()[k].cell->active_cell_index());
     for (unsigned int m = 0; m < couplings[k].m(); ++m)
       for (unsigned int i = 0; i < couplings[k].n(); ++i)
-        moments[contact_faces[k].first_multiplier + m] += couplings[k](m, i) * u[dofs[i]];
+        moments[contact_space.faces()[k].first_multiplier + m] += couplings[k](m, i) * u[dofs[i]];
   }
   return moments;
 }

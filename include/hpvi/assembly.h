@@ -25,7 +25,10 @@ public:
   /** The factored blocks K_ii by element. */
   using Interiors = std::map<const ElementStiffness *, dealii::LAPACKFullMatrix<double>>;
 
-  /** Assemble; @p stiffnesses remembers element matrices from step to step. */
+  /**
+   * Assemble; @p stiffnesses remembers element matrices from step to step. Throws NumericalFailure
+   * where nothing on this mesh resists the scene's free translation.
+   */
   ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
                 const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
                 ElementStiffnesses<dim> &stiffnesses);
@@ -91,18 +94,18 @@ private:
   void assemble_loads(const Scene<dim> &scene, const ShapeTables<dim> &tables);
   Contribution reduce(unsigned int cell, ElementStiffnesses<dim> &stiffnesses);
   void sum_up(const std::vector<Contribution> &contributions);
-  void assemble_contact(const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
+  void assemble_contact(const ShapeTables<dim> &tables);
   void hold(const dealii::Tensor<1, dim> &free_translation);
   void extend(unsigned int cell, dealii::Vector<double> &interior, dealii::Vector<double> &u) const;
   dealii::Vector<double> inside(unsigned int cell, const dealii::Vector<double> &values) const;
 
   const DisplacementSpace<dim> &space;
+  const ContactSpace<dim> &contact_space;
   dealii::Vector<double> load;                           ///< L(v_i) for every displacement unknown
   bool interior_loads;                                   ///< does any load act inside a cell?
   std::vector<dealii::types::global_dof_index> unknowns; ///< their number in the space
   std::vector<unsigned int> number;                      ///< the inverse of unknowns
   std::vector<std::shared_ptr<const ElementStiffness>> elements; ///< by active cell index
-  std::vector<ContactFace<dim>> contact_faces;
   std::vector<dealii::FullMatrix<double>> couplings; ///< rows of B on each face, by local unknown
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>>
       constrained; ///< kept for the next step

@@ -250,6 +250,21 @@ TEST(FarDisplacement, DoesNotDrownTheEnergy)
   }
 }
 
+/** Tension along the foundation presses nothing and pulls nothing: 1e-16 is no warning. */
+TEST(Floor, NoWarningsAboutNothing)
+{
+  const Scene<2> scene = scene_of({{"Material/Plane", "stress"},
+                                   {"Boundary left/Displacement", "0; free"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary right/Traction", "0.37; 0"}});
+  AdaptiveSolver<2>(scene).run(
+      [](const Step<2> &step)
+      {
+        EXPECT_EQ(step.stopped_by, "round-off");
+        EXPECT_TRUE(step.warnings.empty()) << step.warnings.front();
+      });
+}
+
 TEST(Floor, AnExactSolutionStopsTheRun)
 {
   const Scene<2> scene = scene_of({{"Boundary left/Displacement", "0; free"},
