@@ -59,7 +59,8 @@ template <int dim>
 std::string message(const std::string &place, const std::string &problem, const Point<dim> &x,
                     const double value, const std::string &remedy)
 {
-  return place + ": " + problem + " at " + to_string(x) + ": " + to_string(value) + "; " + remedy;
+  const std::string shown = std::isnan(value) ? "nan" : to_string(value); // it may have a sign
+  return place + ": " + problem + " at " + to_string(x) + ": " + shown + "; " + remedy;
 }
 
 /** @p function, which must be finite wherever it is asked. */

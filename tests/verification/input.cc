@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a scene may ask for and what it may not: values that misbehave between the points at which
+// they are tried, extremes of numbers, nothing at all.
+#include "discretisation.h"
+
+#include <hpvi/mesh.h>
+#include <hpvi/output.h>
+#include <hpvi/text.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace verification;
+
+Overrides operator+(Overrides entries, const Overrides &more)
+{
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+/** What is left of a run. */
+struct Result
+{
+  unsigned int steps = 0;
+  bool failed_input = false, failed_numerics = false;
+  std::string message, stopped_by;
+  double relative = -1, scaled_estimate = -1, estimate = -1, largest = -1, condition_raw = 0;
+  Energies energies;
+  std::vector<std::string> warnings;
+  std::string files; ///< convergence.csv and summary.json
+
+  bool warns(const std::string &words) const
+  {
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string &w) { return w.find(words) != std::string::npos; });
+  }
+};
+
+std::string content(const std::filesystem::path &file)
+{
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+Result run(const std::string &name, const Overrides &overrides)
+{
+  const auto directory = std::filesystem::path(::testing::TempDir()) /
+                         ("hpvi-input-" + std::to_string(std::random_device()()));
+  Result result;
+  const Scene<2> scene = shipped_scene(
+      name, overrides + Overrides{{"Output/VTU", "false"}, {"Output/Contact tables", "false"}});
+  try
+  {
+    Output<2> output(scene, directory.string());
+    AdaptiveSolver<2>(scene).run(
+        [&](const Step<2> &step)
+        {
+          result.steps = step.number;
+          result.stopped_by = step.stopped_by;
+          result.relative = step.relative_estimate;
+          result.scaled_estimate = step.scaled_estimate;
+          result.estimate = step.estimate.total();
+          result.largest = step.solution.u.linfty_norm();
+          result.condition_raw = step.condition_raw;
+          result.energies = step.energies;
+          result.warnings = step.warnings;
+          output.write_step(step);
+        });
+  }
+  catch (const InputError &error)
+  {
+    result.failed_input = true;
+    result.message = error.what();
+  }
+  catch (const NumericalFailure &failure)
+  {
+    result.failed_numerics = true;
+    result.message = failure.what();
+  }
+  result.files = content(directory / "convergence.csv") + content(directory / "summary.json");
+  std::filesystem::remove_all(directory);
+  return result;
+}
+
+std::string steps(const unsigned int number)
+{
+  return std::to_string(number);
+}
+
+bool says(const Result &result, const std::string &words)
+{
+  return result.message.find(words) != std::string::npos;
+}
+
+// ---------------------------------------------------------------- between the sampled points
+
+TEST(Expressions, AreRefusedWhereTheyAreNotFinite)
+{
+  // The first step integrates past the interval around 0.1 in which the root has no value.
+  const std::string force = "sqrt(abs(x-0.1)-1e-2); 0";
+  const Result result =
+      run("han-6-12", {{"Body force/Expression", force}, {"Adaptivity/Maximum steps", "9"}});
+  EXPECT_TRUE(result.failed_input);
+  EXPECT_GE(result.steps, 1U);
+  for (const std::string words :
+       {"prm/han-6-12.prm (--set): Body force/Expression = ", "is not finite at (0.", ": nan;"})
+    EXPECT_TRUE(says(result, words)) << result.message;
+}
+
+TEST(Expressions, APoleIsRefused)
+{
+  // Tried at multiples of 1/4; after one bisection 1/8 is the centre of a cell.
+  const Result result = run("han-6-12", {{"Body force/Expression", "1/(x-0.125); 0"},
+                                         {"Adaptivity/Method", "hup3"},
+                                         {"Adaptivity/Maximum steps", "4"}});
+  EXPECT_TRUE(result.failed_input);
+  EXPECT_TRUE(says(result, "is not finite at (0.125, ")) << result.message;
+  EXPECT_TRUE(says(result, ": inf;")) << result.message;
+}
+
+TEST(Expressions, AFrictionBoundIsNegativeNowhere)
+{
+  // Tried at multiples of 1/8, where the sine is 0.
+  const Result result = run("han-6-12", {{"Boundary bottom/Friction bound", "1+1.2*sin(16*pi*x)"},
+                                         {"Adaptivity/Maximum steps", "2"}});
+  EXPECT_TRUE(result.failed_input);
+  EXPECT_TRUE(says(result, "Boundary bottom/Friction bound = 1+1.2*sin(16*pi*x): is negative at ("))
+      << result.message;
+}
+
+TEST(Expressions, RoundOffBelowAZeroBoundIsZero)
+{
+  const Scene<2> scene =
+      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "x*(4-x) - 1e-13"}});
+  EXPECT_EQ(scene.boundaries[2].friction_bound->value(Point<2>(0., 0.)), 0.);
+  EXPECT_GT(scene.boundaries[2].friction_bound->value(Point<2>(1., 0.)), 2.9);
+}
+
+// ---------------------------------------------------------------- nothing at all
+
+TEST(ZeroLoad, IsAResult)
+{
+  for (const std::string method : {"hup2", "hap2", "pu", "hpa1", "hpa2", "hpa3"})
+    for (const std::string solver : {"mprgp", "active set"})
+    {
+      const Result result = run("han-6-12", {{"Boundary left/Traction", ""},
+                                             {"Adaptivity/Method", method},
+                                             {"Solver/QP solver", solver},
+                                             {"Solver/Condition number", "true"}});
+      EXPECT_EQ(result.message, "");
+      EXPECT_EQ(result.steps, 1U) << method;
+      EXPECT_EQ(result.stopped_by, "round-off");
+      EXPECT_EQ(result.largest, 0.);
+      EXPECT_EQ(result.relative, 0.);
+      EXPECT_EQ(result.energies.lagrangian, 0.);
+      EXPECT_EQ(result.files.find("nan"), std::string::npos) << result.files;
+      EXPECT_EQ(result.files.find("inf"), std::string::npos) << result.files;
+    }
+}
+
+TEST(ZeroLoad, MeetsATolerance)
+{
+  const Result result = run("han-6-12", {{"Boundary left/Traction", "0; 0"},
+                                         {"Boundary bottom/Friction bound", ""},
+                                         {"Adaptivity/Tolerance", "1e-3"}});
+  EXPECT_EQ(result.steps, 1U);
+  EXPECT_EQ(result.relative, 0.);
+}
+
+/** a(u,u) is round-off of either sign, its root not nan. */
+TEST(ZeroStrain, HasANorm)
+{
+  const Result result = run("han-6-12", {{"Boundary left/Traction", ""},
+                                         {"Boundary right/Displacement", "1; 0"},
+                                         {"Boundary bottom/Friction bound", ""},
+                                         {"Adaptivity/Method", "hup2"},
+                                         {"Adaptivity/Maximum steps", "5"}});
+  EXPECT_EQ(result.message, "");
+  EXPECT_NEAR(result.largest, 1., 1e-12);
+  EXPECT_LT(result.energies.norm, 1e-6);
+  EXPECT_EQ(result.files.find("nan"), std::string::npos) << result.files;
+}
+
+// ---------------------------------------------------------------- extremes of numbers
+
+/** Stresses by @p factor, a power of 2: the same problem in another unit. */
+Overrides in_units(const double factor)
+{
+  return {{"Material/Young's modulus", text(15 * factor)},
+          {"Boundary left/Traction", text(1.5 * factor) + "*(5 - y); " + text(-0.75 * factor)},
+          {"Boundary bottom/Friction bound", text(4.5 * factor)},
+          {"Adaptivity/Maximum steps", "8"}};
+}
+
+TEST(Extremes, ResultsScaleWithTheUnit)
+{
+  const Result one = run("han-6-12", in_units(1.));
+  for (const double factor : {std::ldexp(1., -300), std::ldexp(1., 300)})
+  {
+    const Result other = run("han-6-12", in_units(factor));
+    EXPECT_EQ(other.message, "");
+    EXPECT_NEAR(other.energies.lagrangian / factor / one.energies.lagrangian, 1., 1e-10);
+    EXPECT_NEAR(other.energies.slack / factor / one.energies.slack, 1., 1e-6);
+    EXPECT_NEAR(other.relative / one.relative, 1., 1e-10);
+    EXPECT_NEAR(other.largest / one.largest, 1., 1e-10);
+  }
+}
+
+TEST(Extremes, AHugeFrictionBoundIsFullStick)
+{
+  const auto with_bound = [](const std::string &g)
+  {
+    return run("han-6-12",
+               {{"Boundary bottom/Friction bound", g}, {"Adaptivity/Maximum steps", "8"}});
+  };
+  const Result large = with_bound("1e6"), huge = with_bound("1e30");
+  EXPECT_NEAR(huge.energies.lagrangian, large.energies.lagrangian, 1e-10);
+  EXPECT_NEAR(huge.energies.resultant, large.energies.resultant, 1e-9);
+  EXPECT_NEAR(huge.relative / large.relative, 1., 1e-9);
+  // The functional itself holds g |u_t| of a displacement that sticks up to its own error.
+  EXPECT_NEAR(huge.energies.slack / large.energies.slack / 1e24, 1., 1e-6);
+}
+
+TEST(Extremes, WhatOverflowsIsCalledByItsName)
+{
+  const Result result = run("han-6-12", {{"Material/Young's modulus", "1e100"},
+                                         {"Boundary right/Displacement", "1e100; 0"},
+                                         {"Geometry/Upper corner", "4e60, 4e60"},
+                                         {"Body force/Expression", "1e100; 0"},
+                                         {"Boundary bottom/Friction bound", ""}});
+  EXPECT_TRUE(result.failed_numerics);
+  EXPECT_TRUE(says(result, "is not finite")) << result.message;
+  EXPECT_TRUE(says(result, "choose units")) << result.message;
+}
+
+TEST(Extremes, WhatUnderflowsIsCalledByItsName)
+{
+  const Result result = run("han-6-12", {{"Material/Young's modulus", "1e100"},
+                                         {"Boundary left/Traction", "1e-99; 0"},
+                                         {"Boundary bottom/Friction bound", ""}});
+  EXPECT_TRUE(result.failed_numerics);
+  EXPECT_TRUE(says(result, "underflows")) << result.message;
+}
+
+TEST(Extremes, AConditionNumberThatIsNoneIsExplained)
+{
+  const Result result = run("han-6-12", {{"Boundary bottom/Friction bound", "1e-12+x^60"},
+                                         {"Solver/Condition number", "true"},
+                                         {"Adaptivity/Maximum steps", "1"}});
+  EXPECT_EQ(result.message, "");
+  EXPECT_FALSE(std::isfinite(result.condition_raw));
+  EXPECT_TRUE(result.warns("in step 1: there the table has no condition number"));
+  EXPECT_EQ(result.files.substr(0, result.files.find('{')).find("inf"), std::string::npos);
+}
+
+// ---------------------------------------------------------------- material
+
+TEST(Coercivity, IsTheSmallestEigenvalueOfHookesLaw)
+{
+  for (const double poisson : {-0.9, -0.5, 0., 0.3, 0.499})
+    for (const PlaneModel plane : {PlaneModel::stress, PlaneModel::strain})
+    {
+      const Material material{15., poisson, plane};
+      double smallest = std::numeric_limits<double>::max();
+      for (unsigned int k = 0; k < 360; ++k) // principal strains suffice
+      {
+        const double a = std::cos(k * numbers::PI / 180), b = std::sin(k * numbers::PI / 180);
+        smallest = std::min(smallest, material.lambda(2) * (a + b) * (a + b) + 2 * material.mu());
+      }
+      EXPECT_NEAR(material.coercivity(2), smallest, 1e-12 * smallest) << poisson;
+    }
+}
+
+TEST(Coercivity, ScalesTheIndicator)
+{
+  const auto factor = [](const std::string &poisson)
+  {
+    const Result result = run("han-6-12", {{"Material/Poisson's ratio", poisson},
+                                           {"Material/Plane", "strain"},
+                                           {"Adaptivity/Maximum steps", "1"}});
+    return result.estimate / result.scaled_estimate;
+  };
+  EXPECT_NEAR(factor("-0.5"), std::sqrt(15.), 1e-12); // E/((1+nu)(1-2nu))
+  EXPECT_NEAR(factor("0.25"), std::sqrt(12.), 1e-12); // E/(1+nu)
+}
+
+TEST(Messages, PoissonsRatioHasTheDigitsItHas)
+{
+  for (const std::string poisson : {"0.4999999", "0.4999999999999"})
+    EXPECT_TRUE(run("han-6-12", {{"Material/Poisson's ratio", poisson},
+                                 {"Material/Plane", "strain"},
+                                 {"Adaptivity/Maximum steps", "1"}})
+                    .warns("Poisson's ratio " + poisson + " is near 1/2"));
+}
+
+// ---------------------------------------------------------------- what stops a run, corners, ids
+
+TEST(EmptyMarking, NamesItsEntry)
+{
+  const auto stopped_by = [](const Overrides &entries)
+  {
+    const Result result =
+        run("han-6-12", entries + Overrides{{"Adaptivity/Maximum steps", steps(3)}});
+    EXPECT_EQ(result.steps, 1U);
+    return result.stopped_by;
+  };
+  EXPECT_EQ(stopped_by({{"Adaptivity/Method", "hpa3"}, {"Adaptivity/hpa3 threshold", "1"}}),
+            "hpa3 threshold");
+  EXPECT_EQ(stopped_by({{"Adaptivity/Method", "hap2"},
+                        {"Adaptivity/hap threshold", "1"},
+                        {"Geometry/Subdivisions", "1, 1"}}),
+            "hap threshold");
+  EXPECT_EQ(
+      stopped_by({{"Adaptivity/Method", "hpa2"}, {"Adaptivity/hpa2 marked fraction", "1e-12"}}),
+      "hpa2 marked fraction");
+  EXPECT_EQ(stopped_by({{"Adaptivity/Method", "hpa1"},
+                        {"Adaptivity/hpa1 bisected fraction", "1e-12"},
+                        {"Adaptivity/hpa1 raised fraction", "1e-12"}}),
+            "hpa1 bisected fraction");
+  EXPECT_EQ(stopped_by({{"Adaptivity/Method", "pu"}, {"Adaptivity/Maximum degree", "2"}}),
+            "Maximum degree");
+}
+
+TEST(Corners, AreWarnedOfBelowFiveAndAbove175Degrees)
+{
+  const auto result = [](const std::string &corners)
+  {
+    return run("han-6-12", {{"Geometry/Shape", "quadrilateral"},
+                            {"Geometry/Lower corner", "0, 0"},
+                            {"Geometry/Corners", corners},
+                            {"Boundary bottom/Contact", "none"},
+                            {"Boundary bottom/Friction bound", ""},
+                            {"Adaptivity/Maximum steps", "1"}});
+  };
+  EXPECT_TRUE(
+      result("0,0; 4,0; 8,0.2797071; 4,0.2797071").warns("4 degrees at (0 0), 176 degrees"));
+  EXPECT_TRUE(result("0,0; 4,0; 4,4; 1.95,2.05").warns("177.1 degrees at (1.95 2.05)"));
+  EXPECT_FALSE(result("0,0; 4,0; 8,0.5; 4,0.5").warns("degrees"));
+}
+
+TEST(Boundaries, AFaceOfNoneIsNoticed)
+{
+  Scene<2> scene = shipped_scene("han-6-12");
+  scene.boundaries.pop_back();
+  Triangulation<2> mesh;
+  EXPECT_ANY_THROW(make_mesh(scene, mesh));
+}
+
+// ---------------------------------------------------------------- messages
+
+TEST(Messages, ArePrintable)
+{
+  EXPECT_EQ(printable("a\tb\nc\r"), "a b c ");
+  EXPECT_EQ(printable(std::string("\x1b[31m\0\x7f", 7)), "?[31m??");
+  EXPECT_EQ(printable("\u00e9 \u20ac \U0001F600"), "\u00e9 \u20ac \U0001F600");
+  EXPECT_EQ(printable("\u0085\u2028\u202e"), "???");
+  EXPECT_EQ(printable("\xe9 \xc0\xaf \xed\xa0\x80 \xf5 \xe2\x82"), "? ?? ??? ? ??");
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????"); // beyond U+10FFFF
+  EXPECT_EQ(printable("abcdef", 6), "abcdef");
+  EXPECT_EQ(printable("abcdefg", 6), "abcdef...");
+  EXPECT_EQ(printable("abcde\u00e9", 6), "abcde..."); // no half characters
+}
+} // namespace
