@@ -193,8 +193,8 @@ TEST_P(PlaneStrainScene, HasTheEnergiesOfTheClosedForm)
           [&](const Step<2> &step)
           {
             ++n_steps;
-            EXPECT_NEAR(std::pow(step.errors.energy_norm, 2), a, 1e-9);
-            EXPECT_NEAR(step.errors.reference_energy, 0.5 * a + friction, 1e-9);
+            EXPECT_NEAR(std::pow(step.errors.energy_norm, 2), a, 1e-12);
+            EXPECT_NEAR(step.errors.reference_energy, 0.5 * a + friction, 1e-12);
             if (step.stopped_by.empty())
               return;
             const Energies &e = step.energies;
