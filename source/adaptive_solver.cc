@@ -236,7 +236,7 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
   Energies step_energies;
   {
     StageTimer timer(times.recover);
-    step_energies = energies(solution, *discretisation->system, tables);
+    step_energies = energies(solution, *discretisation->system, tables, algebraic.energy_product);
     check_finite("the energy", step_energies.energy);
     check_finite("the Lagrangian", step_energies.lagrangian);
     check_finite("the energy norm", step_energies.norm);

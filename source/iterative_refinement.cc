@@ -96,9 +96,8 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
                                                  Vector<double> &u) const
 {
   AlgebraicError error;
-  double energy_product;
-  Vector<double> r = residual(lambda, u, energy_product);
-  if (energy_product == 0. || !contradicts(r, u, energy_product))
+  Vector<double> r = residual(lambda, u, error.energy_product);
+  if (error.energy_product == 0. || !contradicts(r, u, error.energy_product))
     return error;
 
   const auto interiors = system.interiors(stiffnesses);
@@ -106,7 +105,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
   { return system.respond(schur_complement.solve(system.reduce(forces)), forces, interiors); };
   Vector<double> z = precondition(r), p(z), best(u);
   double square = dot(r, z), least = square;
-  const double exact = 1e-28 * energy_product;
+  const double exact = 1e-28 * error.energy_product;
   const unsigned int most = 60, patience = 6;
   for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
        ++error.corrections)
@@ -116,6 +115,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
       break;
     u.add(dot(r, p) / curvature, p);
     // Always the true residual: the recursion of conjugate gradients would follow its own round-off.
+    double energy_product;
     r = residual(lambda, u, energy_product);
     z = precondition(r);
     const double last = square;
@@ -126,10 +126,11 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
     {
       least = square;
       best = u;
+      error.energy_product = energy_product;
     }
   }
   u = best;
-  error.relative = std::sqrt(least / energy_product);
+  error.relative = std::sqrt(least / error.energy_product);
   return error;
 }
 

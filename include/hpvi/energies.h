@@ -22,7 +22,7 @@ struct Energies
 /** The integral of g |u_Nt| cuts each edge where g jumps or u_Nt changes sign. */
 template <int dim>
 Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                  const ShapeTables<dim> &tables);
+                  const ShapeTables<dim> &tables, double a);
 } // namespace hpvi
 
 #endif

@@ -18,6 +18,7 @@ struct AlgebraicError
   double relative = 0;
   double multiplier = 0;        ///< the last change of lambda_N that corrections asked for
   unsigned int corrections = 0; ///< steps of conjugate gradients taken
+  double energy_product = 0;    ///< a(u_N,u_N), from strains
 
   double total() const
   {
