@@ -26,7 +26,7 @@ constexpr const char *summary_name = "summary.json";
 /** What is not yet whole. */
 constexpr const char *partial_name = ".hpvi.tmp";
 
-/** Is this the name of a file that a run may leave? Nothing else is ever removed. */
+/** Is this the name of a file that a run may leave? Nothing else is ever touched. */
 bool is_result(const std::string &name)
 {
   static const std::regex pattern(
@@ -36,12 +36,13 @@ bool is_result(const std::string &name)
   return std::regex_match(name, pattern);
 }
 
-std::set<std::string> names_in(const fs::path &directory, std::error_code &error)
+std::set<std::string> results_in(const fs::path &directory, std::error_code &error)
 {
   std::set<std::string> names;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
        entry.increment(error))
-    names.insert(entry->path().filename().string());
+    if (is_result(entry->path().filename()))
+      names.insert(entry->path().filename());
   return names;
 }
 
@@ -49,6 +50,9 @@ std::set<std::string> names_in(const fs::path &directory, std::error_code &error
 std::set<std::string> own_files(const fs::path &directory, const std::set<std::string> &names)
 {
   boost::property_tree::ptree summary;
+  std::error_code ignored;
+  if (!fs::is_regular_file(directory / summary_name, ignored))
+    return {};
   try
   {
     std::ifstream file(directory / summary_name);
@@ -61,12 +65,12 @@ std::set<std::string> own_files(const fs::path &directory, const std::set<std::s
   if (summary.get<std::string>("program", "").rfind("hpvi ", 0) != 0)
     return {};
   const auto list = summary.get_child_optional("files");
-  std::set<std::string> listed = list ? std::set<std::string>() : names, own;
-  if (list)
-    for (const auto &file : *list)
-      listed.insert(file.second.data());
-  std::copy_if(names.begin(), names.end(), std::inserter(own, own.end()),
-               [&](const std::string &name) { return is_result(name) && listed.count(name) > 0; });
+  if (!list)
+    return names;
+  std::set<std::string> own;
+  for (const auto &file : *list)
+    if (names.count(file.second.data()) > 0)
+      own.insert(file.second.data());
   return own;
 }
 } // namespace
@@ -79,7 +83,7 @@ ResultDirectory::ResultDirectory(const std::string &directory,
   create();
   take_lock();
   std::error_code error;
-  const std::set<std::string> names = names_in(path, error);
+  const std::set<std::string> names = results_in(path, error);
   if (error)
     reject(error.message());
   own = own_files(path, names);

@@ -5,6 +5,7 @@
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iterator>
@@ -67,7 +68,7 @@ std::istringstream read_content(const std::string &file)
 {
   std::ifstream in(file, std::ios::binary);
   std::string format, sum;
-  if (!in)
+  if (!in || !std::filesystem::is_regular_file(file))
     does_not_fit(file, "the reference solution cannot be read");
   if (!std::getline(in, format) || format != first_line)
     does_not_fit(file, "does not begin with \"" + first_line + "\"");
@@ -79,7 +80,7 @@ std::istringstream read_content(const std::string &file)
   return std::istringstream(content);
 }
 
-/** Blanks do not count; where each problem has its own entry, the first that differs is named. */
+/** The first entry that differs is named; blanks do not count. */
 void check_problem(const std::string &file, const std::vector<std::string> &there,
                    const std::vector<std::string> &here)
 {
