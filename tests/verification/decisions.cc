@@ -449,6 +449,20 @@ TEST(MakeMesh, GradesTowardsAPointByLevels)
     }
 }
 
+/** (1.05, 0.9), turned: the box around a turned cell that holds it is not the cell. */
+TEST(MakeMesh, GradesOnlyTheCellAroundAPoint)
+{
+  Triangulation<2> mesh;
+  make_mesh(shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
+                                       {"Geometry/Corners", "0, 0; 2.4, 3.2; -0.8, 5.6; -3.2, 2.4"},
+                                       {"Geometry/Lower corner", "0, 0"},
+                                       {"Geometry/Upper corner", "1, 1"},
+                                       {"Geometry/Grading levels", "1"},
+                                       {"Geometry/Graded towards", "-0.09, 1.38"}}),
+            mesh);
+  EXPECT_EQ(mesh.n_active_cells(), 19u);
+}
+
 TEST(RefineMesh, CellsAreEitherBisectedOrRaised)
 {
   Triangulation<2> mesh;
