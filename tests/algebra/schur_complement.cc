@@ -5,8 +5,8 @@
 #include <hpvi/numerical_failure.h>
 #include <hpvi/schur_complement.h>
 
-#include <malloc.h>
-
+#include <memory>
+#include <new>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -43,14 +43,36 @@ SymmetricMatrix star(const unsigned int n)
   return A;
 }
 
-/** What a factorisation fails with; @p n_contact unknowns come last. */
-std::string failure_of(const SymmetricMatrix &A, const unsigned int n_contact = 0)
+/** All memory that there is, but for two blocks of @p size bytes. */
+std::vector<std::unique_ptr<char[]>> all_but_two(const std::size_t size)
 {
+  std::vector<std::unique_ptr<char[]>> large, all;
+  for (const std::size_t block : {size, size / 64})
+    try
+    {
+      for (auto &blocks = block == size ? large : all;;)
+        blocks.emplace_back(new char[block]);
+    }
+    catch (const std::bad_alloc &)
+    {
+    }
+  for (std::size_t k = 2; k < large.size(); ++k)
+    all.push_back(std::move(large[k]));
+  return all;
+}
+
+/** What a factorisation fails with within so many bytes; @p n_contact unknowns come last. */
+std::string failure_of(const SymmetricMatrix &A, const unsigned int n_contact = 0,
+                       const double bytes = 1e15)
+{
+  const Vector<double> f(A.n());
+  const FullMatrix<double> B(1, n_contact);
   std::vector<unsigned int> contact(n_contact);
   std::iota(contact.begin(), contact.end(), 0);
+  const AddressSpaceLimit limit(bytes);
   try
   {
-    SchurComplement(A, Vector<double>(A.n()), contact, FullMatrix<double>(1, n_contact));
+    SchurComplement(A, f, contact, B);
   }
   catch (const NumericalFailure &failure)
   {
@@ -89,9 +111,7 @@ TEST(SchurComplement, FactorBeyondTheMemory)
   if (!AddressSpaceLimit::can_be_tested())
     GTEST_SKIP();
   const unsigned int n = 8000; // 512 MB of L and as much of its dense block
-  const SymmetricMatrix A = star(n);
-  const AddressSpaceLimit limit(256e6);
-  const std::string failure = failure_of(A, n - 1);
+  const std::string failure = failure_of(star(n), n - 1, 256e6);
   EXPECT_TRUE(says(failure, "the factorisation of 8000 unknowns needs 1.")) << failure;
   EXPECT_TRUE(says(failure, "left of the address space (ulimit -v)")) << failure;
 }
@@ -101,10 +121,8 @@ TEST(SchurComplement, OrderingBeyondTheMemory)
 {
   if (!AddressSpaceLimit::can_be_tested())
     GTEST_SKIP();
-  mallopt(M_MMAP_THRESHOLD, 1 << 20); // what is freed goes back, and does not serve once more
-  const SymmetricMatrix A = diagonal(500000, 1.);
-  const AddressSpaceLimit limit(14e6); // three permutations fit, what CAMD works on does not
-  const std::string failure = failure_of(A);
+  // Three permutations fit, what CAMD works on does not.
+  const std::string failure = failure_of(diagonal(500000, 1.), 0, 10e6);
   EXPECT_TRUE(says(failure, "the factorisation of 500000 unknowns is out of memory")) << failure;
 }
 
@@ -112,11 +130,11 @@ TEST(SchurComplement, SolutionBeyondTheMemory)
 {
   if (!AddressSpaceLimit::can_be_tested())
     GTEST_SKIP();
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  const unsigned int n = 500000;
+  const unsigned int n = 100000;
   const SchurComplement schur_complement(diagonal(n, 2.), Vector<double>(n), {},
                                          FullMatrix<double>());
-  const AddressSpaceLimit limit(10e6); // two vectors fit, a third one does not
+  const AddressSpaceLimit limit(4e6);
+  const auto the_rest = all_but_two(n * sizeof(double) + 8192);
   EXPECT_THROW(schur_complement.displacement(Vector<double>()), NumericalFailure);
 }
 } // namespace
