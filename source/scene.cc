@@ -409,6 +409,7 @@ Scene<dim> Scene<dim>::read(const std::string &file,
                       "true, or leave the entry empty");
 
   scene.adaptivity = read_adaptivity(parameters);
+  check_first_step(parameters, scene);
   scene.solver = read_solver(parameters);
   check_multiplier_degree(parameters, scene, use);
   scene.output = read_output(parameters);

@@ -346,4 +346,27 @@ void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene
                           std::to_string(-offset) + "; give at least " + std::to_string(-offset) +
                           " or raise Solver/Multiplier degree offset = " + std::to_string(offset));
 }
+
+/** At least so many: grading adds some, and what two edges hold at their corner is held once. */
+void check_first_step(const Parameters &parameters, const Scene<2> &scene)
+{
+  const unsigned int degree = scene.adaptivity.start_degree;
+  const double nodes_x = 1. + degree * scene.geometry.subdivisions[0],
+               nodes_y = 1. + degree * scene.geometry.subdivisions[1];
+  double unknowns = 2 * nodes_x * nodes_y;
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+  {
+    unsigned int held = boundary.bilateral_contact ? 1 : 0;
+    for (const auto &component : boundary.displacement)
+      held += component != nullptr ? 1 : 0;
+    unknowns -= std::min(held, 2U) * (boundary.id < 2 ? nodes_y : nodes_x);
+  }
+  if (unknowns > scene.adaptivity.maximum_unknowns)
+    parameters.reject("Geometry", "Subdivisions",
+                      "makes at least " + std::to_string(std::llround(unknowns)) +
+                          " free unknowns of degree " + std::to_string(degree) +
+                          " in the first step, more than Adaptivity/Maximum unknowns = " +
+                          std::to_string(scene.adaptivity.maximum_unknowns) +
+                          "; start coarser or raise that limit");
+}
 } // namespace hpvi

@@ -145,7 +145,8 @@ void add_method_entries(std::vector<Entry> &entries)
        {section, "Maximum steps", "16", positive, "a positive integer",
         "Number of adaptive steps, the first on the coarse mesh."},
        {section, "Maximum unknowns", "1000000", positive, "a positive integer",
-        "No step is started after one with as many free displacement unknowns."},
+        "No step is started after one with as many free displacement unknowns; a coarse mesh with "
+        "more of them is refused."},
        {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
         "No step is started after this time of computing; 0: no limit."},
        {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",

@@ -29,6 +29,12 @@ void check_exact_solution(const Parameters &parameters, const Scene<2> &scene);
  * inf-sup constant is only to be measured, where it had degree p or more.
  */
 void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene, SceneUse use);
+
+/**
+ * Throws InputError where the coarse mesh alone has more free displacement unknowns than
+ * Adaptivity/Maximum unknowns, before memory is spent on it.
+ */
+void check_first_step(const Parameters &parameters, const Scene<2> &scene);
 } // namespace hpvi
 
 #endif

@@ -119,6 +119,8 @@ invalid "Geometry/Upper corner = 4" "two finite numbers" -- "Geometry/Upper corn
 invalid "Geometry/Subdivisions = 0, 4" "two positive integers" -- "Geometry/Subdivisions=0, 4"
 invalid "Geometry/Subdivisions = 2.5, 4" "two positive integers" -- "Geometry/Subdivisions=2.5, 4"
 invalid "Geometry/Subdivisions = 9999, 9999" "a million cells" "start coarse" -- "Geometry/Subdivisions=9999, 9999"
+invalid "Geometry/Subdivisions = 300, 300" "makes at least 1620899 free unknowns of degree 3" "Maximum unknowns = 1000000" \
+  "start coarser" -- "Geometry/Subdivisions=300, 300"
 invalid "Geometry/Graded towards = 5, 0" "(5, 0) outside the body" "points of the body" -- \
   "Geometry/Graded towards=5, 0" "Geometry/Grading levels=2"
 invalid "Geometry/Grading levels = 2" "no point" "Graded towards" -- "Geometry/Grading levels=2"
