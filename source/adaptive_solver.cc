@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/memory.h>
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
 #include <hpvi/refinement_strategy.h>
@@ -67,6 +68,7 @@ struct AdaptiveSolver<dim>::Stages
       : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
         true_error(scene, tables)
   {
+    prepare_blas();
     make_mesh(scene, triangulation);
     degrees.assign(triangulation.n_active_cells(), scene.adaptivity.start_degree);
   }

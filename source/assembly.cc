@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/assembly.h>
+#include <hpvi/dense_work.h>
+#include <hpvi/memory.h>
 
 #include <algorithm>
 #include <numeric>
@@ -160,6 +162,7 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
       ++first[target + 1];
     n_entries += contribution.targets.size() * (contribution.targets.size() + 1) / 2;
   }
+  A.resize(n_entries);
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Place> places(first.back());
   std::vector<unsigned int> next(first);
@@ -167,8 +170,6 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     for (unsigned int i = 0; i < contribution.targets.size(); ++i)
       places[next[contribution.targets[i]]++] = {&contribution, i};
 
-  A.row.resize(n_entries);
-  A.value.resize(n_entries);
   A.column_start.reserve(unknowns.size() + 1);
   std::vector<int> position(unknowns.size(), -1);
   int end = 0;
@@ -194,8 +195,7 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     }
     A.column_start.push_back(end);
   }
-  A.row.resize(end);
-  A.value.resize(end);
+  A.resize(end);
 }
 
 namespace
@@ -337,6 +337,9 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
       column[unknown] = contact_unknowns.size();
       contact_unknowns.push_back(unknown);
     }
+  const DenseWork dense{contact_unknowns.size(), contact_space.n_multipliers()};
+  if (dense.n_multipliers > 0)
+    require_memory(dense.coupling_bytes() + dense.bytes(), dense.name());
   B.reinit(contact_space.n_multipliers(), contact_unknowns.size());
   B_prescribed.reinit(contact_space.n_multipliers());
   for (unsigned int k = 0; k < couplings.size(); ++k)

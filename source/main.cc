@@ -2,15 +2,23 @@
 #include <hpvi/adaptive_solver.h>
 #include <hpvi/command_line.h>
 #include <hpvi/inf_sup.h>
+#include <hpvi/memory.h>
 #include <hpvi/output.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
+#include <new>
 #include <sstream>
+
+#include <unistd.h>
+
+// Present where OpenBLAS is the BLAS in use.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
 
 namespace
 {
@@ -33,6 +41,9 @@ std::string failure_line(const std::exception &error)
 {
   if (dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error))
     return error.what();
+  if (dynamic_cast<const std::bad_alloc *>(&error))
+    return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
+           "Geometry/Subdivisions or allow more memory";
   std::ostringstream text;
   if (const auto *dealii_error = dynamic_cast<const dealii::ExceptionBase *>(&error))
     dealii_error->print_info(text);
@@ -202,10 +213,27 @@ void obey(const CommandLine &command_line)
                                                        : command_line.output_directory);
   }
 }
+
+/**
+ * OpenBLAS starts its threads when it is loaded. Each takes a buffer of 128 MB, tries for ever where
+ * it gets none, and is waited for at the end. A run uses one thread alone: where memory is limited
+ * the program begins again without the others.
+ */
+void do_without_threads_of_openblas(char *argv[])
+{
+  const std::string variable = "OPENBLAS_NUM_THREADS", none = "1";
+  const char *const value = std::getenv(variable.c_str());
+  if (!mapping_is_limited() || !openblas_get_num_threads || openblas_get_num_threads() == 1 ||
+      (value && value == none))
+    return;
+  setenv(variable.c_str(), none.c_str(), 1);
+  execv("/proc/self/exe", argv); // comes back only where it fails
+}
 } // namespace
 
 int main(int argc, char *argv[])
 {
+  do_without_threads_of_openblas(argv);
   try
   {
     obey(parse(argc, argv));

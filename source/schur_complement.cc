@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cholmod.h>
+#include <hpvi/dense_work.h>
+#include <hpvi/memory.h>
 #include <hpvi/numerical_failure.h>
 #include <hpvi/schur_complement.h>
 
 #include <algorithm>
-#include <limits>
+#include <string>
 
 // Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -54,7 +56,8 @@ struct SchurComplement::Factor
   Factor(const Factor &) = delete;
   Factor &operator=(const Factor &) = delete;
 
-  void compute(cholmod_sparse *matrix, const std::vector<int> &is_contact);
+  void compute(cholmod_sparse *matrix, const std::vector<int> &is_contact, double dense_bytes);
+  void check() const;
   LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
   Vector<double> solve(int system, const Vector<double> &right_hand_side);
 };
@@ -80,22 +83,52 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 }
 } // namespace
 
-void SchurComplement::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_contact)
+/** @p dense_bytes are those that the reduction to the contact unknowns will need beside L. */
+void SchurComplement::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_contact,
+                                      const double dense_bytes)
 {
   permutation.resize(matrix->nrow);
   std::vector<int> groups(is_contact);
-  if (!cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common))
-    throw NumericalFailure("the ordering of the stiffness matrix failed");
+  cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
+  check();
 
   // The order is taken as it is: a postordering could move contact unknowns away from the end.
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = false;
   L = cholmod_analyze_p(matrix, permutation.data(), nullptr, 0, &common);
+  check();
+
+  // L, the largest update of a supernode, and A in the order of L.
+  const double bytes = sizeof(double) * (double(L->xsize) + double(L->maxcsize)) +
+                       (sizeof(double) + sizeof(int)) * double(matrix->nzmax);
+  require_memory(bytes + dense_bytes, "the factorisation of " + std::to_string(L->n) + " unknowns");
   cholmod_factorize(matrix, L, &common);
-  if (common.status != CHOLMOD_OK || L->minor < L->n)
+  check();
+}
+
+/** Throws NumericalFailure unless CHOLMOD's last work succeeded. */
+void SchurComplement::Factor::check() const
+{
+  const std::string remedy =
+      "; lower Adaptivity/Maximum unknowns or take fewer Geometry/Subdivisions";
+  if (L && L->minor < L->n)
     throw NumericalFailure("the stiffness matrix is not positive definite: a rigid-body motion is "
                            "free or elements are degenerate");
+  if (common.status == CHOLMOD_TOO_LARGE)
+    throw NumericalFailure("the factor of the stiffness matrix (" +
+                           std::to_string(permutation.size()) +
+                           " unknowns) has more entries than its indices can count" + remedy);
+  if (common.status == CHOLMOD_OUT_OF_MEMORY)
+    throw NumericalFailure(
+        "the factorisation of " + std::to_string(permutation.size()) +
+        " unknowns is out of memory: it holds " + bytes_text(common.memory_inuse) +
+        (L ? " and asked for up to " + bytes_text(sizeof(double) * double(L->xsize)) : "") +
+        remedy + " or allow more memory");
+  if (common.status != CHOLMOD_OK)
+    throw NumericalFailure("the factorisation of " + std::to_string(permutation.size()) +
+                           " unknowns failed: CHOLMOD's status is " +
+                           std::to_string(common.status));
 }
 
 LAPACKFullMatrix<double>
@@ -128,6 +161,7 @@ Vector<double> SchurComplement::Factor::solve(const int system,
   dense.xtype = CHOLMOD_REAL;
   dense.dtype = CHOLMOD_DOUBLE;
   cholmod_dense *result = cholmod_solve(system, L, &dense, &common);
+  check();
   const double *values = static_cast<const double *>(result->x);
   const Vector<double> solution(values, values + right_hand_side.size());
   cholmod_free_dense(&result, &common);
@@ -148,7 +182,7 @@ SchurComplement::SchurComplement(const SymmetricMatrix &A, const Vector<double> 
     for (const unsigned int unknown : contact)
       is_contact[unknown] = 1;
   cholmod_sparse matrix = as_cholmod(A);
-  factor->compute(&matrix, is_contact);
+  factor->compute(&matrix, is_contact, n_contact > 0 ? DenseWork{n_contact, B.m()}.bytes() : 0.);
 
   Vector<double> permuted(n);
   for (unsigned int i = 0; i < n; ++i)

@@ -2,6 +2,7 @@
 #ifndef hpvi_symmetric_matrix_h
 #define hpvi_symmetric_matrix_h
 
+#include <cstddef>
 #include <vector>
 
 namespace hpvi
@@ -12,6 +13,12 @@ struct SymmetricMatrix
   std::vector<int> column_start{0}; ///< size n + 1
   std::vector<int> row;             ///< of each entry, <= its column
   std::vector<double> value;
+
+  /**
+   * Make room for @p n_entries. Throws NumericalFailure where they are more than an index can count,
+   * or than there is memory for.
+   */
+  void resize(std::size_t n_entries);
 
   unsigned int n() const
   {
