@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/adaptive_solver.h>
+#include <hpvi/dense_work.h>
 #include <hpvi/memory.h>
 #include <hpvi/multiplier_trace.h>
 #include <hpvi/reduced_problem.h>
@@ -62,7 +63,8 @@ struct AdaptiveSolver<dim>::Stages
   double translation = 0;        ///< likewise
   StageTimes times;              ///< of the current step
   double seconds = 0;
-  unsigned int number = 0;
+  unsigned int number = 0; ///< of the last finished step
+  std::function<void(const Progress &)> about_to;
 
   explicit Stages(const Scene<dim> &scene)
       : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
@@ -73,6 +75,8 @@ struct AdaptiveSolver<dim>::Stages
     degrees.assign(triangulation.n_active_cells(), scene.adaptivity.start_degree);
   }
 
+  void begin(const std::string &stage, const std::string &note = {}) const;
+  std::string dense_note() const;
   void discretise();
   Solution<dim> solve(Reduction &reduction);
   ErrorEstimate estimate(const Solution<dim> &solution);
@@ -83,8 +87,22 @@ struct AdaptiveSolver<dim>::Stages
 };
 
 template <int dim>
+void AdaptiveSolver<dim>::Stages::begin(const std::string &stage, const std::string &note) const
+{
+  about_to({number + 1, stage, note});
+}
+
+/** Of the step whose system is assembled. */
+template <int dim>
+std::string AdaptiveSolver<dim>::Stages::dense_note() const
+{
+  return DenseWork{discretisation->system->B.n(), discretisation->system->B.m()}.note();
+}
+
+template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
+  begin("assembling " + std::to_string(degrees.size()) + " elements");
   std::unique_ptr<Discretisation<dim>> next;
   {
     StageTimer timer(times.setup);
@@ -103,6 +121,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   const ElasticSystem<dim> &system = *discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->contact_space;
   std::unique_ptr<const SchurComplement> schur_complement;
+  begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
   {
     StageTimer timer(times.factor);
     schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
@@ -110,6 +129,8 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
   }
   if (contact_space.n_multipliers() > 0)
   {
+    begin("finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
+          " multipliers");
     StageTimer timer(times.qp);
     reduction.lambda = previous.values(contact_space, tables);
     reduction.translation = translation;
@@ -133,6 +154,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
 template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
+  begin("estimating the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.estimate);
   return estimate_error(solution, tables);
 }
@@ -210,8 +232,10 @@ std::string reached_limit(const Adaptivity &limits, const Step<dim> &step)
 } // namespace
 
 template <int dim>
-void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step)
+void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step,
+                              const std::function<void(const Progress &)> &about_to)
 {
+  stages->about_to = about_to;
   std::vector<double> estimates;
   for (bool finished = false; !finished;)
   {
@@ -227,7 +251,11 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
     estimates.push_back(estimate.total());
     finished = !step.stopped_by.empty();
     if (finished)
+    {
       step.warnings = warnings(solution, stages->tables, estimates);
+      if (!stages->dense_note().empty())
+        step.warnings.push_back(stages->dense_note());
+    }
     finished_step(step);
     stages->times = StageTimes();
     if (!finished)

@@ -100,6 +100,41 @@ void print_stages(const StageTimes &times)
   print_stage("total", times.total(), times.total());
 }
 
+/** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
+class ProgressLine
+{
+public:
+  ~ProgressLine()
+  {
+    erase();
+  }
+
+  void show(const Progress &progress)
+  {
+    erase();
+    if (!progress.note.empty() && !noted)
+      std::cout << "note: " << progress.note << std::endl;
+    noted = noted || !progress.note.empty();
+    const std::string line = "step " + std::to_string(progress.step) + ": " + progress.stage;
+    if (is_terminal)
+      std::cout << line << " ..." << std::flush;
+    shown = is_terminal;
+  }
+
+  void erase()
+  {
+    const char *const return_and_clear = "\r\033[K";
+    if (shown)
+      std::cout << return_and_clear << std::flush;
+    shown = false;
+  }
+
+private:
+  const bool is_terminal = isatty(STDOUT_FILENO);
+  bool shown = false;
+  bool noted = false; ///< a note is worth saying once, not with every step
+};
+
 // ---------------------------------------------------------------- what the program does
 
 void run(const Scene<dim> &scene, const std::string &directory)
@@ -109,6 +144,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
+  ProgressLine progress;
   std::cout << version_line() << '\n' << scene.title << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
   try
@@ -116,12 +152,14 @@ void run(const Scene<dim> &scene, const std::string &directory)
     solver.run(
         [&](const Step<dim> &step)
         {
+          progress.erase();
           print_row(step);
           times += step.times;
           stopped_by = step.stopped_by;
           warnings = step.warnings;
           output.write_step(step);
-        });
+        },
+        [&](const Progress &stage) { progress.show(stage); });
   }
   catch (const std::exception &error)
   {
@@ -181,13 +219,18 @@ void print_inf_sup(const Scene<dim> &scene)
             << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
             << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
             << std::endl;
+  ProgressLine progress;
   solver.run(
       [&](const Step<dim> &step)
       {
+        progress.show({step.number, "measuring the inf-sup constant", ""});
         const DisplacementSpace<dim> &space = step.solution.displacement_space;
-        print_inf_sup_row(step,
-                          measure_inf_sup(scene, space.triangulation(), space.degrees(), tables));
-      });
+        const InfSup inf_sup =
+            measure_inf_sup(scene, space.triangulation(), space.degrees(), tables);
+        progress.erase();
+        print_inf_sup_row(step, inf_sup);
+      },
+      [&](const Progress &stage) { progress.show(stage); });
 }
 
 void obey(const CommandLine &command_line)

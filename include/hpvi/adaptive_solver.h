@@ -84,6 +84,14 @@ struct Step
   std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
 };
 
+/** What a run is about to do, for those who wait for it. */
+struct Progress
+{
+  unsigned int step; ///< from 1
+  std::string stage; ///< as in "factorising 120000 unknowns"
+  std::string note;  ///< what to know before that, one line; mostly empty
+};
+
 /**
  * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene. Owns the stages; prints
  * nothing and writes no file: each finished step goes to a callback.
@@ -95,8 +103,13 @@ public:
   explicit AdaptiveSolver(const Scene<dim> &scene);
   ~AdaptiveSolver();
 
-  /** Runs until a limit of the scene is reached. Throws NumericalFailure. */
-  void run(const std::function<void(const Step<dim> &)> &finished_step);
+  /**
+   * Runs until a limit of the scene is reached; @p about_to hears of the longer stages before they
+   * begin. Throws NumericalFailure.
+   */
+  void run(
+      const std::function<void(const Step<dim> &)> &finished_step,
+      const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
 
 private:
   struct Stages;

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""progress.py HPVI SCENE.prm: a terminal shows what a step is doing and keeps none of it; where
+standard output is no terminal nothing of it appears. Dense work that takes long is said before."""
+import json
+import os
+import pathlib
+import pty
+import re
+import subprocess
+import sys
+import tempfile
+
+ERASE = "\r\x1b[K"
+
+
+def on_terminal(command):
+    """What the program sends to a terminal."""
+    controller, terminal = pty.openpty()
+    process = subprocess.Popen(command, stdout=terminal)
+    os.close(terminal)
+    received = b""
+    try:
+        while part := os.read(controller, 4096):
+            received += part
+    except OSError:  # how Linux says that the other side is closed
+        pass
+    os.close(controller)
+    if process.wait() != 0:
+        sys.exit(f"exit status {process.returncode} on a terminal")
+    return received.decode().replace("\r\n", "\n")
+
+
+def piped(command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def without_times(text):
+    """Times differ from run to run: drop every number with a decimal point but no exponent."""
+    return re.sub(r" +\d+\.\d+(?![\de])", "", text)
+
+
+def main():
+    program, scene = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as home:
+        command = [program, "--output", home, "--set", "Output/VTU=false", scene,
+                   "--set", "Adaptivity/Maximum steps=3"]
+        shown, plain = on_terminal(command), piped(command)
+        for stage in ("step 1: assembling 16 elements", "step 2: factorising ",
+                      "step 3: finding stick and slip for ", "step 3: estimating the error of "):
+            if stage not in shown:
+                sys.exit(f"a terminal does not show '{stage}': {shown}")
+            if stage in plain:
+                sys.exit(f"a pipe receives '{stage}'")
+        if "\r" in plain or "\x1b" in plain:
+            sys.exit("a pipe receives control characters")
+        kept = re.sub(r"[^\n]*" + re.escape(ERASE), "", shown)
+        if without_times(kept) != without_times(plain):
+            sys.exit(f"a terminal keeps\n{kept}\ninstead of\n{plain}")
+
+        long = piped(command[:-1] + ["Adaptivity/Maximum steps=1", "--set", "Geometry/Subdivisions=800, 1"])
+        note, row = long.find("note: the dense algebra of 1600 multipliers takes"), long.find("\n   1 ")
+        if not 0 <= note < row:
+            sys.exit(f"no note before the first row: {long}")
+        warnings = json.loads((pathlib.Path(home) / "summary.json").read_text())["warnings"]
+        if sum("the dense algebra of 1600 multipliers takes" in line for line in warnings) != 1:
+            sys.exit(f"summary.json does not say it: {warnings}")
+
+
+if __name__ == "__main__":
+    main()
