@@ -64,8 +64,10 @@ private:
 
 Piece Cutter::sampled(const double begin, const double end) const
 {
+  // Even and odd factors: a jump in the middle of a piece deceives either kind alone.
   Piece piece{begin, end, {}, {}};
-  std::array<std::array<double, 2>, 3> integrals{};
+  const std::array<unsigned int, 3> factors{{0, degree - 1, degree}};
+  std::array<std::array<double, factors.size()>, 3> integrals{};
   for (unsigned int level = 0; level < integrals.size(); ++level)
     for (unsigned int part = 0; part < (1U << level); ++part)
     {
@@ -74,16 +76,16 @@ Piece Cutter::sampled(const double begin, const double end) const
       {
         const double s = start + width * gauss.point(q)[0], value = g(s);
         piece.samples.push_back({s, value});
-        integrals[level][0] += width * gauss.weight(q) * value;
-        integrals[level][1] += width * gauss.weight(q) * value * std::legendre(degree, 2 * s - 1);
+        for (unsigned int k = 0; k < factors.size(); ++k)
+          integrals[level][k] +=
+              width * gauss.weight(q) * value * std::legendre(factors[k], 2 * s - 1);
       }
     }
   piece.rule.assign(piece.samples.begin(), piece.samples.begin() + gauss.size());
   std::sort(piece.samples.begin(), piece.samples.end(), before);
   for (const unsigned int level : {0, 1})
-    for (const unsigned int factor : {0, 1})
-      piece.deviation =
-          std::max(piece.deviation, std::abs(integrals[level][factor] - integrals[2][factor]));
+    for (unsigned int k = 0; k < factors.size(); ++k)
+      piece.deviation = std::max(piece.deviation, std::abs(integrals[level][k] - integrals[2][k]));
   return piece;
 }
 

@@ -3,6 +3,7 @@
 #include <hpvi/iterative_refinement.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -75,6 +76,17 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &lambda,
   return r;
 }
 
+/**
+ * A bound of the energy that the last bits of u have: 100 times `mu (epsilon |u|)^2` for each unknown. A
+ * body with no more is moved, not strained.
+ */
+template <int dim>
+double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
+{
+  const double last_bit = std::numeric_limits<double>::epsilon() * u.linfty_norm();
+  return 100 * scene.material.mu() * last_bit * last_bit * u.size();
+}
+
 /** Does the residual do more work on the free part of u than round-off explains? */
 template <int dim>
 bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector<double> &u,
@@ -97,7 +109,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
 {
   AlgebraicError error;
   Vector<double> r = residual(lambda, u, error.energy_product);
-  if (error.energy_product == 0. || !contradicts(r, u, error.energy_product))
+  if (!(error.energy_product > round_off_energy(u)) || !contradicts(r, u, error.energy_product))
     return error;
 
   const auto interiors = system.interiors(stiffnesses);

@@ -32,9 +32,9 @@ struct FrictionRule
 };
 
 /**
- * Cuts [0,1] until @p gauss on a piece gives the same as on its halves and its quarters, to 1e-13
- * of max |g|, for g alone and times a polynomial of @p degree. What lies between all these points
- * cannot be seen. At most 64 pieces: a g that asks for more is integrated as well as these can.
+ * Cuts [0,1] until @p gauss on a piece gives the same as on its halves and quarters, to 1e-13 of
+ * max |g|, for g alone and times polynomials of @p degree >= 1 and one less. What lies between all
+ * their points cannot be seen. At most 64 pieces: any g is integrated as well as these can.
  */
 FrictionRule make_friction_rule(const std::function<double(double)> &g,
                                 const dealii::QGauss<1> &gauss, unsigned int degree);

@@ -63,6 +63,7 @@ public:
 private:
   dealii::Vector<double> residual(const dealii::Vector<double> &lambda,
                                   const dealii::Vector<double> &u, double &energy_product) const;
+  double round_off_energy(const dealii::Vector<double> &u) const;
   bool contradicts(const dealii::Vector<double> &residual, const dealii::Vector<double> &u,
                    double energy_product) const;
 

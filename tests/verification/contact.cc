@@ -61,8 +61,8 @@ TEST(FrictionRule, TakesGaussPointsOfTheWholeEdgeForACubic)
 
 TEST(FrictionRule, CutsAtJumps)
 {
-  for (unsigned int p = 2; p <= 12; p += 5)
-    for (const double a : {0.02, 1. / 3., 0.5, 0.9})
+  for (unsigned int p = 2; p <= 12; ++p)
+    for (const double a : {0.05, 0.25, 1. / 3., 0.5, 0.75, 0.9})
     {
       const FrictionRule rule = rule_of([a](const double s) { return s < a ? 1. : 4.5; }, p);
       ASSERT_EQ(rule.jumps.size(), 1U) << "p = " << p << ", jump at " << a;
@@ -94,7 +94,7 @@ TEST(FrictionRule, ResolvesKinksAndRootsWithoutCallingThemJumps)
   const FrictionRule root = rule_of([](const double s) { return std::sqrt(s); }, 4);
   EXPECT_NEAR(root.integral(), 2. / 3., 1e-12);
   const FrictionRule steep = rule_of([](const double s) { return std::exp(-40 * s); }, 4);
-  EXPECT_NEAR(steep.integral(), (1 - std::exp(-40)) / 40, 1e-14);
+  EXPECT_NEAR(steep.integral(), (1 - std::exp(-40)) / 40, 1e-12);
   for (const FrictionRule &rule : {kink, root, steep})
     EXPECT_TRUE(rule.jumps.empty());
 }
@@ -117,7 +117,9 @@ const Overrides pushed = {{"Geometry/Upper corner", "3, 1"},
                           {"Boundary bottom/Contact", "bilateral"},
                           {"Adaptivity/Method", "hpa3"},
                           {"Adaptivity/Maximum steps", "6"},
-                          {"Material/Young's modulus", "1"}};
+                          {"Material/Young's modulus", "1"},
+                          {"Units/Length", "1"},
+                          {"Units/Stress", "1"}};
 
 Scene<2> pushed_with(const std::string &bound, const Overrides &more = {})
 {
@@ -191,7 +193,7 @@ TEST(Contact, SeesASignChangeOnASample)
     VectorTools::interpolate(discrete.displacement_space.dof_handler(), slip, u);
     const Energies e =
         energies<2>({scene, discrete.displacement_space, discrete.contact_space, u, lambda},
-                    discrete.system, discrete.tables);
+                    discrete.system, discrete.tables, 0.);
     EXPECT_NEAR(e.slack, 3 * 0.25, 1e-14) << "p = " << p;
   }
 }
@@ -255,7 +257,7 @@ TEST(FreeBody, BalancesItsLoadsByABump)
 
 TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
 {
-  for (const double force : {0., 0.7})
+  for (const double force : {0., 0.75})
   {
     const std::string failure = failure_of(free_strip("if(abs(x - 2) < 0.0001, 1e5, 0)", force));
     EXPECT_NE(failure.find("the loads push it with " + text(force)), std::string::npos) << failure;
@@ -435,7 +437,7 @@ Scene<2> block_in_a_corner(const Overrides &more = {})
 
 TEST(TwoContactBoundaries, HaveTransitionsOfTheirOwn)
 {
-  const Scene<2> scene = block_in_a_corner();
+  const Scene<2> scene = block_in_a_corner({{"Geometry/Subdivisions", "8, 8"}});
   Multipliers multipliers(scene, 4);
   // One slips, the other sticks: no transition at the corner or between their far ends.
   EXPECT_TRUE(
