@@ -85,6 +85,27 @@ TEST(Corners, PrescribedValuesAreMetTogether)
     }
 }
 
+/** The same where the inclined contact comes first. */
+TEST(Corners, PrescribedValuesAreMetBesideAnInclinedWall)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                                   {"Geometry/Corners", "0, 0; 2, 0; 2, 2; 0.5, 2"},
+                                   {"Boundary left/Contact", "bilateral"},
+                                   {"Boundary bottom/Displacement", "free; 0.04"},
+                                   {"Boundary right/Traction", "0.1; 0"}});
+  const RandomMesh mesh(scene, 8, 1);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  EXPECT_LE(violation(discrete, solution.u), 1e-15);
+  for (const SupportedNode<2> &node :
+       supported_nodes(scene, discrete.displacement_space, discrete.tables))
+    if (node.x.norm() < 1e-12)
+    {
+      EXPECT_NEAR(solution.u[node.dofs[0]], 0.01, 1e-16); // one along, four up
+      EXPECT_NEAR(solution.u[node.dofs[1]], 0.04, 1e-16);
+    }
+}
+
 /** The whole scene turned: in its own axes the slope is level, and deal.II never saw a corner there. */
 TEST(Corners, TurnWithTheBody)
 {
