@@ -140,9 +140,13 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
                                                const ErrorEstimate &estimate)
 {
   StageTimer timer(times.decide);
-  return mark(scene.adaptivity, degrees, estimate,
-              [&](const unsigned int cell)
-              { return smoothness.decay_rate(solution, tables, cell); });
+  Refinement refinement =
+      mark(scene.adaptivity, degrees, estimate,
+           [&](const unsigned int cell) { return smoothness.decay_rate(solution, tables, cell); });
+  if (scene.adaptivity.method != Method::pu)
+    for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps())
+      refinement.bisect[jump.face->cell->active_cell_index()] = true;
+  return refinement;
 }
 
 template <int dim>

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/assembly.h>
+#include <hpvi/numerical_failure.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <sstream>
+#include <string>
 
 namespace hpvi
 {
@@ -281,18 +285,14 @@ FullMatrix<double> face_coupling(const ContactFace<dim> &face,
                                  const ContactSpace<dim> &contact_space,
                                  const ShapeTables<dim> &tables)
 {
-  // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2 for
-  // multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
-  const unsigned int n_gauss = std::max(face.degree + 1, face.n_multipliers);
-  const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
+  const FrictionRule &rule = face.friction;
+  const ShapeTable<dim> &table = face.friction_table(tables);
   const LocalNumbering &numbering = tables.numbering(face.degree);
-  const QGauss<1> &gauss = tables.gauss(n_gauss);
   FullMatrix<double> local(face.n_multipliers, numbering.shape.size());
-  for (unsigned int q = 0; q < n_gauss; ++q)
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
   {
-    const double s = gauss.point(q)[0];
-    const double weight = gauss.weight(q) * face.length() * face.friction_bound(face.point(s));
-    const std::vector<double> psi = contact_space.basis_values(face, s);
+    const double weight = rule.weights[q] * face.length() * rule.values[q];
+    const std::vector<double> psi = contact_space.basis_values(face, rule.points[q]);
     for (unsigned int i = 0; i < local.n(); ++i)
     {
       const double v_t = face.tangent[numbering.component[i]] * table.values(q, numbering.shape[i]);
@@ -357,6 +357,22 @@ void ElasticSystem<dim>::assemble_contact(const ContactSpace<dim> &contact_space
   }
 }
 
+namespace
+{
+/** Why a body that friction alone could hold has no friction on this mesh. */
+template <int dim>
+std::string nothing_resists(const Tensor<1, dim> &direction, const double load)
+{
+  std::ostringstream line;
+  line
+      << "nothing holds the body along (" << direction << "): the loads push it with "
+      << std::abs(load)
+      << ", friction can resist with 0, for Friction bound vanishes wherever this mesh samples it; "
+         "raise Geometry/Subdivisions, set Geometry/Graded towards where it acts, or add a support";
+  return line.str();
+}
+} // namespace
+
 /**
  * The spring is soft beside the body: for the quadratic program it is a penalty of weight 1/spring on
  * R'(f - B' lambda), and a strong one converges fast. It costs as many digits of u along R alone.
@@ -374,7 +390,8 @@ void ElasticSystem<dim>::hold(const Tensor<1, dim> &free_translation)
             free_translation[cell->get_fe().system_to_component_index(i).first];
   }
   if (contact_unknowns.empty())
-    return;
+    throw NumericalFailure(nothing_resists(
+        free_translation, std::inner_product(f.begin(), f.end(), translation.begin(), 0.)));
   const unsigned int held =
       *std::max_element(contact_unknowns.begin(), contact_unknowns.end(),
                         [this](const auto a, const auto b)

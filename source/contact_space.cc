@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/contact_space.h>
 
@@ -10,18 +11,6 @@ using namespace dealii;
 
 namespace
 {
-/** Does g vanish at every point where an integral over the face would ask for it? */
-template <int dim>
-bool friction_vanishes(const ContactFace<dim> &face, const QGauss<1> &gauss)
-{
-  if (face.condition->friction_bound == nullptr)
-    return true;
-  for (const Point<1> &s : gauss.get_points())
-    if (face.friction_bound(face.point(s[0])) != 0.)
-      return false;
-  return true;
-}
-
 template <int dim>
 ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
                            const unsigned int face_no, const unsigned int degree,
@@ -43,7 +32,28 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
           -cross_product_2d(normal),
           static_cast<unsigned int>(n_points),
           0,
-          0};
+          0,
+          {},
+          nullptr};
+}
+
+/** Give the face its rule for g; the integrands of B have degree p + n_points - 1 beside g. */
+template <int dim>
+void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
+{
+  const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
+  face.friction = make_friction_rule(
+      [&face](const double s) { return face.friction_bound(face.point(s)); }, gauss, degree);
+  if (face.friction.cuts.size() == 2)
+    return;
+  std::vector<Point<1>> points;
+  for (const double s : face.friction.points)
+    points.emplace_back(s);
+  std::vector<Point<dim>> on_face(points.size());
+  QProjector<dim>::project_to_face(ReferenceCells::get_hypercube<dim>(), Quadrature<1>(points),
+                                   face.face_no, on_face);
+  face.own_table = std::make_shared<const ShapeTable<dim>>(
+      tabulate<dim>(face.degree, on_face, face.friction.weights, false));
 }
 } // namespace
 
@@ -64,6 +74,12 @@ template <int dim>
 double ContactFace<dim>::length() const
 {
   return cell->face(face_no)->diameter();
+}
+
+template <int dim>
+const ShapeTable<dim> &ContactFace<dim>::friction_table(const ShapeTables<dim> &tables) const
+{
+  return own_table ? *own_table : tables.face(degree, face_no, friction.points.size());
 }
 
 template <int dim>
@@ -101,9 +117,12 @@ void ContactSpace<dim>::number_multipliers()
   std::map<unsigned int, QGauss<1>> gauss;
   for (ContactFace<dim> &face : contact_faces)
   {
-    const QGauss<1> &rule = gauss.try_emplace(face.degree, face.degree + 1).first->second;
+    // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2
+    // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
+    const unsigned int n_gauss = std::max(face.degree + 1, face.n_points);
+    integrate_friction(face, gauss.try_emplace(n_gauss, n_gauss).first->second);
     face.first_multiplier = n_unknowns;
-    face.n_multipliers = friction_vanishes(face, rule) ? 0 : face.n_points;
+    face.n_multipliers = face.friction.vanishes() ? 0 : face.n_points;
     n_unknowns += face.n_multipliers;
     if (face.n_multipliers > 0 && elements.count(face.n_multipliers) == 0)
       elements.emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));
@@ -154,6 +173,27 @@ double ContactSpace<dim>::value(const ContactFace<dim> &face, const Vector<doubl
   for (unsigned int i = 0; i < basis.size(); ++i)
     sum += basis[i] * lambda[face.first_multiplier + i];
   return sum;
+}
+
+template <int dim>
+double ContactSpace<dim>::friction_limit() const
+{
+  double sum = 0;
+  for (const ContactFace<dim> &face : contact_faces)
+    sum += face.length() * face.friction.integral();
+  return sum;
+}
+
+template <int dim>
+std::vector<UnresolvedJump<dim>> ContactSpace<dim>::unresolved_jumps() const
+{
+  const double negligible = 1e-6 * friction_limit();
+  std::vector<UnresolvedJump<dim>> result;
+  for (const ContactFace<dim> &face : contact_faces)
+    for (const FrictionRule::Jump &jump : face.friction.jumps)
+      if (std::abs(jump.height) * face.length() > negligible)
+        result.push_back({&face, face.point(jump.s), std::abs(jump.height)});
+  return result;
 }
 
 template struct ContactFace<2>;

@@ -5,32 +5,37 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace hpvi
 {
 using namespace dealii;
 
 namespace
 {
-/** The points in (0,1) where a function of one variable changes sign, with 0 and 1 around them. */
+/** The points in (0,1) where a function of one variable vanishes, as far as its samples show. */
 template <class F>
-std::vector<double> sign_changes(const F &function, const unsigned int n_samples)
+std::vector<double> zeros(const F &function, const unsigned int n_samples)
 {
-  std::vector<double> cuts{0.};
+  std::vector<double> result;
   double left = 0., f_left = function(left);
   for (unsigned int k = 1; k <= n_samples; ++k)
   {
     const double right = static_cast<double>(k) / n_samples, f_right = function(right);
-    if (f_left * f_right < 0.)
+    if ((f_left < 0. && f_right > 0.) || (f_left > 0. && f_right < 0.))
     {
       const auto bracket = boost::math::tools::bisect(
           function, left, right, boost::math::tools::eps_tolerance<double>(48));
-      cuts.push_back(0.5 * (bracket.first + bracket.second));
+      result.push_back(0.5 * (bracket.first + bracket.second));
     }
+    else if (f_right == 0. && k < n_samples)
+      result.push_back(right);
     left = right;
     f_left = f_right;
   }
-  cuts.push_back(1.);
-  return cuts;
+  return result;
 }
 
 /** u_Nt along one contact face: the polynomial through its values at p+1 Gauss points. */
@@ -63,19 +68,30 @@ private:
   std::vector<double> nodal;
 };
 
-/** int weight(s, u_t) over one face by Gauss quadrature between consecutive cuts. */
-template <class F, class Weight>
-double integrate(const F &u_t, const std::vector<double> &cuts, const QGauss<1> &gauss,
-                 const Weight &weight)
+/** int g |u_t| over one face: the pieces of its rule are cut further where u_t changes sign. */
+template <int dim>
+double friction_work(const ContactFace<dim> &face, const TangentialDisplacement<dim> &u_t,
+                     const QGauss<1> &gauss)
 {
+  std::vector<double> cuts = zeros(u_t, 8 * face.degree);
+  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  std::sort(cuts.begin(), cuts.end());
   double sum = 0;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      sum += width * gauss.weight(q) * weight(s, u_t(s));
+      sum += width * gauss.weight(q) * face.friction_bound(face.point(s)) * std::abs(u_t(s));
     }
-  return sum;
+  return face.length() * sum;
+}
+
+/** The friction force along t has one direction where there is one contact boundary alone. */
+template <int dim>
+bool has_one_contact_boundary(const Scene<dim> &scene)
+{
+  return std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
+                       [](const auto &boundary) { return boundary.bilateral_contact; }) == 1;
 }
 } // namespace
 
@@ -88,21 +104,21 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
     if (face.n_multipliers > 0)
     {
       const TangentialDisplacement<dim> u_t(face, solution, tables);
-      const auto g = [&](const double s) { return face.friction_bound(face.point(s)); };
-      friction += face.length() *
-                  integrate(u_t, sign_changes(u_t, 8 * face.degree), tables.gauss(face.degree + 2),
-                            [&](const double s, const double u) { return g(s) * std::abs(u); });
-      coupling +=
-          face.length() *
-          integrate(u_t, {0., 1.}, tables.gauss(face.degree + 1),
-                    [&](const double s, const double u)
-                    { return g(s) * u * solution.contact_space.value(face, solution.lambda, s); });
-      resultant -= face.length() *
-                   integrate(u_t, {0., 1.}, tables.gauss(face.degree + 1),
-                             [&](const double s, double) {
-                               return g(s) * solution.contact_space.value(face, solution.lambda, s);
-                             });
+      friction += friction_work(face, u_t, tables.gauss(face.degree + 2));
+      const FrictionRule &rule = face.friction;
+      double face_coupling = 0, face_resultant = 0;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const double s = rule.points[q], g = rule.values[q];
+        const double lambda = solution.contact_space.value(face, solution.lambda, s);
+        face_coupling += rule.weights[q] * (g * u_t(s) * lambda);
+        face_resultant += rule.weights[q] * (g * lambda);
+      }
+      coupling += face.length() * face_coupling;
+      resultant -= face.length() * face_resultant;
     }
+  if (!has_one_contact_boundary(solution.scene))
+    resultant = std::numeric_limits<double>::quiet_NaN();
   const double a = system.energy_product(solution.u);
   const double potential = 0.5 * a - system.work(solution.u);
   return {potential + coupling, potential + friction, std::sqrt(a), resultant, friction - coupling};

@@ -120,7 +120,7 @@ Record convergence_record(const Step<dim> &step, const unsigned int p_min, const
                 {"estimate_scaled", text(step.scaled_estimate)},
                 {"estimate_relative", text(step.relative_estimate)},
                 {"energy_norm", text(step.energies.norm)},
-                {"friction_resultant", text(step.energies.resultant)},
+                {"friction_resultant", known(step.energies.resultant)},
                 {"error_energy", known(step.errors.energy)},
                 {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
                 {"error_l2", known(step.errors.l2)},

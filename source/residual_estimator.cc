@@ -237,22 +237,21 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
 template <int dim>
 void Residuals<dim>::add_contact(const ContactFace<dim> &face)
 {
-  const unsigned int index = face.cell->active_cell_index(), n_gauss = face.degree + 1;
-  const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
-  const QGauss<1> &gauss = tables.gauss(n_gauss);
-  const auto own = tractions(face.cell, table, face.normal);
+  const unsigned int index = face.cell->active_cell_index();
+  const FrictionRule &rule = face.friction;
+  const auto own = tractions(face.cell, face.friction_table(tables), face.normal);
   double sum = 0;
-  for (unsigned int q = 0; q < n_gauss; ++q)
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
   {
-    const double s = gauss.point(q)[0];
+    const double s = rule.points[q];
     const Point<dim> x = face.point(s);
     double residual = own[q] * face.tangent;
     if (face.n_multipliers > 0)
-      residual += face.friction_bound(x) * solution.contact_space.value(face, solution.lambda, s);
+      residual += rule.values[q] * solution.contact_space.value(face, solution.lambda, s);
     for (unsigned int c = 0; c < dim; ++c)
       if (face.condition->traction[c])
         residual -= face.tangent[c] * face.condition->traction[c]->value(x);
-    sum += table.weights[q] * residual * residual;
+    sum += rule.weights[q] * residual * residual;
   }
   result.contact[index] += weight(index) * face.length() * sum;
 }

@@ -145,16 +145,14 @@ std::vector<RigidMotion> free_motions(std::vector<RigidMotion> rows)
   return motions;
 }
 
-/** Does friction act against a translation along @p direction? */
+/** May friction act against a translation along @p direction? Where it does, the mesh decides. */
 bool friction_resists(const Scene<2> &scene, const std::vector<Edge> &edges,
                       const Tensor<1, 2> &direction)
 {
   for (unsigned int f = 0; f < edges.size(); ++f)
     if (scene.boundaries[f].friction_bound &&
         (direction - (direction * edges[f].normal) * edges[f].normal).norm() > 1e-8)
-      for (const Point<2> &point : edges[f].sample())
-        if (scene.boundaries[f].friction_bound->value(point) > 0)
-          return true;
+      return true;
   return false;
 }
 

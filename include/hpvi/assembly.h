@@ -21,7 +21,10 @@ template <int dim>
 class ElasticSystem
 {
 public:
-  /** Assemble; @p stiffnesses remembers element matrices from step to step. */
+  /**
+   * Assemble; @p stiffnesses remembers element matrices from step to step. Throws NumericalFailure
+   * where nothing on this mesh resists the scene's free translation.
+   */
   ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
                 const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
                 ElementStiffnesses<dim> &stiffnesses);

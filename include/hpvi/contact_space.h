@@ -6,9 +6,11 @@
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/displacement_space.h>
+#include <hpvi/friction_rule.h>
 #include <hpvi/quadratic_program.h>
 
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace hpvi
@@ -29,6 +31,9 @@ struct ContactFace
   unsigned int n_points;          ///< Gauss points: p + offset + 1
   unsigned int first_multiplier;  ///< index of the first unknown
   unsigned int n_multipliers;     ///< n_points, or 0 where g vanishes on the whole face
+  FrictionRule friction;          ///< for every integral over the face that holds g [stress]
+  /** Shape functions at the points of @p friction; null for one piece: those of ShapeTables. */
+  std::shared_ptr<const ShapeTable<dim>> own_table;
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;
@@ -37,6 +42,18 @@ struct ContactFace
   dealii::Point<dim> point(double s) const;
 
   double length() const; ///< of the straight edge
+
+  /** The scalar FE_Q(p) at the points of @p friction. */
+  const ShapeTable<dim> &friction_table(const ShapeTables<dim> &tables) const;
+};
+
+/** A jump of g inside an edge, which no polynomial of the discrete problem follows. */
+template <int dim>
+struct UnresolvedJump
+{
+  const ContactFace<dim> *face;
+  dealii::Point<dim> where;
+  double height; ///< of g [stress]
 };
 
 /**
@@ -66,6 +83,12 @@ public:
 
   /** lambda_N on @p face at s in [0,1]; zero on a face without multipliers. Dimensionless. */
   double value(const ContactFace<dim> &face, const dealii::Vector<double> &lambda, double s) const;
+
+  /** int g, all that friction can carry along the contact boundary [stress length^(dim-1)]. */
+  double friction_limit() const;
+
+  /** Jumps of g whose height times the length of their edge exceeds 1e-6 of friction_limit(). */
+  std::vector<UnresolvedJump<dim>> unresolved_jumps() const;
 
 private:
   void number_multipliers();
