@@ -2,6 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
+#include <hpvi/contact_state.h>
 #include <hpvi/formatting.h>
 #include <hpvi/mesh_picture.h>
 #include <hpvi/output.h>
@@ -234,35 +235,26 @@ private:
 
 // ---------------------------------------------------------------- the contact boundary
 
-/** How near to 1 |lambda| counts as slip: the QP puts what slips on the wall up to round-off. */
-constexpr double slip_tolerance = 1e-8;
-
-/** The rows of one face at the Gauss points of its multiplier (one point where that has none). */
+/** The rows of one face at the Gauss points of its multiplier. */
 template <int dim>
 void add_face(const ContactFace<dim> &face, const Solution<dim> &solution,
               const ShapeTables<dim> &tables, std::vector<Record> &records)
 {
-  const unsigned int n = std::max(face.n_points, 1U);
-  const QGauss<1> gauss(n);
-  const ContactTraces<dim> traces(face, n, solution, tables);
-  const bool along_tangent = face.tangent * (face.point(1.) - face.point(0.)) > 0;
-  for (unsigned int k = 0; k < n; ++k)
+  const std::vector<ContactPoint<dim>> points = contact_points(face, solution);
+  const ContactTraces<dim> traces(face, points.size(), solution, tables);
+  for (const ContactPoint<dim> &point : points)
   {
-    const unsigned int q = along_tangent ? k : n - 1 - k;
-    const Point<dim> x = face.point(gauss.point(q)[0]);
-    const Tensor<1, dim> u = traces.displacement(q);
-    const double lambda = face.n_multipliers > 0 ? solution.lambda[face.first_multiplier + q] : 0.;
-    const double g = face.n_multipliers > 0 ? face.friction_bound(x) : 0.;
+    const Tensor<1, dim> u = traces.displacement(point.q);
     Record record;
     for (unsigned int d = 0; d < dim; ++d)
-      record.emplace_back(std::string(1, "xyz"[d]), text(x[d]));
+      record.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
     record.emplace_back("normal_displacement", text(face.normal * u));
     record.emplace_back("tangential_displacement", text(face.tangent * u));
-    record.emplace_back("multiplier", text(lambda));
-    record.emplace_back("normal_traction", text(face.normal * (traces.sigma(q) * face.normal)));
-    record.emplace_back("tangential_traction", text(0. - g * lambda)); // never -0
-    record.emplace_back("state",
-                        g == 0. || std::abs(lambda) >= 1. - slip_tolerance ? "slip" : "stick");
+    record.emplace_back("multiplier", text(point.lambda));
+    record.emplace_back("normal_traction", text(traces.normal_traction(point.q)));
+    record.emplace_back("tangential_traction",
+                        text(0. - point.friction_bound * point.lambda)); // never -0
+    record.emplace_back("state", point.slips ? "slip" : "stick");
     records.push_back(record);
   }
 }

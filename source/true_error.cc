@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/contact_state.h>
 #include <hpvi/true_error.h>
 
 #include <algorithm>
@@ -349,50 +350,5 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueError
   errors.transition = transition_error(solution, exact);
 }
 
-template <int dim>
-std::vector<Point<dim>> transitions(const Solution<dim> &solution)
-{
-  const double slip_tolerance = 1e-8;
-  std::vector<Point<dim>> result, points;
-  std::vector<double> sizes;
-  std::vector<int> states; // -1, 1: slip in either direction, 0: stick
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-  {
-    const QGauss<1> gauss(std::max(1u, face.n_multipliers));
-    const bool forward = face.tangent * (face.point(1.) - face.point(0.)) > 0;
-    for (unsigned int k = 0; k < face.n_multipliers; ++k)
-    {
-      const unsigned int i = forward ? k : face.n_multipliers - 1 - k;
-      const double z = solution.lambda[face.first_multiplier + i];
-      points.push_back(face.point(gauss.point(i)[0]));
-      sizes.push_back(face.length());
-      states.push_back(std::abs(z) < 1. - slip_tolerance ? 0 : (z > 0 ? 1 : -1));
-    }
-  }
-  // Where the exact multiplier only just reaches 1, states may alternate from point to point: an
-  // odd number of changes within two edges counts as one, in their middle, an even one as none.
-  for (unsigned int k = 1; k < states.size();)
-  {
-    Point<dim> sum;
-    unsigned int n_changes = 0, last = k;
-    for (unsigned int i = k; i < states.size(); ++i)
-      if (states[i] != states[i - 1])
-      {
-        if (n_changes > 0 && points[i].distance(points[last]) > 2 * std::max(sizes[i], sizes[last]))
-          break;
-        sum += 0.5 * (points[i - 1] + Tensor<1, dim>(points[i]));
-        ++n_changes;
-        last = i;
-      }
-    if (n_changes == 0)
-      break;
-    if (n_changes % 2 == 1)
-      result.push_back(sum / n_changes);
-    k = last + 1;
-  }
-  return result;
-}
-
 template class TrueError<2>;
-template std::vector<Point<2>> transitions(const Solution<2> &);
 } // namespace hpvi

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/contact_state.h>
 #include <hpvi/stress.h>
-#include <hpvi/true_error.h>
 #include <hpvi/warnings.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace hpvi
@@ -32,7 +33,7 @@ std::string labelled(const double value, const std::string &unit)
   return unit.empty() || unit == "1" ? line(value) : line(value, " ", unit);
 }
 
-/** The pulling part of sigma_nn is compared with the whole; a corner alone is not worth a word. */
+/** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
 template <int dim>
 std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
 {
@@ -45,12 +46,12 @@ std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim
     for (unsigned int q = 0; q < n; ++q)
     {
       const double weight = tables.gauss(n).weight(q) * face.length();
-      const double normal_stress = face.normal * (traces.sigma(q) * face.normal);
-      all += weight * std::abs(normal_stress);
-      tension += weight * std::max(normal_stress, 0.);
-      if (normal_stress > highest)
+      const double traction = traces.normal_traction(q);
+      all += weight * std::abs(traction);
+      tension += weight * std::max(traction, 0.);
+      if (traction > highest)
       {
-        highest = normal_stress;
+        highest = traction;
         where = face.point(tables.gauss(n).point(q)[0]);
       }
     }
@@ -89,9 +90,9 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
 template <int dim>
 std::string coarse_transition(const Solution<dim> &solution)
 {
-  double whole = 0;
+  std::map<types::boundary_id, double> whole;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
-    whole += face.length();
+    whole[face.condition->id] += face.length();
   std::string list;
   for (const Point<dim> &x : transitions(solution))
     for (const ContactFace<dim> &face : solution.contact_space.faces())
@@ -99,7 +100,7 @@ std::string coarse_transition(const Solution<dim> &solution)
       const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
       const double s = (x - face.point(0.)) * edge / edge.norm_square();
       if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
-          face.length() > 0.01 * whole)
+          face.length() > 0.01 * whole[face.condition->id])
         list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
                      labelled(face.length(), solution.scene.length_unit));
     }
@@ -176,27 +177,42 @@ std::string rich_multiplier(const Solution<dim> &solution)
          "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
 }
 
-/** Friction gives all it has, `int g |lambda| = int g`; single points may be inexact. */
+/** Friction gives all it has, `|int g lambda t| = int g`: both edges of a strip may be in contact. */
 template <int dim>
-std::string whole_body_slips(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+std::string whole_body_slips(const Solution<dim> &solution)
 {
   if (!solution.scene.free_translation)
     return {};
-  double used = 0, available = 0;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    for (unsigned int i = 0; i < face.n_multipliers; ++i)
-    {
-      const Quadrature<1> &gauss = tables.gauss(face.n_multipliers);
-      const double g =
-          gauss.weight(i) * face.length() * face.friction_bound(face.point(gauss.point(i)[0]));
-      available += g;
-      used += g * std::abs(solution.lambda[face.first_multiplier + i]);
-    }
-  if (used < (1 - 1e-8) * available)
+  const ContactSpace<dim> &contact = solution.contact_space;
+  double used = 0;
+  for (const ContactFace<dim> &face : contact.faces())
+    for (unsigned int q = 0; q < face.friction.points.size(); ++q)
+      used += face.friction.weights[q] * face.length() * face.friction.values[q] *
+              contact.value(face, solution.lambda, face.friction.points[q]) *
+              (face.tangent * *solution.scene.free_translation);
+  if (std::abs(used) < (1 - 1e-8) * contact.friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
               *solution.scene.free_translation,
               ") and its place is not unique; lower the loads or add a support");
+}
+
+template <int dim>
+std::string unresolved_bound(const Solution<dim> &solution)
+{
+  const std::vector<UnresolvedJump<dim>> jumps = solution.contact_space.unresolved_jumps();
+  if (jumps.empty())
+    return {};
+  const auto &worst =
+      *std::max_element(jumps.begin(), jumps.end(),
+                        [](const auto &a, const auto &b)
+                        { return a.height * a.face->length() < b.height * b.face->length(); });
+  return line("Friction bound jumps inside ", jumps.size(), jumps.size() == 1 ? " edge" : " edges",
+              ", by up to ", labelled(worst.height, solution.scene.stress_unit), " at (",
+              worst.where, ") in an edge of length ",
+              labelled(worst.face->length(), solution.scene.length_unit),
+              ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
+              "Geometry/Graded towards, or take more steps of an adaptive method");
 }
 } // namespace
 
@@ -208,7 +224,8 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
         coarse_transition(solution), stagnating_estimate(estimates), elongated_elements(solution),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution, tables)})
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution),
+        unresolved_bound(solution)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

@@ -28,7 +28,9 @@ namespace hpvi
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings |
  *
  * Numbers are written with as many digits as it takes to read the same number back. The units are
- * those of the scene. What the scene switches off is neither built nor written.
+ * those of the scene. What the scene switches off is neither built nor written. Tractions of the
+ * contact tables are those of the contact alone, without a load that acts on the same edge:
+ * `n.(sigma n) - n.G` and `-g lambda`.
  */
 template <int dim>
 class Output

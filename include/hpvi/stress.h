@@ -24,7 +24,7 @@ class ContactTraces
 public:
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
                 const Solution<dim> &solution, const ShapeTables<dim> &tables)
-      : material(solution.scene.material), map(map_of<dim>(face.cell)),
+      : face(face), material(solution.scene.material), map(map_of<dim>(face.cell)),
         table(tables.face(face.degree, face.face_no, n_gauss))
   {
     const std::vector<double> coefficients =
@@ -50,7 +50,19 @@ public:
     return stress(material, reference * dealii::invert(map.jacobian(table.points[q])));
   }
 
+  /** n . (sigma n - G): what the plane exerts, without an applied traction G; positive pulls. */
+  double normal_traction(const unsigned int q) const
+  {
+    const dealii::Point<dim> x = map.point(table.points[q]);
+    dealii::Tensor<1, dim> traction = sigma(q) * face.normal;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (face.condition->traction[c])
+        traction[c] -= face.condition->traction[c]->value(x);
+    return face.normal * traction;
+  }
+
 private:
+  const ContactFace<dim> &face;
   const Material &material;
   const CellMap<dim> map;
   const ShapeTable<dim> &table;

@@ -46,13 +46,6 @@ private:
   const ShapeTables<dim> &tables;
   std::unique_ptr<const StoredSolution<dim>> reference;
 };
-
-/**
- * Where u_N changes between stick and slip: the points of the contact boundary halfway between
- * neighbouring Gauss points of different state.
- */
-template <int dim>
-std::vector<dealii::Point<dim>> transitions(const Solution<dim> &solution);
 } // namespace hpvi
 
 #endif

@@ -11,10 +11,10 @@ namespace hpvi
 {
 /**
  * What in a result asks for care, one line each with its numbers and a remedy: tensile normal
- * stress under bilateral contact, |lambda_N| above 1 between Gauss points, transitions that are not
+ * traction of bilateral contact, |lambda_N| above 1 between Gauss points, transitions that are not
  * resolved, an indicator that stagnates (@p estimates of all steps so far), elongated elements, low
  * degree where Poisson's ratio is near 1/2, a multiplier that is too rich, a body that slips as a
- * whole.
+ * whole, a friction bound that jumps inside an edge.
  */
 template <int dim>
 std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
