@@ -1,0 +1,557 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What happens on the contact boundary: one rule for the friction bound, states and transitions,
+// tractions that act there besides the contact.
+#include "friction_quadrature.h"
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+#include <hpvi/contact_state.h>
+#include <hpvi/numerical_failure.h>
+#include <hpvi/stress.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace verification;
+
+Overrides with(Overrides entries, const Overrides &more)
+{
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+bool mentions(const std::vector<std::string> &warnings, const std::string &words)
+{
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string &w) { return w.find(words) != std::string::npos; });
+}
+
+// ---------------------------------------------------------------- the rule of one edge
+
+FrictionRule rule_of(const std::function<double(double)> &g, const unsigned int p)
+{
+  return make_friction_rule(g, QGauss<1>(p + 1), 2 * p - 2);
+}
+
+/** int g s^k by the rule. */
+double moment(const FrictionRule &rule, const unsigned int k)
+{
+  double sum = 0;
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
+    sum += rule.weights[q] * rule.values[q] * std::pow(rule.points[q], k);
+  return sum;
+}
+
+TEST(FrictionRule, TakesGaussPointsOfTheWholeEdgeForACubic)
+{
+  for (unsigned int p = 2; p <= 12; ++p)
+  {
+    const FrictionRule rule = rule_of([](const double s) { return 1 + s - 2 * s * s * s; }, p);
+    const QGauss<1> gauss(p + 1);
+    ASSERT_EQ(rule.points.size(), p + 1) << "p = " << p;
+    EXPECT_EQ(rule.cuts, (std::vector<double>{0., 1.}));
+    for (unsigned int q = 0; q <= p; ++q)
+    {
+      EXPECT_EQ(rule.points[q], gauss.point(q)[0]);
+      EXPECT_EQ(rule.weights[q], gauss.weight(q));
+    }
+    EXPECT_NEAR(rule.integral(), 1., 1e-14);
+  }
+}
+
+TEST(FrictionRule, CutsAtJumps)
+{
+  for (unsigned int p = 2; p <= 12; ++p)
+    for (const double a : {0.05, 0.25, 1. / 3., 0.5, 0.75, 0.9})
+    {
+      const FrictionRule rule = rule_of([a](const double s) { return s < a ? 1. : 4.5; }, p);
+      ASSERT_EQ(rule.jumps.size(), 1U) << "p = " << p << ", jump at " << a;
+      EXPECT_NEAR(rule.jumps[0].s, a, 1e-15);
+      EXPECT_EQ(rule.jumps[0].height, 3.5);
+      EXPECT_EQ(rule.cuts.size(), 3U);
+      for (unsigned int k = 0; k <= 2 * p - 2; ++k)
+        EXPECT_NEAR(moment(rule, k), (4.5 - 3.5 * std::pow(a, k + 1)) / (k + 1), 1e-13);
+    }
+}
+
+/** Wherever it lies; it is never mistaken for no friction. */
+TEST(FrictionRule, FindsABumpOfATenthOfTheEdge)
+{
+  for (unsigned int p = 2; p <= 12; ++p)
+    for (double a = 0; a < 0.9; a += 0.003)
+    {
+      const FrictionRule rule =
+          rule_of([a](const double s) { return a < s && s < a + 0.1 ? 2. : 0.; }, p);
+      EXPECT_FALSE(rule.vanishes()) << "p = " << p << ", bump at " << a;
+      EXPECT_NEAR(rule.integral(), 0.2, 1e-13) << "p = " << p << ", bump at " << a;
+    }
+}
+
+TEST(FrictionRule, ResolvesKinksAndRootsWithoutCallingThemJumps)
+{
+  const FrictionRule kink = rule_of([](const double s) { return std::abs(s - 0.3); }, 4);
+  EXPECT_NEAR(kink.integral(), 0.29, 1e-13);
+  const FrictionRule root = rule_of([](const double s) { return std::sqrt(s); }, 4);
+  EXPECT_NEAR(root.integral(), 2. / 3., 1e-12);
+  const FrictionRule steep = rule_of([](const double s) { return std::exp(-40 * s); }, 4);
+  EXPECT_NEAR(steep.integral(), (1 - std::exp(-40)) / 40, 1e-12);
+  for (const FrictionRule &rule : {kink, root, steep})
+    EXPECT_TRUE(rule.jumps.empty());
+}
+
+TEST(FrictionRule, GivesUpOnNoise)
+{
+  const FrictionRule rule = rule_of([](const double s) { return 1 + std::sin(1e6 * s * s); }, 3);
+  EXPECT_EQ(rule.cuts.size(), 65U);
+  EXPECT_NEAR(rule.integral(), 1., 0.3);
+}
+
+// ---------------------------------------------------------------- one rule for all integrals
+
+/** A block that is pushed along a plane; g is to be added. */
+const Overrides pushed = {{"Geometry/Upper corner", "3, 1"},
+                          {"Geometry/Subdivisions", "3, 1"},
+                          {"Boundary left/Traction", "1.5; -0.2*y"},
+                          {"Boundary top/Traction", "0.4; -0.1*x"},
+                          {"Boundary right/Displacement", "0; 0"},
+                          {"Boundary bottom/Contact", "bilateral"},
+                          {"Adaptivity/Method", "hpa3"},
+                          {"Adaptivity/Maximum steps", "6"},
+                          {"Material/Young's modulus", "1"},
+                          {"Units/Length", "1"},
+                          {"Units/Stress", "1"}};
+
+Scene<2> pushed_with(const std::string &bound, const Overrides &more = {})
+{
+  return scene_of(with(with(pushed, {{"Boundary bottom/Friction bound", bound}}), more));
+}
+
+/** Kept in tests beside g itself: int g over the contact boundary. */
+struct Bound
+{
+  std::string g;
+  double integral;
+};
+
+class AnyBound : public ::testing::TestWithParam<Bound>
+{
+};
+
+/** b(u, lambda) of the Lagrangian is lambda' B u where L = -a/2 holds; J integrates the same g. */
+TEST_P(AnyBound, MeansTheSameInBAndInTheEnergies)
+{
+  AdaptiveSolver<2>(pushed_with(GetParam().g))
+      .run(
+          [&](const Step<2> &step)
+          {
+            SCOPED_TRACE("step " + std::to_string(step.number));
+            const Energies &e = step.energies;
+            const double a = e.norm * e.norm;
+            EXPECT_NEAR(step.solution.contact_space.friction_limit(), GetParam().integral, 1e-11);
+            EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
+            const FrictionIntegrals sums = integrate_friction(step.solution, 4096);
+            EXPECT_NEAR(e.resultant, sums.resultant, 1e-6 * sums.bound);
+            EXPECT_NEAR(e.slack, sums.friction - sums.coupling, 1e-5 * sums.friction);
+            expect_slack_of_overshoot_alone(step.solution, e.slack);
+          });
+}
+
+// Jumps lie at dyadic points, where panels of the brute force meet.
+INSTANTIATE_TEST_SUITE_P(, AnyBound,
+                         ::testing::Values(Bound{"0.3", 0.9},
+                                           Bound{"0.1 + 0.1*x - 0.05*x^2 + 0.02*x^3", 0.705},
+                                           Bound{"if(x < 1.3125, 0, 0.8)", 1.35},
+                                           Bound{"if(x < 1.3125, 0.8, 0.1)", 1.21875},
+                                           Bound{"0.2*abs(x - 0.75)", 0.5625},
+                                           Bound{"if(abs(x - 1.5) < 0.0625, 4, 0)", 0.5}),
+                         [](const auto &info) { return "g" + std::to_string(info.index); });
+
+TEST(Contact, APolynomialBoundTakesOnePointMoreThanTheDegreeOnEachEdge)
+{
+  const Scene<2> scene = pushed_with("0.1 + 0.1*x - 0.05*x^2 + 0.02*x^3");
+  const RandomMesh mesh(scene, 3, 2);
+  const Discretisation discrete(scene, mesh);
+  for (const ContactFace<2> &face : discrete.contact_space.faces())
+    EXPECT_EQ(face.friction.points.size(), face.degree + 1);
+}
+
+/** u_t = x - 1/2 on the edge (0,1) changes its sign just where it is sampled: int |u_t| = 1/4. */
+TEST(Contact, SeesASignChangeOnASample)
+{
+  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "3"}});
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  for (const unsigned int p : {2U, 3U, 6U})
+  {
+    const Discretisation discrete(scene, mesh, Degrees(1, p));
+    Vector<double> u(discrete.displacement_space.n_dofs()),
+        lambda(discrete.contact_space.n_multipliers());
+    const VectorFunctionFromScalarFunctionObject<2> slip(
+        [](const Point<2> &x) { return x[0] - 0.5; }, 0, 2);
+    VectorTools::interpolate(discrete.displacement_space.dof_handler(), slip, u);
+    const Energies e =
+        energies<2>({scene, discrete.displacement_space, discrete.contact_space, u, lambda},
+                    discrete.system, discrete.tables);
+    EXPECT_NEAR(e.slack, 3 * 0.25, 1e-14) << "p = " << p;
+  }
+}
+
+// ---------------------------------------------------------------- bodies that friction holds
+
+/** A strip 4 x 1 without supports, pushed along the top by @p force. */
+Scene<2> free_strip(const std::string &bound, const double force, const Overrides &more = {})
+{
+  return scene_of(with({{"Geometry/Upper corner", "4, 1"},
+                        {"Geometry/Subdivisions", "4, 1"},
+                        {"Material/Young's modulus", "1"},
+                        {"Boundary left/Traction", text(force) + "; 0"},
+                        {"Boundary bottom/Contact", "bilateral"},
+                        {"Boundary bottom/Friction bound", bound},
+                        {"Adaptivity/Method", "hpa3"},
+                        {"Adaptivity/Maximum steps", "3"}},
+                       more));
+}
+
+std::string failure_of(const Scene<2> &scene)
+{
+  try
+  {
+    AdaptiveSolver<2>(scene).run(
+        [](const Step<2> &step)
+        {
+          EXPECT_TRUE(std::isfinite(step.energies.energy));
+          EXPECT_TRUE(std::isfinite(step.solution.u.l2_norm()));
+        });
+  }
+  catch (const NumericalFailure &failure)
+  {
+    return failure.what();
+  }
+  return {};
+}
+
+/** int g = 5.4: what the multiplier could carry with |lambda| > 1 between its points is more. */
+TEST(FreeBody, IsHeldByTheIntegralOfADiscontinuousBound)
+{
+  const std::string g = "if(x < 1.3, 0, 2)";
+  EXPECT_EQ(failure_of(free_strip(g, 5.39)), "");
+  const std::string failure = failure_of(free_strip(g, 5.41));
+  EXPECT_NE(failure.find("no equilibrium"), std::string::npos) << failure;
+  EXPECT_NE(failure.find("with 5.41, friction can resist with 5.4 at most"), std::string::npos)
+      << failure;
+}
+
+TEST(FreeBody, BalancesItsLoadsByABump)
+{
+  // wherever it lies, whatever mesh
+  for (const double a : {0.93, 1.31, 2., 2.49})
+  {
+    double resultant = 0;
+    AdaptiveSolver<2>(free_strip("if(abs(x - " + text(a) + ") < 0.05, 10, 0)", 0.7))
+        .run([&](const Step<2> &step) { resultant = step.energies.resultant; });
+    EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
+  }
+}
+
+TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
+{
+  for (const double force : {0., 0.75})
+  {
+    const std::string failure = failure_of(free_strip("if(abs(x - 2) < 0.0001, 1e5, 0)", force));
+    EXPECT_NE(failure.find("the loads push it with " + text(force)), std::string::npos) << failure;
+    EXPECT_NE(failure.find("friction can resist with 0"), std::string::npos) << failure;
+    EXPECT_NE(failure.find("Subdivisions"), std::string::npos) << failure;
+  }
+  // found with a finer mesh
+  EXPECT_EQ(failure_of(free_strip(
+                "if(abs(x - 2) < 0.0001, 1e5, 0)", 0.7,
+                {{"Geometry/Graded towards", "2, 0"}, {"Geometry/Grading levels", "11"}})),
+            "");
+}
+
+// ---------------------------------------------------------------- jumps inside an edge
+
+double edge_with_the_jump(const Solution<2> &solution, const double jump)
+{
+  for (const ContactFace<2> &face : solution.contact_space.faces())
+    if ((face.point(0.)[0] - jump) * (face.point(1.)[0] - jump) < 0)
+      return face.length();
+  return 0;
+}
+
+TEST(Jump, IsBisectedInEveryStepByMethodsThatBisect)
+{
+  for (const std::string method : {"hap2", "hpa1", "hpa2", "hpa3"})
+  {
+    double expected = 1;
+    AdaptiveSolver<2>(pushed_with("if(x < 1.3, 0.2, 0.3)", {{"Adaptivity/Method", method}}))
+        .run(
+            [&](const Step<2> &step)
+            {
+              EXPECT_LE(edge_with_the_jump(step.solution, 1.3), expected)
+                  << method << ", step " << step.number;
+              expected /= 2;
+            });
+  }
+}
+
+TEST(Jump, IsWarnedOfUnlessAVertexLiesThere)
+{
+  const auto warnings_of = [](const std::string &bound, const std::string &method)
+  {
+    std::vector<std::string> result;
+    AdaptiveSolver<2>(
+        pushed_with(bound, {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "2"}}))
+        .run([&](const Step<2> &step) { result = step.warnings; });
+    return result;
+  };
+  const std::string words = "Friction bound jumps inside 1 edge, by up to 0.1";
+  EXPECT_TRUE(mentions(warnings_of("if(x < 1.3, 0.2, 0.3)", "pu"),
+                       words + " at (1.3 0) in an edge of length 1"));
+  EXPECT_TRUE(mentions(warnings_of("if(x < 1.3, 0.2, 0.3)", "hup2"),
+                       words + " at (1.3 0) in an edge of length 0.5"));
+  EXPECT_FALSE(mentions(warnings_of("if(x < 2, 0.2, 0.3)", "pu"), "jumps"));
+  EXPECT_FALSE(mentions(warnings_of("0.2 + 0.1*abs(x - 1.3)", "pu"), "jumps"));
+  EXPECT_FALSE(mentions(warnings_of("if(x < 1.3, 0.2, 0.2 + 1e-8)", "pu"), "jumps"));
+}
+
+// ---------------------------------------------------------------- states
+
+/** A solution with given multipliers; displacements are zero. */
+class Multipliers
+{
+public:
+  explicit Multipliers(const Scene<2> &scene, const unsigned int p)
+      : mesh(scene, p), discrete(scene, mesh.triangulation, mesh.degrees),
+        u(discrete.displacement_space.n_dofs()), lambda(discrete.contact_space.n_multipliers())
+  {
+  }
+
+  /** lambda at x becomes @p value(x). */
+  std::vector<Point<2>> transitions_of(const std::function<double(const Point<2> &)> &value)
+  {
+    for (const ContactFace<2> &face : discrete.contact_space.faces())
+      for (unsigned int i = 0; i < face.n_multipliers; ++i)
+        lambda[face.first_multiplier + i] =
+            value(face.point(QGauss<1>(face.n_multipliers).point(i)[0]));
+    return transitions<2>(
+        {discrete.scene, discrete.displacement_space, discrete.contact_space, u, lambda});
+  }
+
+private:
+  struct Mesh
+  {
+    Triangulation<2> triangulation;
+    Degrees degrees;
+
+    Mesh(const Scene<2> &scene, const unsigned int p)
+    {
+      make_mesh(scene, triangulation);
+      degrees.assign(triangulation.n_active_cells(), p);
+    }
+  };
+
+  const Mesh mesh;
+  const Discretisation discrete;
+  const Vector<double> u;
+  Vector<double> lambda;
+};
+
+/** Ten edges of length 1 with two Gauss points each. */
+Scene<2> strip(const std::string &bound = "1")
+{
+  return scene_of({{"Geometry/Upper corner", "10, 1"},
+                   {"Geometry/Subdivisions", "10, 1"},
+                   {"Boundary top/Displacement", "0; 0"},
+                   {"Boundary bottom/Contact", "bilateral"},
+                   {"Boundary bottom/Friction bound", bound}});
+}
+
+TEST(Transitions, LieBetweenGaussPointsOfDifferentState)
+{
+  const Scene<2> scene = strip();
+  Multipliers multipliers(scene, 3);
+  const auto found =
+      multipliers.transitions_of([](const Point<2> &x) { return x[0] < 3 ? 1. : 0.5; });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].distance(Point<2>(3, 0)), 0, 1e-14);
+  // slip one way, stick, slip the other way; and the turn of the slip from point to point
+  EXPECT_EQ(
+      multipliers
+          .transitions_of([](const Point<2> &x) { return x[0] < 3   ? -1.
+                                                         : x[0] < 7 ? 0.
+                                                                    : 1.; })
+          .size(),
+      2U);
+  EXPECT_EQ(
+      multipliers.transitions_of([](const Point<2> &x) { return x[0] < 5 ? -1. : 1.; }).size(), 1U);
+  EXPECT_TRUE(multipliers.transitions_of([](const Point<2> &) { return -1.; }).empty());
+}
+
+TEST(Transitions, AnEvenNumberOfChangesNearEachOtherIsNone)
+{
+  const Scene<2> scene = strip();
+  Multipliers multipliers(scene, 3);
+  const auto sticks_between = [&](const double a, const double b)
+  {
+    return multipliers.transitions_of([=](const Point<2> &x)
+                                      { return a < x[0] && x[0] < b ? 0.5 : 1.; });
+  };
+  EXPECT_TRUE(sticks_between(4, 5).empty());
+  EXPECT_EQ(sticks_between(4, 8).size(), 2U);
+  // slip, one point of stick, one of slip, stick: three changes are one, in their middle
+  const auto three = multipliers.transitions_of(
+      [](const Point<2> &x) { return x[0] < 4 || (x[0] > 4.5 && x[0] < 5) ? 1. : 0.5; });
+  ASSERT_EQ(three.size(), 1U);
+  EXPECT_NEAR(three[0][0], 4.5, 1e-14);
+}
+
+TEST(Transitions, WithoutFrictionTheBodySlips)
+{
+  const Scene<2> scene = strip("if(x < 3, 0, 1)");
+  Multipliers multipliers(scene, 3);
+  const auto found = multipliers.transitions_of([](const Point<2> &) { return 0.5; });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0][0], 3, 0.3);
+  for (const double z : {-1., 1.})
+    EXPECT_TRUE(multipliers.transitions_of([z](const Point<2> &) { return z; }).empty());
+}
+
+/** A square block in a corner: on the bottom and on the left friction resists. */
+Scene<2> block_in_a_corner(const Overrides &more = {})
+{
+  return scene_of(with({{"Geometry/Subdivisions", "4, 4"},
+                        {"Material/Young's modulus", "1"},
+                        {"Boundary bottom/Contact", "bilateral"},
+                        {"Boundary bottom/Friction bound", "0.3"},
+                        {"Boundary left/Contact", "bilateral"},
+                        {"Boundary left/Friction bound", "0.3"},
+                        {"Boundary top/Traction", "0.3; -1"},
+                        {"Boundary right/Traction", "0.5; 0"},
+                        {"Adaptivity/Method", "hpa3"},
+                        {"Adaptivity/Maximum steps", "5"}},
+                       more));
+}
+
+TEST(TwoContactBoundaries, HaveTransitionsOfTheirOwn)
+{
+  const Scene<2> scene = block_in_a_corner({{"Geometry/Subdivisions", "8, 8"}});
+  Multipliers multipliers(scene, 4);
+  // One slips, the other sticks: no transition at the corner or between their far ends.
+  EXPECT_TRUE(
+      multipliers.transitions_of([](const Point<2> &x) { return x[1] == 0. ? 1. : 0.5; }).empty());
+  // Along t = (0,-1) on the left, then along t = (1,0) on the bottom.
+  const auto found = multipliers.transitions_of(
+      [](const Point<2> &x)
+      { return x[1] == 0. ? (x[0] < 0.25 || x[0] > 0.75 ? 1. : 0.) : (x[1] > 0.5 ? -1. : 0.2); });
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_NEAR(found[0].distance(Point<2>(0, 0.5)), 0, 1e-14);
+  EXPECT_NEAR(found[1].distance(Point<2>(0.25, 0)), 0, 1e-14);
+  EXPECT_NEAR(found[2].distance(Point<2>(0.75, 0)), 0, 1e-14);
+}
+
+TEST(TwoContactBoundaries, HaveNoTransitionInsideTheBodyAndNoCommonResultant)
+{
+  unsigned int n_transitions = 0;
+  AdaptiveSolver<2>(block_in_a_corner())
+      .run(
+          [&](const Step<2> &step)
+          {
+            EXPECT_TRUE(std::isnan(step.energies.resultant));
+            for (const Point<2> &x : transitions(step.solution))
+            {
+              EXPECT_TRUE(x[0] == 0. || x[1] == 0.) << x;
+              ++n_transitions;
+            }
+          });
+  EXPECT_GT(n_transitions, 0U);
+}
+
+TEST(TwoContactBoundaries, TablesRunAlongTheTangentOfEach)
+{
+  const Scene<2> scene = block_in_a_corner();
+  const RandomMesh mesh(scene, 5, 2);
+  const Discretisation discrete(scene, mesh);
+  std::mt19937 random(5);
+  const Solution<2> field = discrete.random_field(random);
+  for (const unsigned int boundary : {0U, 2U})
+  {
+    double last = -2;
+    for (const ContactFace<2> &face : discrete.contact_space.faces())
+      if (face.condition->id == boundary)
+        for (const ContactPoint<2> &point : contact_points(face, field))
+        {
+          EXPECT_NEAR(point.lambda,
+                      discrete.contact_space.value(
+                          face, field.lambda, point.x.distance(face.point(0.)) / face.length()),
+                      1e-10);
+          const double place = face.tangent * point.x;
+          EXPECT_GT(place, last);
+          last = place;
+        }
+  }
+}
+
+// ---------------------------------------------------------------- loads on the contact boundary
+
+/**
+ * Uniform stress sigma_xy = tau, sigma_yy = -P in a block with nu = 0: u = (gamma y + slip, -P y/E).
+ * On the bottom sigma n = (-tau, P) is the traction G applied there and that of the contact.
+ */
+struct LoadedFoot
+{
+  double tau, pressure, along, up; ///< along, up: G
+
+  Scene<2> scene(const double slip, const double bound, const Overrides &more = {}) const
+  {
+    return scene_of(
+        with({{"Geometry/Upper corner", "2, 1"},
+              {"Geometry/Subdivisions", "2, 1"},
+              {"Material/Young's modulus", "1"},
+              {"Material/Poisson's ratio", "0"},
+              {"Boundary top/Displacement", text(slip + 2 * tau) + "; " + text(-pressure)},
+              {"Boundary left/Traction", "0; " + text(-tau)},
+              {"Boundary right/Traction", "0; " + text(tau)},
+              {"Boundary bottom/Contact", "bilateral"},
+              {"Boundary bottom/Friction bound", text(bound)},
+              {"Boundary bottom/Traction", text(along) + "; " + text(up)},
+              {"Adaptivity/Method", "hup3"},
+              {"Adaptivity/Maximum steps", "1"}},
+             more));
+  }
+};
+
+void expect_uniform(const LoadedFoot &foot, const Scene<2> &scene, const double lambda)
+{
+  AdaptiveSolver<2>(scene).run(
+      [&](const Step<2> &step)
+      {
+        const ShapeTables<2> tables;
+        EXPECT_LE(step.estimate.total(), 1e-12);
+        for (const double z : step.solution.lambda)
+          EXPECT_NEAR(z, lambda, 1e-10);
+        for (const ContactFace<2> &face : step.solution.contact_space.faces())
+        {
+          const ContactTraces<2> traces(face, 3, step.solution, tables);
+          for (unsigned int q = 0; q < 3; ++q)
+            EXPECT_NEAR(traces.normal_traction(q), -foot.pressure + foot.up, 1e-12);
+        }
+        EXPECT_EQ(mentions(step.warnings, "contact pulls"), foot.up > foot.pressure);
+      });
+}
+
+TEST(LoadedFoot, TractionsAreThoseOfTheContactAlone)
+{
+  // lambda = (tau + along)/g; the indicator vanishes with the right sign of G alone
+  for (const double up : {0., 0.1, 0.5})
+  {
+    const LoadedFoot foot{0.05, 0.2, 0.1, up};
+    expect_uniform(foot, foot.scene(0, 0.3), 0.5);
+    expect_uniform(foot, foot.scene(0.01, 0.15), 1);
+  }
+  const LoadedFoot frictionless{0.05, 0.2, -0.05, 0.1};
+  expect_uniform(frictionless, frictionless.scene(0.01, 0.), 0.);
+}
+} // namespace
