@@ -94,7 +94,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("scenes", nargs="+")
-    parser.add_argument("--number", type=int, default=200)
+    parser.add_argument("--number", type=int, default=25)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())

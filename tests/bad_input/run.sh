@@ -44,6 +44,8 @@ check() {
   for word in "${expected[@]}"; do
     grep -qF -- "$word" "$scratch/stderr" || complain "$row" "stderr does not say: $word"
   done
+  ! grep -q "internal error" "$scratch/stderr" || complain "$row" "an internal error"
+  ! LC_ALL=C grep -q '[[:cntrl:]]' "$scratch/stderr" || complain "$row" "control characters on stderr"
   [ ! -s "$scratch/stdout" ] || complain "$row" "something on stdout"
   [ -z "$(ls -A)" ] || complain "$row" "files were written: $(ls -A)"
 }
@@ -97,11 +99,19 @@ broken missing_equals.prm ":3:" "set Plane stress" "not a statement" '"set Entry
 broken include.prm ":2:" "include base.prm" "not supported" "into one file"
 refused "no_such_scene.prm" "cannot be read" "check the name" -- no_such_scene.prm
 refused "is a directory" "name a scene file" -- "$scenes"
+ln -s loop "$scratch/loop"
+refused "loop: cannot be read" "check the name" -- "$scratch/loop"
+refused "/dev/zero: is larger than a megabyte" "name a scene file" -- /dev/zero
+refused "a b?.prm: cannot be read" -- $'a\nb\x1b.prm'
+refused "no?.prm: cannot be read" -- $'no\xe9.prm'
 
 # --- numbers
 broken negative_young.prm ":3:" "Material/Young's modulus = -15" "E > 0"
 for value in 0 -1 nan inf 1e400 "" "1 2" fifteen; do
   invalid "Material/Young's modulus = $value" "not accepted" "E > 0" -- "Material/Young's modulus=$value"
+done
+for value in 5e-324 1e-101 1e101 1e300; do
+  invalid "Material/Young's modulus = $value" "not accepted" "from 1e-100 to 1e100" -- "Material/Young's modulus=$value"
 done
 for value in 0.5 -1 7; do
   invalid "Material/Poisson's ratio = $value" "outside (-1, 1/2)" "-1 < nu < 1/2" -- "Material/Poisson's ratio=$value"
@@ -135,6 +145,16 @@ not_convex "0,0; 4,0; 8,0; 0,4" "(4, 0)"
 not_convex "0,0; 0,4; 4,4; 4,0" "(0, 0)"
 not_convex "0,0; 4,4; 4,0; 0,4" "(4, 4)"
 
+has_angle() {
+  invalid "Geometry/Corners = $1" "an angle of $2" "between 0.1 and 179.9" -- "Geometry/Shape=quadrilateral" "Geometry/Corners=$1"
+}
+has_angle "0,0; 4,0; 8,0.0066; 4,0.0066" "0.094538 degrees at (0, 0)"
+has_angle "0,0; 4,0; 4,4; 1.9999,2.0001" "179.994 degrees at (1.9999, 2.0001)"
+invalid "lengths from 4e-200 to 4e-200" "choose another unit" -- "Geometry/Upper corner=4e-200, 4e-200"
+invalid "lengths from 4 to 1e+200" "choose another unit" -- "Geometry/Upper corner=1e200, 4"
+invalid "an edge of length 4 and coordinates up to 1e+14" "towards the origin" -- \
+  "Geometry/Lower corner=1e14, 0" "Geometry/Upper corner=100000000000004, 4"
+
 # --- expressions
 invalid "Boundary left/Traction = sin(x; 0" '"sin(x"' "Missing parenthesis" "constants are" -- "Boundary left/Traction=sin(x; 0"
 invalid "Boundary left/Traction = 2*q; 0" 'Unexpected token "q' "constants are" -- "Boundary left/Traction=2*q; 0"
@@ -149,6 +169,15 @@ invalid "Boundary left/Traction = 0; log(y-4)" "not finite at (0, 0)" -- "Bounda
 invalid "Boundary left/Traction = nan; 0" '"nan"' -- "Boundary left/Traction=nan; 0"
 invalid "Boundary left/Traction = 1e400; 0" '"1e400"' -- "Boundary left/Traction=1e400; 0"
 invalid "Boundary right/Displacement = 0; sqrt(2-y)" "not finite at (4, 2" -- "Boundary right/Displacement=0; sqrt(2-y)"
+for value in "1e200*x; 0" "0; 1e101" "1e-200; 0" "5e-324; 1"; do
+  invalid "Boundary left/Traction = $value" "of magnitude" "choose other units" -- "Boundary left/Traction=$value" \
+    "Geometry/Lower corner=-1, 0"
+  invalid "Body force/Expression = $value" "of magnitude" "choose other units" -- "Body force/Expression=$value"
+done
+invalid "Boundary right/Displacement = 1e200; 0" "of magnitude 1e+200" -- "Boundary right/Displacement=1e200; 0"
+for value in "rand()" "x*rand()" "rand_seed(1)"; do
+  invalid "Boundary left/Traction = $value; 0" "is random" "function of x and y" -- "Boundary left/Traction=$value; 0"
+done
 invalid "Body force/Expression = 0; 1/(x-2)" "not finite at (2, 0)" -- "Body force/Expression=0; 1/(x-2)"
 invalid "Boundary bottom/Friction bound = sin(x" "Missing parenthesis" -- "Boundary bottom/Friction bound=sin(x"
 invalid "Boundary bottom/Friction bound = 4.5; 1" "2 component(s) instead of 1" -- "Boundary bottom/Friction bound=4.5; 1"
@@ -186,6 +215,8 @@ invalid "Exact solution/Solution = hertz" "none, stick-slip or smooth" -- "Exact
 invalid "Exact solution/Transition = nan" "give a number" -- "Exact solution/Transition=nan"
 invalid "Exact solution/Length = 0" "positive number" -- "Exact solution/Length=0"
 invalid "Exact solution/Length = 0.4" "|lambda| = 1.0" "> 1 at (3.6" "enlarge" -- "${exact[@]}" "Exact solution/Length=0.4"
+invalid "Boundary top/Traction = exact" "of magnitude 9.07185e+274" -- "${exact[@]}" \
+  "Exact solution/Solution=smooth" "Exact solution/Transition=0" "Exact solution/Length=1e-3"
 invalid "Exact solution/Length = 0.5" "against its friction" "enlarge" -- "${exact[@]}" \
   "Exact solution/Solution=smooth" "Exact solution/Transition=0" "Exact solution/Length=0.5"
 invalid "Exact solution/Solution = stick-slip" "y = 0" "put the bottom edge there" -- "${exact[@]}" "Geometry/Lower corner=0, 1"
@@ -240,17 +271,44 @@ refused "hpvi --help" -- "$scenes/base.prm" "$scenes/base.prm"
 refused "--inf-sup writes no file" "remove one" -- --inf-sup --output results "$scenes/base.prm"
 refused "no multiplier" "remove --inf-sup" -- --inf-sup --set "Boundary bottom/Friction bound=" "$scenes/base.prm"
 
+refused "hpvi: --set a b?c" "has no '='" -- --set $'a\nb\x1bc' "$scenes/base.prm"
+refused "base.prm (--set): a b = 1?: is an unknown entry" -- --set $'a\tb=1\x7f' "$scenes/base.prm"
+refused "aaa...: has no '='" -- --set "$(printf 'a%.0s' {1..5000})" "$scenes/base.prm"
+
 # --- a directory that cannot be written: below a regular file
 touch "$scratch/file"
 refused "$scratch/file/results" -- "$scenes/base.prm" --output "$scratch/file/results"
 refused "$scratch/file" -- "$scenes/base.prm" --output "$scratch/file"
+refused "$scratch/loop" "--output" -- "$scenes/base.prm" --output "$scratch/loop"
 [ ! -s "$scratch/file" ] || complain "--output below a file" "the file was changed"
+
+# --- an expression that misbehaves between the points at which it is tried: the run ends where it is
+# used and keeps the steps before
+misbehaves() { # STEPS WORD ENTRY=VALUE
+  local row="hpvi --set $3" kept="$scratch/kept" status
+  rows=$((rows + 1))
+  timeout 60 "$hpvi" "$scenes/base.prm" --set "$3" --set Adaptivity/Method=hup3 --set "Adaptivity/Maximum steps=5" \
+    --set Output/VTU=false --output "$kept" >"$scratch/stdout" 2>"$scratch/stderr"
+  status=$?
+  [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
+  [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || complain "$row" "stderr does not hold one line"
+  grep -qF "base.prm (--set): ${3/=/ = }: " "$scratch/stderr" || complain "$row" "stderr does not name the entry"
+  grep -qF -- "$2" "$scratch/stderr" || complain "$row" "stderr does not say: $2"
+  grep -qF '"status": "failed"' "$kept/summary.json" || complain "$row" "summary.json does not say failed"
+  grep -qF "  \"steps\": $1," "$kept/summary.json" || complain "$row" "summary.json does not hold $1 steps"
+  [ "$(find "$kept" -name 'mesh-*.svg' | wc -l)" -eq "$1" ] || complain "$row" "there are not $1 pictures"
+}
+misbehaves 3 "is not finite at (0.125, " "Body force/Expression=1/(x-0.125); 0"
+misbehaves 0 "is negative at (" "Boundary bottom/Friction bound=1+1.2*sin(16*pi*x)"
 
 # --- the good scene passes, and its effective parameters are the same scene again
 "$hpvi" --validate "$scenes/base.prm" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "the good scene is rejected"
 "$hpvi" --validate "$scenes/base.prm" --set "Boundary bottom/Traction=1; -1" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "a load on the contact boundary is rejected"
+"$hpvi" --validate "$scenes/base.prm" --set $'Geometry/Subdivisions=2,\t2' --set $'Geometry/Upper corner=4\t, \t4' \
+  --set "Material/Poisson's ratio=5e-324" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain "base.prm" "tabs beside a comma or a tiny number are rejected"
 exact_scene=()
 for override in "${exact[@]}"; do
   exact_scene+=(--set "$override")
