@@ -128,6 +128,21 @@ std::string stagnating_estimate(const std::vector<double> &estimates)
               estimates[n - 1], " now; the data may hold what no refinement resolves");
 }
 
+/** Refinement lowers the indicator of any load with finite energy; a factor 4 upwards is none. */
+std::string rising_estimate(const std::vector<double> &estimates)
+{
+  for (unsigned int k = 1, least = 0; k < estimates.size(); ++k)
+  {
+    if (estimates[k] > 4 * estimates[least])
+      return line("the error indicator rose from ", estimates[least], " in step ", least + 1,
+                  " to ", estimates[k], " in step ", k + 1,
+                  ": a load or a prescribed displacement may be unbounded; look for poles");
+    if (estimates[k] < estimates[least])
+      least = k;
+  }
+  return {};
+}
+
 std::string round_off(const AlgebraicError &algebraic)
 {
   if (algebraic.total() <= AlgebraicError::doubtful)
@@ -256,9 +271,10 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
   std::vector<std::string> result;
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
-        coarse_transition(solution), stagnating_estimate(estimates), round_off(algebraic),
-        elongated_elements(solution), sharp_corners(solution.scene.geometry), locking(solution),
-        rich_multiplier(solution), whole_body_slips(solution), unresolved_bound(solution)})
+        coarse_transition(solution), stagnating_estimate(estimates), rising_estimate(estimates),
+        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution),
+        unresolved_bound(solution)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
