@@ -37,7 +37,7 @@ gives_up()
 for threads in 1 4; do
   export OPENBLAS_NUM_THREADS=$threads
   gave_up=0
-  for limit in $(seq 300 50 1000); do
+  for limit in $(seq 350 100 1050); do
     solve "$limit"
     case $status in
       0 | 127) ;;
