@@ -2,6 +2,8 @@
 // Each warning where it belongs, and not where it does not.
 #include "discretisation.h"
 
+#include <hpvi/warnings.h>
+
 #include <algorithm>
 
 namespace
@@ -70,6 +72,29 @@ TEST(Warnings, EstimateThatStagnates)
                                                {"Boundary top/Traction", "if(x<1.3, 0, -100); 0"}}),
                     "stagnates"));
   EXPECT_FALSE(warns(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "8"}}), "stagnates"));
+}
+
+/** Three steps in a row, each above 0.9 of the one before. */
+TEST(Warnings, StagnationTakesThreeSteps)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  const RandomMesh mesh(scene, 1, 1);
+  const Discretisation discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  const auto stagnation = [&](const std::vector<double> &estimates)
+  {
+    for (const std::string &line : warnings(solution, discrete.tables, estimates))
+      if (line.find("stagnates") != std::string::npos)
+        return line;
+    return std::string();
+  };
+  for (const std::vector<double> &slow :
+       {std::vector<double>{9., 1., 0.95, 0.9, 0.85}, std::vector<double>{1., 0.95, 0.9, 0.85}})
+    EXPECT_NE(stagnation(slow).find("1 three steps ago, 0.85 now"), std::string::npos);
+  EXPECT_EQ(stagnation({1., 0.95, 0.9}), "");
+  EXPECT_EQ(stagnation({9., 1., 0.89, 0.88, 0.87}), "");
+  EXPECT_EQ(stagnation({9., 1., 0.95, 0.84, 0.83}), "");
+  EXPECT_EQ(stagnation({9., 1., 0.99, 0.98, 0.87}), "");
 }
 
 TEST(Warnings, ElongatedElements)
