@@ -4,7 +4,6 @@
 #include "discretisation.h"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <hpvi/warnings.h>
 
 #include <algorithm>
 #include <array>
@@ -170,35 +169,6 @@ TEST(SlenderCantilever, BeyondAllPrecisionIsRefused)
   Overrides entries = cantilever(1000);
   entries[0].second = "1e7, 1";
   EXPECT_THROW(AdaptiveSolver<2>(scene_of(entries)).run([](const Step<2> &) {}), NumericalFailure);
-}
-
-/** Does a plain solution with these estimates and this error get a warning that says @p words? */
-bool warns(const std::vector<double> &estimates, const AlgebraicError &error,
-           const std::string &words)
-{
-  const Scene<2> scene = shipped_scene("han-6-12");
-  const RandomMesh mesh(scene, 1, 1);
-  const Discretisation discrete(scene, mesh);
-  for (const std::string &warning : warnings(discrete.solve(), discrete.tables, estimates, error))
-    if (warning.find(words) != std::string::npos)
-      return true;
-  return false;
-}
-
-TEST(IterativeRefinement, DoubtfulDigitsAreWarnedOf)
-{
-  AlgebraicError error;
-  error.relative = 0.9e-6;
-  EXPECT_FALSE(warns({1.}, error, "round-off reaches"));
-  error.relative = 1.1e-6;
-  EXPECT_TRUE(warns({1.}, error, "round-off reaches"));
-}
-
-/** As with a body force that has a pole, whose value at Gauss points grows without bound. */
-TEST(Indicator, ThatRisesIsWarnedOf)
-{
-  EXPECT_FALSE(warns({3., 1., 0.3, 1.1}, {}, "rose"));
-  EXPECT_TRUE(warns({3., 1., 0.3, 1.3, 0.2}, {}, "rose from 0.3 in step 3 to 1.3 in step 4"));
 }
 
 /** Corrections are for those who need them. */

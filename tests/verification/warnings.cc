@@ -74,27 +74,46 @@ TEST(Warnings, EstimateThatStagnates)
   EXPECT_FALSE(warns(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "8"}}), "stagnates"));
 }
 
-/** Three steps in a row, each above 0.9 of the one before. */
-TEST(Warnings, StagnationTakesThreeSteps)
+/** The warning with @p words that a plain solution gets with these estimates and this error. */
+std::string warning(const std::string &words, const std::vector<double> &estimates,
+                    const AlgebraicError &error = {})
 {
   const Scene<2> scene = shipped_scene("han-6-12");
   const RandomMesh mesh(scene, 1, 1);
   const Discretisation discrete(scene, mesh);
-  const Solution<2> solution = discrete.solve();
-  const auto stagnation = [&](const std::vector<double> &estimates)
-  {
-    for (const std::string &line : warnings(solution, discrete.tables, estimates))
-      if (line.find("stagnates") != std::string::npos)
-        return line;
-    return std::string();
-  };
+  for (const std::string &line : warnings(discrete.solve(), discrete.tables, estimates, error))
+    if (line.find(words) != std::string::npos)
+      return line;
+  return {};
+}
+
+/** Three steps in a row, each above 0.9 of the one before. */
+TEST(Warnings, StagnationTakesThreeSteps)
+{
   for (const std::vector<double> &slow :
        {std::vector<double>{9., 1., 0.95, 0.9, 0.85}, std::vector<double>{1., 0.95, 0.9, 0.85}})
-    EXPECT_NE(stagnation(slow).find("1 three steps ago, 0.85 now"), std::string::npos);
-  EXPECT_EQ(stagnation({1., 0.95, 0.9}), "");
-  EXPECT_EQ(stagnation({9., 1., 0.89, 0.88, 0.87}), "");
-  EXPECT_EQ(stagnation({9., 1., 0.95, 0.84, 0.83}), "");
-  EXPECT_EQ(stagnation({9., 1., 0.99, 0.98, 0.87}), "");
+    EXPECT_NE(warning("stagnates", slow).find("1 three steps ago, 0.85 now"), std::string::npos);
+  EXPECT_EQ(warning("stagnates", {1., 0.95, 0.9}), "");
+  EXPECT_EQ(warning("stagnates", {9., 1., 0.89, 0.88, 0.87}), "");
+  EXPECT_EQ(warning("stagnates", {9., 1., 0.95, 0.84, 0.83}), "");
+  EXPECT_EQ(warning("stagnates", {9., 1., 0.99, 0.98, 0.87}), "");
+}
+
+/** As with a body force that has a pole, whose value at Gauss points grows without bound. */
+TEST(Warnings, EstimateThatRises)
+{
+  EXPECT_EQ(warning("rose", {3., 1., 0.3, 1.1}), "");
+  EXPECT_NE(warning("rose", {3., 1., 0.3, 1.3, 0.2}).find("from 0.3 in step 3 to 1.3 in step 4"),
+            std::string::npos);
+}
+
+TEST(Warnings, DoubtfulDigits)
+{
+  AlgebraicError error;
+  error.relative = 0.9e-6;
+  EXPECT_EQ(warning("round-off reaches", {1.}, error), "");
+  error.relative = 1.1e-6;
+  EXPECT_NE(warning("round-off reaches", {1.}, error), "");
 }
 
 TEST(Warnings, ElongatedElements)
