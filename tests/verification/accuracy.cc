@@ -243,6 +243,34 @@ TEST(StoredSolution, MeasuresWhatTheExactSolutionMeasures)
   }
 }
 
+/** Without friction the spaces are nested and Pythagoras holds: |u - u_N|^2 = |u|^2 - |u_N|^2. */
+TEST(StoredSolution, ObeysPythagoras)
+{
+  const auto without_friction = [](const std::string &degree)
+  {
+    return Overrides{{"Boundary bottom/Friction bound", ""},
+                     {"Adaptivity/Method", "hup2"},
+                     {"Adaptivity/Start degree", degree},
+                     {"Adaptivity/Maximum steps", "1"}};
+  };
+  const ReferenceFile file(shipped_scene("han-6-12", without_friction("9")));
+  for (const std::string degree : {"2", "5"})
+  {
+    Overrides overrides = without_friction(degree);
+    overrides.emplace_back("Error/Reference solution", file.path);
+    AdaptiveSolver<2>(shipped_scene("han-6-12", overrides))
+        .run(
+            [&](const Step<2> &step)
+            {
+              const double norm = step.errors.energy_norm, own = step.energies.norm;
+              const double expected = norm * norm - own * own;
+              EXPECT_NEAR(step.errors.energy * step.errors.energy, expected, 1e-9 * norm * norm)
+                  << degree;
+              EXPECT_GT(expected, 1e-5 * norm * norm);
+            });
+  }
+}
+
 /** deal.II's CellId ends at 30 levels; a reference that closes in on a transition goes deeper. */
 TEST(StoredSolution, KeepsCellsOfAnyDepth)
 {
