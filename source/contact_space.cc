@@ -16,13 +16,7 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
                            const unsigned int face_no, const unsigned int degree,
                            const int multiplier_offset, const BoundaryCondition<dim> &condition)
 {
-  static_assert(dim == 2, "a straight contact edge");
-  const auto edge = cell->face(face_no);
-  Tensor<1, dim> along = edge->vertex(1) - edge->vertex(0);
-  along /= along.norm();
-  Tensor<1, dim> normal = cross_product_2d(along);
-  if (normal * (edge->center() - cell->center()) < 0)
-    normal = -normal;
+  const Tensor<1, dim> normal = outer_normal<dim>(cell, face_no);
   const int n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
   return {cell,
           face_no,
