@@ -3,7 +3,7 @@
 #define hpvi_algebra_programs_h
 
 #include <gtest/gtest.h>
-#include <hpvi/mprgp.h>
+#include <hpvi/solver/mprgp.h>
 
 #include <cmath>
 #include <initializer_list>

@@ -15,8 +15,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_templates.h>
 #include <dmumps_c.h>
-#include <hpvi/adaptive_solver.h>
-#include <hpvi/schur_complement.h>
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/solver/linear_solver.h>
 #include <metis.h>
 
 #include <algorithm>

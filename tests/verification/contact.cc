@@ -4,9 +4,9 @@
 #include "friction_quadrature.h"
 
 #include <deal.II/numerics/vector_tools_interpolate.h>
-#include <hpvi/contact_state.h>
-#include <hpvi/numerical_failure.h>
-#include <hpvi/stress.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/evaluation/stress.h>
 
 #include <algorithm>
 

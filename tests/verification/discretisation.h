@@ -3,8 +3,8 @@
 #define hpvi_verification_discretisation_h
 
 #include <gtest/gtest.h>
-#include <hpvi/adaptive_solver.h>
-#include <hpvi/internal_forces.h>
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/discretisation/internal_forces.h>
 
 #include <cmath>
 #include <filesystem>

@@ -2,8 +2,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <gtest/gtest.h>
-#include <hpvi/exact_solution.h>
-#include <hpvi/scene.h>
+#include <hpvi/scene/exact_solution.h>
+#include <hpvi/scene/scene.h>
 
 #include <array>
 #include <cmath>

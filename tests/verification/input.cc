@@ -3,9 +3,9 @@
 // they are tried, extremes of numbers, nothing at all.
 #include "discretisation.h"
 
-#include <hpvi/mesh.h>
-#include <hpvi/output.h>
-#include <hpvi/text.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/output/output.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "discretisation.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/stress.h>
+#include <hpvi/evaluation/stress.h>
 
 #include <complex>
 

@@ -2,7 +2,7 @@
 // Bodies that friction alone holds: balance of forces, the friction limit, and what lies beyond.
 #include "friction_quadrature.h"
 
-#include <hpvi/numerical_failure.h>
+#include <hpvi/base/numerical_failure.h>
 
 namespace
 {

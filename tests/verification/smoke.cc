@@ -2,8 +2,8 @@
 // Whole runs that write every file, short enough for a Debug build: there deal.II's assertions speak.
 #include "discretisation.h"
 
-#include <hpvi/inf_sup.h>
-#include <hpvi/output.h>
+#include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/output/output.h>
 
 #include <ostream>
 

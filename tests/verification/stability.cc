@@ -3,7 +3,7 @@
 #include "discretisation.h"
 
 #include <deal.II/base/multithread_info.h>
-#include <hpvi/numerical_failure.h>
+#include <hpvi/base/numerical_failure.h>
 
 #include <algorithm>
 

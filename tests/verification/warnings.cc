@@ -2,7 +2,7 @@
 // Each warning where it belongs, and not where it does not.
 #include "discretisation.h"
 
-#include <hpvi/warnings.h>
+#include <hpvi/adaptivity/warnings.h>
 
 #include <algorithm>
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_supports_h
+#define hpvi_supports_h
+
+#include <deal.II/lac/affine_constraints.h>
+#include <hpvi/body/displacement_space.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+/** `direction . u = value` at one node, said by one boundary. */
+template <int dim>
+struct NodeCondition
+{
+  dealii::Tensor<1, dim> direction; ///< unit vector
+  double value;                     ///< [length]
+  dealii::types::boundary_id boundary;
+};
+
+/** A node of the displacement space on the boundary and all that supports and contact ask of it. */
+template <int dim>
+struct SupportedNode
+{
+  std::array<dealii::types::global_dof_index, dim> dofs; ///< one by component
+  dealii::Point<dim> x;
+  std::vector<NodeCondition<dim>> conditions;
+
+  /**
+   * The force at this node, taken apart by the conditions that can exert it: coefficients mu with
+   * `force = sum_k mu_k direction_k`, of least norm where conditions repeat each other.
+   */
+  std::vector<double> split(const dealii::Tensor<1, dim> &force) const;
+};
+
+/**
+ * The nodes on boundaries with prescribed displacements or bilateral contact, by their first
+ * unknown; a node in a corner stands once, with the conditions of all boundaries that meet there.
+ */
+template <int dim>
+std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
+                                                const DisplacementSpace<dim> &space,
+                                                const ShapeTables<dim> &tables);
+
+/**
+ * Prescribed displacements and `u_n = 0` as constraints. All conditions that meet at one node are
+ * solved together, for as many components as they determine, those with the largest coefficients
+ * first; conditions that repeat each other count once (the scene's check refuses contradictions).
+ */
+template <int dim>
+void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
+                        dealii::AffineConstraints<double> &constraints);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_multiplier_trace_h
+#define hpvi_multiplier_trace_h
+
+#include <hpvi/contact/contact_space.h>
+
+namespace hpvi
+{
+/** A multiplier that outlives its mesh: the starting value of the next, finer one. */
+template <int dim>
+class MultiplierTrace
+{
+public:
+  /** Of nothing: zero everywhere. */
+  MultiplierTrace() = default;
+
+  MultiplierTrace(const ContactSpace<dim> &contact_space, const dealii::Vector<double> &lambda);
+
+  /**
+   * lambda_N at the Gauss points of @p finer, whose faces are faces of the old mesh or parts of
+   * them; zero where the old face had no multipliers.
+   */
+  dealii::Vector<double> values(const ContactSpace<dim> &finer,
+                                const ShapeTables<dim> &tables) const;
+
+private:
+  struct Piece
+  {
+    dealii::types::boundary_id boundary;
+    dealii::Point<dim> begin;
+    dealii::Tensor<1, dim> edge;
+    std::vector<double> values; ///< at its Gauss points
+  };
+
+  std::vector<Piece> pieces; ///< in the order of the faces
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_equilibrium_h
+#define hpvi_equilibrium_h
+
+#include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/discretisation/solution.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** What one boundary exerts on the body through its supports and its contact, without loads. */
+template <int dim>
+struct BoundaryForce
+{
+  std::string boundary;         ///< its name
+  dealii::Tensor<1, dim> force; ///< [stress length^(dim-1)]
+  double moment = 0;            ///< about Equilibrium::centre [stress length^dim]
+};
+
+/**
+ * The forces on the body as the discrete solution has them: nodal reactions `a(u_N, v_i) - L(v_i)`.
+ * They are the exact resultants of the discrete problem, where an integral of sigma(u_N) n over a
+ * boundary has the error of the stress. A node in a corner divides its reaction among the boundaries
+ * whose conditions meet there.
+ */
+template <int dim>
+struct Equilibrium
+{
+  dealii::Point<dim> centre;                 ///< of the body, for moments
+  std::vector<BoundaryForce<dim>> reactions; ///< of boundaries with supports or contact, by id
+  BoundaryForce<dim> loads;                  ///< of all tractions and the body force together
+  double force_imbalance = 0;  ///< |sum of forces| over the sum of absolute nodal forces
+  double moment_imbalance = 0; ///< the same of moments
+};
+
+/** The forces of @p solution, whose loads and friction @p system holds. */
+template <int dim>
+Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system,
+                             const ShapeTables<dim> &tables);
+} // namespace hpvi
+
+#endif

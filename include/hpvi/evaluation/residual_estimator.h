@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_residual_estimator_h
+#define hpvi_residual_estimator_h
+
+#include <hpvi/discretisation/solution.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** Squared contributions to eta_K^2, by active cell index; unit stress^2 length^dim. */
+struct ErrorEstimate
+{
+  std::vector<double> volume;  ///< h_K^2/p_K^2 |r_K|^2
+  std::vector<double> jumps;   ///< h_K/p_K |R_E|^2 over interior edges
+  std::vector<double> neumann; ///< h_K/p_K |R_E|^2 over Gamma_N
+  std::vector<double> contact; ///< h_K/p_K |R_E|^2 over Gamma_C
+
+  /** eta_K of (4.50). */
+  double indicator(unsigned int cell) const;
+
+  /** eta = (sum_K eta_K^2)^{1/2}; the print of (4.51) lacks the square. */
+  double total() const;
+};
+
+/**
+ * The residual error indicator (4.44)-(4.51) of u_N, lambda_N. The local degree and size of each
+ * cell weigh its own residuals; an edge with a hanging node counts as its two halves.
+ */
+template <int dim>
+ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+
+/**
+ * eta of round-off alone: of a displacement that is random and as large as the last bit of u_N on
+ * each cell, without loads. No mesh brings the indicator below it.
+ */
+template <int dim>
+double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+} // namespace hpvi
+
+#endif

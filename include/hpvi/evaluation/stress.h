@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_stress_h
+#define hpvi_stress_h
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <hpvi/discretisation/solution.h>
+
+namespace hpvi
+{
+/** Hooke's law `sigma = lambda tr(eps) I + 2 mu eps`; row c of @p gradient belongs to u_c. */
+template <int dim>
+dealii::SymmetricTensor<2, dim> stress(const Material &material,
+                                       const dealii::Tensor<2, dim> &gradient)
+{
+  const dealii::SymmetricTensor<2, dim> strain = dealii::symmetrize(gradient);
+  return material.lambda(dim) * dealii::trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+         2 * material.mu() * strain;
+}
+
+/** u_N and sigma(u_N) at the points of one contact face. */
+template <int dim>
+class ContactTraces
+{
+public:
+  ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
+                const Solution<dim> &solution, const ShapeTables<dim> &tables)
+      : face(face), material(solution.scene.material), map(map_of<dim>(face.cell)),
+        table(tables.face(face.degree, face.face_no, n_gauss))
+  {
+    const std::vector<double> coefficients =
+        solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree));
+    values = evaluate(table.values, coefficients);
+    derivatives = evaluate(table.derivatives, coefficients);
+  }
+
+  dealii::Tensor<1, dim> displacement(const unsigned int q) const
+  {
+    dealii::Tensor<1, dim> u;
+    for (unsigned int c = 0; c < dim; ++c)
+      u[c] = values[c * table.points.size() + q];
+    return u;
+  }
+
+  dealii::SymmetricTensor<2, dim> sigma(const unsigned int q) const
+  {
+    dealii::Tensor<2, dim> reference;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int j = 0; j < dim; ++j)
+        reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
+    return stress(material, reference * dealii::invert(map.jacobian(table.points[q])));
+  }
+
+  /** n . (sigma n - G): what the plane exerts, without an applied traction G; positive pulls. */
+  double normal_traction(const unsigned int q) const
+  {
+    const dealii::Point<dim> x = map.point(table.points[q]);
+    dealii::Tensor<1, dim> traction = sigma(q) * face.normal;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (face.condition->traction[c])
+        traction[c] -= face.condition->traction[c]->value(x);
+    return face.normal * traction;
+  }
+
+private:
+  const ContactFace<dim> &face;
+  const Material &material;
+  const CellMap<dim> map;
+  const ShapeTable<dim> &table;
+  std::vector<double> values, derivatives; ///< component by component
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_true_error_h
+#define hpvi_true_error_h
+
+#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/scene/exact_solution.h>
+
+#include <limits>
+#include <memory>
+
+namespace hpvi
+{
+/** Errors of a discrete solution; NaN where the scene gives nothing to compare with. */
+struct TrueErrors
+{
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double energy = unknown;           ///< |u - u_N|_a, (stress length^dim)^{1/2}
+  double energy_norm = unknown;      ///< |u|_a, to relate it to
+  double reference_energy = unknown; ///< J(u) of the exact or reference solution
+  double l2 = unknown;               ///< |u - u_N|_{L2}, length^{1+dim/2}
+  double multiplier_l2 = unknown;    ///< |lambda - lambda_N|_{L2(Gamma_C)}, length^{(dim-1)/2}
+  double transition = unknown;       ///< largest distance from a transition of u to u_N's, length
+};
+
+/**
+ * The true error of discrete solutions: against a field in closed form, by quadrature that is
+ * graded towards its singular points, or against a stored reference solution, on the common
+ * refinement of both meshes, where both are polynomials and Gauss quadrature is exact.
+ */
+template <int dim>
+class TrueError
+{
+public:
+  /** Takes what the scene names: its exact solution, else its reference solution. */
+  TrueError(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  ~TrueError();
+
+  TrueErrors measure(const Solution<dim> &solution) const;
+
+private:
+  void compare_with_exact(const Solution<dim> &solution, TrueErrors &errors) const;
+  void compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const;
+
+  const Scene<dim> &scene;
+  const ShapeTables<dim> &tables;
+  std::unique_ptr<const StoredSolution<dim>> reference;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_output_h
+#define hpvi_output_h
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/output/result_directory.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Results of a run that has begun cannot be written: what() is one line with directory, file and
+ * reason, and says which steps are safe. Exit status 2.
+ */
+class OutputFailure : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * Writes everything that a run leaves behind, and is the only one that writes files. Each file is
+ * renamed into place whole; the tables and `summary.json` are brought up to date after every step,
+ * so that a run which ends early keeps its finished steps. `summary.json` names a file before it is
+ * written, so that a run which is killed leaves nothing that a later one would not know.
+ *
+ * | file | content |
+ * |---|---|
+ * | `scene.prm` | every parameter with its value |
+ * | `convergence.csv` | a row per step: `estimate*` in stress length^(dim/2), energies in stress length^dim, times in seconds; empty where nothing was computed |
+ * | `degrees.csv` | number of elements of each degree, a row per step |
+ * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
+ * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
+ * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
+ * | `reference.dat` | the last displacement, to measure other runs against |
+ * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
+ *
+ * Numbers are written with as many digits as it takes to read the same number back. The units are
+ * those of the scene. What the scene switches off is neither built nor written. Tractions of the
+ * contact tables are those of the contact alone, without a load that acts on the same edge:
+ * `n.(sigma n) - n.G` and `-g lambda`.
+ */
+template <int dim>
+class Output
+{
+public:
+  /**
+   * Create @p path with its parents and prove that it can be written, by writing `scene.prm`;
+   * remove the files that an earlier run left there. Throws InputError naming the directory (see
+   * ResultDirectory).
+   */
+  Output(const Scene<dim> &scene, const std::string &path);
+
+  /** Write the files of one finished step and bring the tables up to date. Throws OutputFailure. */
+  void write_step(const Step<dim> &step);
+
+  /** Write that the run is done. Throws OutputFailure. */
+  void finish();
+
+  /**
+   * Write how a run ended that did not get through, if that can be written: @p status is "failed"
+   * or "interrupted", @p message the line that says why.
+   */
+  void give_up(const std::string &status, const std::string &message);
+
+  /** As in "steps 1 to 3 are safe": what a run leaves that ends here. */
+  std::string safe_steps() const;
+
+private:
+  /** Column names and values of one row; an empty value is an empty field. */
+  using Record = std::vector<std::pair<std::string, std::string>>;
+
+  /** Is this the name of a file that this run may write? */
+  bool writes(const std::string &name) const;
+  void write(const std::string &name, const std::string &content);
+  void replace(const std::string &name, const std::string &content) const;
+  void add_rows(const Step<dim> &step);
+  void write_tables();
+  void write_summary(const std::string &status, const std::string &message) const;
+  void write_vtu(const Step<dim> &step, const std::string &name);
+
+  const Scene<dim> &scene;
+  ResultDirectory directory;
+  bool is_usable = false; ///< proved by writing `scene.prm`
+  const ShapeTables<dim> tables;
+  std::vector<Record> convergence;                ///< a record per step
+  std::vector<std::vector<unsigned int>> degrees; ///< elements by step and degree
+  unsigned int finished_steps = 0;                ///< those whose files are all there
+  StageTimes times;                               ///< sums over the steps
+  std::string stopped_by;                         ///< the limit that ended the run
+  std::vector<std::string> warnings;
+  Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
+  std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_expressions_h
+#define hpvi_expressions_h
+
+#include <hpvi/scene/material.h>
+#include <hpvi/scene/parameters.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Turns the text of an entry into functions and tries each of them on the part of the body where it
+ * will be used. What it cannot see there, a pole or a negative bound between the points, is an
+ * InputError with entry, point and value wherever the function is asked for it.
+ */
+template <int dim>
+class ExpressionReader
+{
+public:
+  using Expression = std::shared_ptr<const dealii::Function<dim>>;
+
+  /** The material gives the constants E, nu, mu. */
+  ExpressionReader(const Parameters &parameters, const Material &material);
+
+  /** Gives a component of the exact solution's field; null if the scene has no such solution. */
+  using ExactField = std::function<Expression(unsigned int component)>;
+
+  /**
+   * One function per component; null where the text is @p absent (`free`, or a zero that needs
+   * no integration) and everywhere if the entry is empty. With @p exact, the word `exact` stands
+   * for a component of that field, or for all of them if it stands alone.
+   */
+  template <std::size_t n_components>
+  std::array<Expression, n_components>
+  read(const std::string &section, const std::string &name, const std::string &absent,
+       const std::vector<dealii::Point<dim>> &points, const ExactField &exact = {}) const;
+
+  /** Tresca's bound: one function, null where the entry is empty or zero, and nowhere negative. */
+  Expression read_bound(const std::string &section, const std::string &name,
+                        const std::vector<dealii::Point<dim>> &points) const;
+
+private:
+  Expression make_exact(const std::string &section, const std::string &name,
+                        const ExactField &exact, unsigned int component) const;
+  Expression make_function(const std::string &section, const std::string &name,
+                           const std::string &text,
+                           const std::vector<dealii::Point<dim>> &points) const;
+  /** What the parser takes without complaint, but not as it is meant. */
+  void check_misreadings(const std::string &section, const std::string &name,
+                         const std::string &text) const;
+
+  const Parameters &parameters;
+  const std::map<std::string, double> constants;
+};
+} // namespace hpvi
+
+#endif

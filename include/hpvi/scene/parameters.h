@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_parameters_h
+#define hpvi_parameters_h
+
+#include <hpvi/scene/parameter_file.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** One entry of a parameter file. */
+struct Entry
+{
+  std::string section; ///< empty: top level
+  std::string name;
+  std::string default_value;
+  std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
+  std::string wanted; ///< completes "give ..." in an error message
+  std::string documentation;
+
+  std::string path() const;
+};
+
+/**
+ * The values of all entries, and where each was set: deal.II's ParameterHandler with error messages
+ * of one line that name file, line, entry, value and remedy.
+ */
+class Parameters
+{
+public:
+  /** All entries have their defaults. @p file is for messages. */
+  Parameters(std::vector<Entry> entries, const std::string &file);
+
+  /** Take the assignments of the file, then @p overrides, pairs "Section/Entry", "value". */
+  void read(const std::vector<std::pair<std::string, std::string>> &overrides);
+
+  /** Give an entry its final value where the file leaves it to the program. */
+  void set(const std::string &section, const std::string &name, const std::string &value);
+
+  std::string text(const std::string &section, const std::string &name) const;
+  double number(const std::string &section, const std::string &name) const;
+  unsigned int integer(const std::string &section, const std::string &name) const;
+  bool boolean(const std::string &section, const std::string &name) const;
+
+  /** Points "x, y; x, y; ..." */
+  template <int dim>
+  std::vector<dealii::Point<dim>> points(const std::string &section, const std::string &name) const;
+
+  /** FILE:LINE: Section/Entry = value, where the line about a wrong value begins. */
+  std::string place(const std::string &section, const std::string &name) const;
+
+  /** The one line about an entry whose value is wrong. */
+  [[noreturn]] void reject(const std::string &section, const std::string &name,
+                           const std::string &problem_and_remedy) const;
+
+  /** All entries with their values; @p documented: each below its documentation and default. */
+  std::string print(bool documented) const;
+
+private:
+  template <typename Action>
+  void in_section(const std::string &section, const Action &action);
+  /** Checks name and form. */
+  void assign(const Assignment &assignment);
+  void assign(const std::pair<std::string, std::string> &override);
+  /** Null for the opening line of a known subsection. Throws where the name is unknown. */
+  const Entry *known_entry(const Assignment &assignment) const;
+  std::string nearest_section(const std::string &section) const;
+  std::string nearest_entry(const Entry &written) const;
+
+  const std::vector<Entry> entries;
+  const std::string file, shown; ///< as it is, and as messages name it
+  dealii::ParameterHandler prm;
+  std::map<std::string, std::string> origins;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/marking.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hpvi
+{
+namespace
+{
+std::vector<double> indicators(const ErrorEstimate &estimate)
+{
+  std::vector<double> eta(estimate.volume.size());
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    eta[cell] = estimate.indicator(cell);
+  return eta;
+}
+
+/** Cell indices by falling indicator, ties by index. */
+std::vector<unsigned int> by_falling_indicator(const std::vector<double> &eta)
+{
+  std::vector<unsigned int> order(eta.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const unsigned int a, const unsigned int b) { return eta[a] > eta[b]; });
+  return order;
+}
+
+unsigned int share_of(const double fraction, const unsigned int n_cells)
+{
+  // Without the small number 0.1 * 30 would round up to 4.
+  return std::min<unsigned int>(n_cells, std::ceil(fraction * n_cells - 1e-9));
+}
+
+void raise_or_bisect(Refinement &refinement, const unsigned int cell, const unsigned int maximum)
+{
+  if (refinement.degrees[cell] < maximum)
+    ++refinement.degrees[cell];
+  else
+    refinement.bisect[cell] = true;
+}
+
+void bisect_above_mean(Refinement &refinement, const std::vector<double> &eta,
+                       const double threshold)
+{
+  const double mean = std::accumulate(eta.begin(), eta.end(), 0.) / eta.size();
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    refinement.bisect[cell] = eta[cell] > threshold * mean;
+}
+
+std::vector<unsigned int> above_share_of_maximum(const std::vector<double> &eta, const double share)
+{
+  const double largest = *std::max_element(eta.begin(), eta.end());
+  std::vector<unsigned int> marked;
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    if (eta[cell] > share * largest)
+      marked.push_back(cell);
+  return marked;
+}
+
+/** The decision of Section 4.3 on each marked cell. */
+void raise_where_smooth(Refinement &refinement, const std::vector<unsigned int> &marked,
+                        const std::function<double(unsigned int)> &decay_rate, const double smooth,
+                        const unsigned int maximum)
+{
+  for (const unsigned int cell : marked)
+    if (decay_rate(cell) > smooth)
+      raise_or_bisect(refinement, cell, maximum);
+    else
+      refinement.bisect[cell] = true;
+}
+} // namespace
+
+Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
+                const std::function<double(unsigned int)> &decay_rate)
+{
+  const unsigned int n = degrees.size(), maximum = adaptivity.maximum_degree;
+  Refinement result{std::vector<bool>(n, false), degrees};
+  switch (adaptivity.method)
+  {
+  case Method::hup2:
+  case Method::hup3:
+  case Method::hup4:
+    result.bisect.assign(n, true);
+    break;
+  case Method::hap2:
+  case Method::hap3:
+  case Method::hap4:
+    bisect_above_mean(result, indicators(estimate), adaptivity.hap_threshold);
+    break;
+  case Method::pu:
+    for (unsigned int &degree : result.degrees)
+      degree = std::min(degree + 1, maximum);
+    break;
+  case Method::hpa1:
+  {
+    const auto order = by_falling_indicator(indicators(estimate));
+    const unsigned int first = share_of(adaptivity.hpa1_bisected, n);
+    const unsigned int last = std::min(n, first + share_of(adaptivity.hpa1_raised, n));
+    for (unsigned int k = 0; k < first; ++k)
+      result.bisect[order[k]] = true;
+    for (unsigned int k = first; k < last; ++k)
+      raise_or_bisect(result, order[k], maximum);
+    break;
+  }
+  case Method::hpa2:
+  {
+    auto marked = by_falling_indicator(indicators(estimate));
+    marked.resize(share_of(adaptivity.hpa2_marked, n));
+    raise_where_smooth(result, marked, decay_rate, adaptivity.hpa2_decay, maximum);
+    break;
+  }
+  case Method::hpa3:
+    raise_where_smooth(result,
+                       above_share_of_maximum(indicators(estimate), adaptivity.hpa3_threshold),
+                       decay_rate, adaptivity.hpa3_decay, maximum);
+    break;
+  }
+  return result;
+}
+
+std::string nothing_marked(const Adaptivity &adaptivity)
+{
+  switch (adaptivity.method)
+  {
+  case Method::hap2:
+  case Method::hap3:
+  case Method::hap4:
+    return "hap threshold";
+  case Method::hpa1:
+    return "hpa1 bisected fraction";
+  case Method::hpa2:
+    return "hpa2 marked fraction";
+  case Method::hpa3:
+    return "hpa3 threshold";
+  default:
+    return "Maximum degree";
+  }
+}
+} // namespace hpvi

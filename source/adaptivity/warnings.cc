@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <hpvi/adaptivity/warnings.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/evaluation/stress.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Text made of numbers with three digits. */
+template <class... Parts>
+std::string line(const Parts &...parts)
+{
+  std::ostringstream out;
+  out.precision(3);
+  (out << ... << parts);
+  return out.str();
+}
+
+/** A number with its unit, unless that is 1. */
+std::string labelled(const double value, const std::string &unit)
+{
+  return unit.empty() || unit == "1" ? line(value) : line(value, " ", unit);
+}
+
+/** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
+template <int dim>
+std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+{
+  double tension = 0, all = 0, highest = 0;
+  Point<dim> where;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  {
+    const unsigned int n = face.degree + 1;
+    const ContactTraces<dim> traces(face, n, solution, tables);
+    for (unsigned int q = 0; q < n; ++q)
+    {
+      const double weight = tables.gauss(n).weight(q) * face.length();
+      const double traction = traces.normal_traction(q);
+      all += weight * std::abs(traction);
+      tension += weight * std::max(traction, 0.);
+      if (traction > highest)
+      {
+        highest = traction;
+        where = face.point(tables.gauss(n).point(q)[0]);
+      }
+    }
+  }
+  // A stress that the last bits of u alone make is none.
+  const Geometry<dim> &geometry = solution.scene.geometry;
+  const double diameter = geometry.corners[0].distance(geometry.corners[3]),
+               round_off =
+                   1e-12 * solution.scene.material.mu() * solution.u.linfty_norm() / diameter;
+  if (!(tension > 0.01 * all && highest > round_off))
+    return {};
+  return line("bilateral contact pulls: ", 100 * tension / all,
+              " % of the normal traction is tensile, up to ",
+              labelled(highest, solution.scene.stress_unit), " at (", where,
+              "); a body that may lift off needs unilateral contact");
+}
+
+/** Gauss points obey |lambda_i| <= 1, the polynomial through them need not. */
+template <int dim>
+std::string overshooting_multiplier(const Solution<dim> &solution)
+{
+  double highest = 0;
+  Point<dim> where;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
+    {
+      const double s = k / (4. * face.n_multipliers);
+      const double value = std::abs(solution.contact_space.value(face, solution.lambda, s));
+      if (value > highest)
+      {
+        highest = value;
+        where = face.point(s);
+      }
+    }
+  if (highest <= 1.05)
+    return {};
+  return line("|lambda| reaches ", highest, " between Gauss points, at (", where,
+              "); it obeys |lambda| <= 1 at the Gauss points only: refine there");
+}
+
+template <int dim>
+std::string coarse_transition(const Solution<dim> &solution)
+{
+  std::map<types::boundary_id, double> whole;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    whole[face.condition->id] += face.length();
+  std::string list;
+  for (const Point<dim> &x : transitions(solution))
+    for (const ContactFace<dim> &face : solution.contact_space.faces())
+    {
+      const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
+      const double s = (x - face.point(0.)) * edge / edge.norm_square();
+      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
+          face.length() > 0.01 * whole[face.condition->id])
+        list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
+                     labelled(face.length(), solution.scene.length_unit));
+    }
+  if (list.empty())
+    return {};
+  return "stick and slip meet at " + list +
+         " only: more than 1 % of the contact boundary; take more steps of an adaptive method";
+}
+
+/** Three steps in a row that bring less than a tenth each. */
+std::string stagnating_estimate(const std::vector<double> &estimates)
+{
+  const unsigned int n = estimates.size(), steps = 3;
+  if (n <= steps)
+    return {};
+  for (unsigned int k = n - steps; k < n; ++k)
+    if (!(estimates[k] > 0.9 * estimates[k - 1]))
+      return {};
+  return line("the error indicator stagnates: ", estimates[n - 1 - steps], " three steps ago, ",
+              estimates[n - 1], " now; the data may hold what no refinement resolves");
+}
+
+/** Refinement lowers the indicator of any load with finite energy; a factor 4 upwards is none. */
+std::string rising_estimate(const std::vector<double> &estimates)
+{
+  for (unsigned int k = 1, least = 0; k < estimates.size(); ++k)
+  {
+    if (estimates[k] > 4 * estimates[least])
+      return line("the error indicator rose from ", estimates[least], " in step ", least + 1,
+                  " to ", estimates[k], " in step ", k + 1,
+                  ": a load or a prescribed displacement may be unbounded; look for poles");
+    if (estimates[k] < estimates[least])
+      least = k;
+  }
+  return {};
+}
+
+std::string round_off(const AlgebraicError &algebraic)
+{
+  if (algebraic.total() <= AlgebraicError::doubtful)
+    return {};
+  return line("round-off reaches ", algebraic.total(),
+              " of the solution: the body is slender or weakly supported beyond what double "
+              "precision resolves; trust no more digits than that");
+}
+
+template <int dim>
+std::string elongated_elements(const Solution<dim> &solution)
+{
+  double worst = 1;
+  Point<dim> where;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    double longest = 0, shortest = std::numeric_limits<double>::max();
+    for (const unsigned int l : cell->line_indices())
+    {
+      longest = std::max(longest, cell->line(l)->diameter());
+      shortest = std::min(shortest, cell->line(l)->diameter());
+    }
+    if (longest / shortest > worst)
+    {
+      worst = longest / shortest;
+      where = cell->center();
+    }
+  }
+  if (worst <= 20)
+    return {};
+  return line("elements up to ", worst, " times as long as wide, at (", where,
+              "): constants of the error indicator grow with that; choose other "
+              "Geometry/Subdivisions");
+}
+
+/**
+ * A parallelogram of 5 degrees multiplies the indicator by 50 and round-off by 1000, which grows
+ * like the inverse square of the angle; near 180 degrees alone much less happens.
+ */
+std::string sharp_corners(const Geometry<2> &geometry)
+{
+  const std::array<double, 4> angles = corner_angles(geometry);
+  std::string list;
+  for (unsigned int c = 0; c < angles.size(); ++c)
+    if (angles[c] < 5 || angles[c] > 175)
+      list += line(list.empty() ? "" : ", ", text(angles[c], 4), " degrees at (",
+                   geometry.corners[c], ")");
+  if (list.empty())
+    return {};
+  return "the body has corners of " + list +
+         ": distorted elements enlarge the error indicator and round-off; cut the body in another "
+         "way or compare with a finer mesh";
+}
+
+/** With lambda/mu large, low degrees lock: doc/stability.md shows by how much. */
+template <int dim>
+std::string locking(const Solution<dim> &solution)
+{
+  const Material &material = solution.scene.material;
+  const Degrees &degrees = solution.displacement_space.degrees();
+  unsigned int lowest = *std::min_element(degrees.begin(), degrees.end());
+  // hp meshes that began with low degrees are refined for what those could not resolve.
+  if (solution.scene.adaptivity.method >= Method::hpa1)
+    lowest = std::min(lowest, solution.scene.adaptivity.start_degree);
+  const double ratio = material.lambda(dim) / material.mu();
+  if (ratio < 50 || lowest >= 4)
+    return {};
+  return line("Poisson's ratio ", text(material.poisson), " is near 1/2 (lambda/mu = ", ratio,
+              ") and elements of degree ", lowest, " may lock; use Adaptivity/Start degree = 6");
+}
+
+/** The least offset at which displacement and multiplier no longer balance: the thesis has -2. */
+template <int dim>
+std::string rich_multiplier(const Solution<dim> &solution)
+{
+  if (solution.scene.solver.multiplier_offset < -1 || solution.lambda.size() == 0)
+    return {};
+  return "multipliers of degree p - 1 are too many: the inf-sup constant falls as the mesh is "
+         "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
+}
+
+/** Friction gives all it has, `|int g lambda t| = int g`: both edges of a strip may be in contact. */
+template <int dim>
+std::string whole_body_slips(const Solution<dim> &solution)
+{
+  if (!solution.scene.free_translation)
+    return {};
+  const ContactSpace<dim> &contact = solution.contact_space;
+  double used = 0;
+  for (const ContactFace<dim> &face : contact.faces())
+    for (unsigned int q = 0; q < face.friction.points.size(); ++q)
+      used += face.friction.weights[q] * face.length() * face.friction.values[q] *
+              contact.value(face, solution.lambda, face.friction.points[q]) *
+              (face.tangent * *solution.scene.free_translation);
+  if (std::abs(used) < (1 - 1e-8) * contact.friction_limit())
+    return {};
+  return line("the loads reach what friction can resist: the whole body slips along (",
+              *solution.scene.free_translation,
+              ") and its place is not unique; lower the loads or add a support");
+}
+
+template <int dim>
+std::string unresolved_bound(const Solution<dim> &solution)
+{
+  const std::vector<UnresolvedJump<dim>> jumps = solution.contact_space.unresolved_jumps();
+  if (jumps.empty())
+    return {};
+  const auto &worst =
+      *std::max_element(jumps.begin(), jumps.end(),
+                        [](const auto &a, const auto &b)
+                        { return a.height * a.face->length() < b.height * b.face->length(); });
+  return line("Friction bound jumps inside ", jumps.size(), jumps.size() == 1 ? " edge" : " edges",
+              ", by up to ", labelled(worst.height, solution.scene.stress_unit), " at (",
+              worst.where, ") in an edge of length ",
+              labelled(worst.face->length(), solution.scene.length_unit),
+              ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
+              "Geometry/Graded towards, or take more steps of an adaptive method");
+}
+} // namespace
+
+template <int dim>
+std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
+                                  const std::vector<double> &estimates,
+                                  const AlgebraicError &algebraic)
+{
+  std::vector<std::string> result;
+  for (const std::string &warning :
+       {tensile_contact(solution, tables), overshooting_multiplier(solution),
+        coarse_transition(solution), stagnating_estimate(estimates), rising_estimate(estimates),
+        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution),
+        unresolved_bound(solution)})
+    if (!warning.empty())
+      result.push_back(warning);
+  return result;
+}
+
+template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
+                                           const std::vector<double> &, const AlgebraicError &);
+} // namespace hpvi

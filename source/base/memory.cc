@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+// Present where OpenBLAS is the BLAS in use.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
+
+namespace hpvi
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/** The numbers of a file with lines "NAME NUMBER" or "NAME: NUMBER kB", in bytes. */
+std::map<std::string, double> read_numbers(const fs::path &path)
+{
+  std::map<std::string, double> result;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);)
+  {
+    std::istringstream words(line);
+    std::string name, unit;
+    double number;
+    if (words >> name >> number)
+    {
+      words >> unit;
+      result[name] = unit == "kB" ? 1024 * number : number;
+    }
+  }
+  return result;
+}
+
+/** The one number of a file; infinity where there is none, as in "max". */
+double read_number(const fs::path &path)
+{
+  double number;
+  return std::ifstream(path) >> number ? number : infinity;
+}
+
+/** What is left of @p limit; a limit that does not exist leaves everything. */
+AvailableMemory left_of(const double limit, const double used, const std::string &name)
+{
+  return {limit == infinity ? infinity : std::max(0., limit - used), name};
+}
+
+/** Of one control group of either version. Files that the kernel would give up first are free. */
+AvailableMemory left_in_group(const fs::path &group)
+{
+  std::map<std::string, double> statistics = read_numbers(group / "memory.stat");
+  if (fs::exists(group / "memory.max"))
+    return left_of(read_number(group / "memory.max"),
+                   read_number(group / "memory.current") - statistics["inactive_file"],
+                   "the control group");
+  return left_of(read_number(group / "memory.limit_in_bytes"),
+                 read_number(group / "memory.usage_in_bytes") - statistics["total_inactive_file"],
+                 "the control group");
+}
+
+/**
+ * Of the groups that the process is in. Inside a container its own group may be mounted as the
+ * root, so that the path does not exist there; then its parents lead to the root all the same.
+ */
+void add_groups(const fs::path &root, std::vector<AvailableMemory> &limits)
+{
+  std::ifstream file(root / "proc/self/cgroup");
+  for (std::string line; std::getline(file, line);)
+  {
+    std::istringstream fields(line);
+    std::string number, controllers, path;
+    std::getline(std::getline(std::getline(fields, number, ':'), controllers, ':'), path);
+    if (!controllers.empty() && controllers != "memory")
+      continue;
+    const fs::path home = root / "sys/fs/cgroup" / controllers;
+    fs::path group = fs::path(path).relative_path();
+    for (limits.push_back(left_in_group(home)); !group.empty(); group = group.parent_path())
+      limits.push_back(left_in_group(home / group));
+  }
+}
+
+double limit_of(const decltype(RLIMIT_AS) resource)
+{
+  rlimit limit;
+  return getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur
+                                                                             : infinity;
+}
+} // namespace
+
+std::string bytes_text(double bytes)
+{
+  const char *unit = "B";
+  for (const char *next : {"kB", "MB", "GB", "TB"})
+    if (bytes >= 999.5)
+    {
+      bytes /= 1000;
+      unit = next;
+    }
+  std::ostringstream text;
+  text.precision(3);
+  text << bytes << ' ' << unit;
+  return text.str();
+}
+
+AvailableMemory available_memory(const fs::path &root)
+{
+  std::map<std::string, double> process = read_numbers(root / "proc/self/status");
+  std::vector<AvailableMemory> limits = {
+      left_of(limit_of(RLIMIT_AS), process["VmSize:"], "the address space (ulimit -v)"),
+      left_of(limit_of(RLIMIT_DATA), process["VmData:"], "the data segment (ulimit -d)")};
+  std::map<std::string, double> machine = read_numbers(root / "proc/meminfo");
+  if (machine.count("MemAvailable:"))
+    limits.push_back(
+        left_of(machine["MemAvailable:"] + machine["SwapFree:"], 0, "the machine's memory"));
+  add_groups(root, limits);
+  return *std::min_element(limits.begin(), limits.end(),
+                           [](const auto &a, const auto &b) { return a.bytes < b.bytes; });
+}
+
+void require_memory(const double bytes, const std::string &purpose)
+{
+  // To read what is left takes as long as a small factorisation; no machine is that short of memory.
+  if (bytes < (1 << 26) && !mapping_is_limited())
+    return;
+  const AvailableMemory available = available_memory();
+  if (bytes > available.bytes)
+    throw NumericalFailure(purpose + " needs " + bytes_text(bytes) + " of memory, " +
+                           bytes_text(available.bytes) + " are left of " + available.limit +
+                           "; lower Adaptivity/Maximum unknowns, take fewer Geometry/Subdivisions "
+                           "or allow more memory");
+}
+
+bool mapping_is_limited()
+{
+  return limit_of(RLIMIT_AS) < infinity || limit_of(RLIMIT_DATA) < infinity;
+}
+
+void prepare_blas()
+{
+  if (!openblas_get_num_threads)
+    return;
+  // The largest of its buffers: 32 MB times 4, and a page.
+  const double buffer = 128. * (1 << 20) + (1 << 12);
+  const AvailableMemory available = available_memory();
+  if (mapping_is_limited() && available.bytes < buffer)
+    throw NumericalFailure("OpenBLAS needs " + bytes_text(buffer) + " of memory for its buffer, " +
+                           bytes_text(available.bytes) + " are left of " + available.limit +
+                           "; allow more memory");
+  const unsigned int n = 128; // on some machines smaller products go without a buffer
+  dealii::LAPACKFullMatrix<double> factor(n, n), product(n, n);
+  factor.mmult(product, factor);
+}
+} // namespace hpvi

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/edge_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+using Unknowns = std::vector<types::global_dof_index>;
+
+/** Adds the constraints of one edge after the other. */
+template <int dim>
+class EdgeConstraints
+{
+  static_assert(dim == 2, "edges of cells in the plane");
+
+public:
+  EdgeConstraints(const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+                  AffineConstraints<double> &constraints)
+      : space(space), tables(tables), constraints(constraints)
+  {
+  }
+
+  using Cell = typename Triangulation<dim>::active_cell_iterator;
+
+  void add(const Cell &cell, const unsigned int face)
+  {
+    const auto neighbor = cell->neighbor(face);
+    if (neighbor->has_children())
+      add_hanging(cell, face);
+    else if (!cell->neighbor_is_coarser(face) && degree(neighbor) < degree(cell))
+      bind(cell, face, whole_edge, unknowns(neighbor, cell->neighbor_face_no(face)),
+           degree(neighbor), degree(neighbor));
+  }
+
+private:
+  unsigned int degree(const Cell &cell) const
+  {
+    return space.degrees()[cell->active_cell_index()];
+  }
+
+  /** Unknowns of one edge, component by component, each in the direction of the edge. */
+  Unknowns unknowns(const Cell &cell, const unsigned int face) const
+  {
+    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    Unknowns result;
+    for (const unsigned int i : tables.numbering(degree(cell)).edge[face])
+      result.push_back(dofs[i]);
+    return result;
+  }
+
+  /** The larger cell and its two smaller neighbours follow one polynomial along the whole edge. */
+  void add_hanging(const Cell &cell, const unsigned int face)
+  {
+    const unsigned int neighbor_face = cell->neighbor_face_no(face);
+    unsigned int lowest = degree(cell);
+    for (unsigned int half = 0; half < 2; ++half)
+      lowest = std::min(lowest, degree(cell->neighbor_child_on_subface(face, half)));
+    const Unknowns all = unknowns(cell, face);
+    if (lowest < degree(cell))
+      bind(cell, face, whole_edge, all, degree(cell), lowest);
+    for (unsigned int half = 0; half < 2; ++half)
+      bind(cell->neighbor_child_on_subface(face, half), neighbor_face, half, all, degree(cell),
+           lowest);
+  }
+
+  /**
+   * Express the unknowns of @p cell on @p face, which is @p part of the edge with unknowns
+   * @p sources of degree @p source_degree, by the polynomial of degree @p trace_degree there.
+   */
+  void bind(const Cell &cell, const unsigned int face, const unsigned int part,
+            const Unknowns &sources, const unsigned int source_degree,
+            const unsigned int trace_degree)
+  {
+    const EdgeInterpolation &interpolation =
+        tables.edge_interpolation(source_degree, trace_degree, degree(cell), part);
+    const Unknowns targets = unknowns(cell, face);
+    const unsigned int n_targets = targets.size() / dim, n_sources = sources.size() / dim;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < n_targets; ++i)
+      {
+        const types::global_dof_index target = targets[c * n_targets + i];
+        // Ends of the edge and coinciding nodes are one unknown for both cells, and the node in
+        // the middle of a hanging edge belongs to two smaller cells.
+        if (constraints.is_constrained(target) ||
+            is_source(target, c * n_sources, sources, interpolation))
+          continue;
+        constraints.add_line(target);
+        for (unsigned int j = 0; j < interpolation.nodes.size(); ++j)
+          if (std::abs(interpolation.weights(i, j)) > 1e-15)
+            constraints.add_entry(target, sources[c * n_sources + interpolation.nodes[j]],
+                                  interpolation.weights(i, j));
+      }
+  }
+
+  static bool is_source(const types::global_dof_index unknown, const unsigned int first,
+                        const Unknowns &sources, const EdgeInterpolation &interpolation)
+  {
+    return std::any_of(interpolation.nodes.begin(), interpolation.nodes.end(),
+                       [&](const unsigned int node) { return sources[first + node] == unknown; });
+  }
+
+  const DisplacementSpace<dim> &space;
+  const ShapeTables<dim> &tables;
+  AffineConstraints<double> &constraints;
+};
+} // namespace
+
+template <int dim>
+void constrain_hanging_nodes(const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+                             AffineConstraints<double> &constraints)
+{
+  EdgeConstraints<dim> edges(space, tables, constraints);
+  for (const auto &cell : space.triangulation().active_cell_iterators())
+    if (!cell->is_artificial())
+      for (const unsigned int face : cell->face_indices())
+        if (!cell->at_boundary(face))
+          edges.add(cell, face);
+}
+
+template void constrain_hanging_nodes(const DisplacementSpace<2> &, const ShapeTables<2> &,
+                                      AffineConstraints<double> &);
+} // namespace hpvi

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <hpvi/body/mesh.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+std::vector<unsigned int> repetitions(const Geometry<dim> &geometry)
+{
+  return {geometry.subdivisions.begin(), geometry.subdivisions.end()};
+}
+
+/** The d-linear image of @p reference in [0,1]^dim. */
+template <int dim>
+Point<dim> map_to_body(const Geometry<dim> &geometry, const Point<dim> &reference)
+{
+  Point<dim> x;
+  for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
+    x += GeometryInfo<dim>::d_linear_shape_function(reference, v) * geometry.corners[v];
+  return x;
+}
+
+template <int dim>
+void grade_towards_points(const Geometry<dim> &geometry, Triangulation<dim> &triangulation)
+{
+  for (unsigned int level = 0; level < geometry.grading_levels; ++level)
+  {
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const Point<dim> &point : geometry.graded_towards)
+          // A point on a face belongs to both sides; the tolerance covers round-off of rotations.
+          if (cell->bounding_box().point_inside(point, 1e-10) &&
+              GeometryInfo<dim>::distance_to_unit_cell(
+                  cell->real_to_unit_cell_affine_approximation(point)) < 1e-8)
+            cell->set_refine_flag();
+    triangulation.execute_coarsening_and_refinement();
+  }
+}
+} // namespace
+
+template <int dim>
+void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
+{
+  const Geometry<dim> &geometry = scene.geometry;
+  constexpr unsigned int last = GeometryInfo<dim>::vertices_per_cell - 1;
+  if (geometry.shape == Shape::box)
+    GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry),
+                                              geometry.corners[0], geometry.corners[last],
+                                              /*colorize=*/true);
+  else
+  {
+    Point<dim> one;
+    for (unsigned int d = 0; d < dim; ++d)
+      one[d] = 1.;
+    GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry), Point<dim>(),
+                                              one, /*colorize=*/true);
+    GridTools::transform([&](const Point<dim> &x) { return map_to_body(geometry, x); },
+                         triangulation);
+  }
+  // Boundary conditions are looked up by the ids of faces, which refinement hands on.
+  AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
+              ExcMessage("The scene has no boundary of the number that a face carries."));
+  grade_towards_points(geometry, triangulation);
+}
+
+bool Refinement::is_empty(const Degrees &old_degrees) const
+{
+  return degrees == old_degrees && std::find(bisect.begin(), bisect.end(), true) == bisect.end();
+}
+
+template <int dim>
+Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
+                    const Refinement &refinement)
+{
+  // The user index of a cell stays with it when it becomes a parent; a new child has none.
+  for (const auto &cell : triangulation.active_cell_iterators())
+  {
+    cell->set_user_index(cell->active_cell_index() + 1);
+    if (cell->is_locally_owned() && refinement.bisect[cell->active_cell_index()])
+      cell->set_refine_flag();
+  }
+  triangulation.execute_coarsening_and_refinement();
+
+  Degrees new_degrees(triangulation.n_active_cells());
+  for (const auto &cell : triangulation.active_cell_iterators())
+    new_degrees[cell->active_cell_index()] = cell->user_index() != 0
+                                                 ? refinement.degrees[cell->user_index() - 1]
+                                                 : degrees[cell->parent()->user_index() - 1];
+  return new_degrees;
+}
+
+template void make_mesh(const Scene<2> &, Triangulation<2> &);
+template Degrees refine_mesh(Triangulation<2> &, const Degrees &, const Refinement &);
+} // namespace hpvi

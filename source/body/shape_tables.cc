@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/qprojector.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/lac/lapack_templates.h>
+#include <hpvi/body/shape_tables.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Value, first and second derivative of every 1D Lagrange polynomial at one coordinate. */
+using Derivatives1D = std::vector<std::array<double, 3>>;
+
+/** FE_Q(p) as products of Lagrange polynomials at the Gauss-Lobatto points. */
+template <int dim>
+class TensorElement
+{
+public:
+  explicit TensorElement(const unsigned int degree)
+      : polynomials(Polynomials::generate_complete_Lagrange_basis(
+            QGaussLobatto<1>(degree + 1).get_points())),
+        index(FETools::hierarchic_to_lexicographic_numbering<dim>(degree).size())
+  {
+    const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<dim>(degree);
+    for (unsigned int shape = 0; shape < index.size(); ++shape)
+      for (unsigned int d = 0, rest = lexicographic[shape]; d < dim; ++d, rest /= degree + 1)
+        index[shape][d] = rest % (degree + 1);
+  }
+
+  unsigned int n_shapes() const
+  {
+    return index.size();
+  }
+
+  void locate(const Point<dim> &point)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      factors[d].resize(polynomials.size());
+      for (unsigned int i = 0; i < polynomials.size(); ++i)
+        polynomials[i].value(point[d], 2, factors[d][i].data());
+    }
+  }
+
+  /** The derivative of the given order in each direction at the point located last. */
+  double derivative(const unsigned int shape, const std::array<unsigned int, dim> &order) const
+  {
+    double product = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      product *= factors[d][index[shape][d]][order[d]];
+    return product;
+  }
+
+private:
+  const std::vector<Polynomials::Polynomial<double>> polynomials;
+  std::vector<std::array<unsigned int, dim>> index; ///< of the factors of each shape function
+  std::array<Derivatives1D, dim> factors;
+};
+
+} // namespace
+
+template <int dim>
+ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>> &points,
+                         const std::vector<double> &weights, const bool second_derivatives)
+{
+  TensorElement<dim> element(degree);
+  ShapeTable<dim> table;
+  table.n_shapes = element.n_shapes();
+  table.rows_per_point = dim + (second_derivatives ? dim * dim : 0);
+  table.points = points;
+  table.weights = weights;
+  table.values.reinit(points.size(), table.n_shapes);
+  table.derivatives.reinit(points.size() * table.rows_per_point, table.n_shapes);
+  for (unsigned int q = 0; q < points.size(); ++q)
+  {
+    element.locate(points[q]);
+    for (unsigned int i = 0; i < table.n_shapes; ++i)
+    {
+      unsigned int row = q * table.rows_per_point;
+      table.values(q, i) = element.derivative(i, {});
+      for (unsigned int a = 0; a < dim; ++a)
+      {
+        std::array<unsigned int, dim> order{};
+        order[a] = 1;
+        table.derivatives(row++, i) = element.derivative(i, order);
+      }
+      for (unsigned int a = 0; second_derivatives && a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+        {
+          std::array<unsigned int, dim> order{};
+          ++order[a];
+          ++order[b];
+          table.derivatives(row++, i) = element.derivative(i, order);
+        }
+    }
+  }
+  return table;
+}
+
+namespace
+{
+constexpr unsigned int whole_cell = numbers::invalid_unsigned_int;
+constexpr unsigned int whole_face = numbers::invalid_unsigned_int;
+} // namespace
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::cell(const unsigned int degree,
+                                              const unsigned int n_gauss) const
+{
+  return in_cell(degree, n_gauss, true);
+}
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::gradients(const unsigned int degree,
+                                                   const unsigned int n_gauss) const
+{
+  return in_cell(degree, n_gauss, false);
+}
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::in_cell(const unsigned int degree,
+                                                 const unsigned int n_gauss,
+                                                 const bool second_derivatives) const
+{
+  const std::array<unsigned int, 4> key{{degree, whole_cell, second_derivatives, n_gauss}};
+  auto found = tables.find(key);
+  if (found == tables.end())
+  {
+    const QGauss<dim> gauss(n_gauss);
+    found = tables
+                .emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(),
+                                            second_derivatives))
+                .first;
+  }
+  return found->second;
+}
+
+template <int dim>
+const ShapeTable<dim> &ShapeTables<dim>::face(const unsigned int degree, const unsigned int face_no,
+                                              const unsigned int n_gauss) const
+{
+  return subface(degree, face_no, whole_face, n_gauss);
+}
+
+template <int dim>
+const ShapeTable<dim> &
+ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
+                          const unsigned int subface_no, const unsigned int n_gauss) const
+{
+  const std::array<unsigned int, 4> key{{degree, face_no, subface_no, n_gauss}};
+  auto found = tables.find(key);
+  if (found == tables.end())
+  {
+    const QGauss<dim - 1> gauss(n_gauss);
+    const auto hypercube = ReferenceCells::get_hypercube<dim>();
+    std::vector<Point<dim>> points(gauss.size());
+    if (subface_no == whole_face)
+      QProjector<dim>::project_to_face(hypercube, gauss, face_no, points);
+    else
+      QProjector<dim>::project_to_subface(hypercube, gauss, face_no, subface_no, points);
+    found = tables.emplace(key, tabulate<dim>(degree, points, gauss.get_weights(), false)).first;
+  }
+  return found->second;
+}
+
+template <int dim>
+const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highest) const
+{
+  while (finite_elements.size() < highest)
+    finite_elements.push_back(FESystem<dim>(FE_Q<dim>(finite_elements.size() + 1), dim));
+  return finite_elements;
+}
+
+namespace
+{
+/** deal.II lists the ends of an edge before the nodes between them. */
+template <int dim>
+void number_edges(const FiniteElement<dim> &fe, LocalNumbering &numbering)
+{
+  const unsigned int n_nodes = fe.degree + 1;
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+  {
+    numbering.edge.emplace_back(dim * n_nodes);
+    for (unsigned int i = 0; i < fe.n_dofs_per_face(face); ++i)
+    {
+      const auto [component, shape] = fe.face_system_to_component_index(i, face);
+      const unsigned int node = shape == 0 ? 0 : shape == 1 ? fe.degree : shape - 1;
+      numbering.edge.back()[component * n_nodes + node] = fe.face_to_cell_index(i, face);
+    }
+  }
+}
+} // namespace
+
+template <int dim>
+const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) const
+{
+  auto found = numberings.find(degree);
+  if (found == numberings.end())
+  {
+    const FiniteElement<dim> &fe = elements(degree)[degree - 1];
+    LocalNumbering numbering;
+    numbering.n_boundary = fe.n_dofs_per_cell() - fe.template n_dofs_per_object<dim>();
+    for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+    {
+      numbering.component.push_back(fe.system_to_component_index(i).first);
+      numbering.shape.push_back(fe.system_to_component_index(i).second);
+    }
+    if (dim == 2)
+      number_edges(fe, numbering);
+    found = numberings.emplace(degree, std::move(numbering)).first;
+  }
+  return found->second;
+}
+
+namespace
+{
+/** 1 / prod_k (x_i - x_k) of node i among @p nodes. */
+double barycentric_weight(const std::vector<Point<1>> &x, const std::vector<unsigned int> &nodes,
+                          const unsigned int i)
+{
+  double product = 1.;
+  for (const unsigned int k : nodes)
+    if (k != nodes[i])
+      product *= x[nodes[i]][0] - x[k][0];
+  return 1. / product;
+}
+
+/**
+ * @p n of the nodes @p x, its ends among them. The one of the largest barycentric weight goes first:
+ * its value follows from the others by quotients of these weights, none above 1.
+ */
+std::vector<unsigned int> select_nodes(const std::vector<Point<1>> &x, const unsigned int n)
+{
+  std::vector<unsigned int> nodes(x.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  while (nodes.size() > n)
+  {
+    unsigned int largest = 1;
+    for (unsigned int i = 2; i + 1 < nodes.size(); ++i)
+      if (std::abs(barycentric_weight(x, nodes, i)) >
+          std::abs(barycentric_weight(x, nodes, largest)) * (1 + 1e-9))
+        largest = i;
+    nodes.erase(nodes.begin() + largest);
+  }
+  return nodes;
+}
+} // namespace
+
+template <int dim>
+const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int source_degree,
+                                                              const unsigned int trace_degree,
+                                                              const unsigned int target_degree,
+                                                              const unsigned int part) const
+{
+  const auto [found, is_new] = interpolations.try_emplace(
+      std::array<unsigned int, 4>{{source_degree, trace_degree, target_degree, part}});
+  EdgeInterpolation &result = found->second;
+  if (is_new)
+  {
+    const std::vector<Point<1>> x = QGaussLobatto<1>(source_degree + 1).get_points();
+    const std::vector<Point<1>> targets = QGaussLobatto<1>(target_degree + 1).get_points();
+    result.nodes = select_nodes(x, trace_degree + 1);
+    result.weights.reinit(targets.size(), result.nodes.size());
+    for (unsigned int i = 0; i < targets.size(); ++i)
+    {
+      const double t = part == whole_edge ? targets[i][0] : (part + targets[i][0]) / 2;
+      for (unsigned int j = 0; j < result.nodes.size(); ++j)
+      {
+        double product = barycentric_weight(x, result.nodes, j);
+        for (const unsigned int k : result.nodes)
+          if (k != result.nodes[j])
+            product *= t - x[k][0];
+        result.weights(i, j) = product;
+      }
+    }
+  }
+  return result;
+}
+
+template <int dim>
+const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
+{
+  return gauss_rules.try_emplace(n_gauss, n_gauss).first->second;
+}
+
+template <int dim>
+const std::vector<double> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
+{
+  const auto [found, is_new] = gauss_lobatto_points.try_emplace(n_points);
+  if (is_new)
+  {
+    const QGaussLobatto<1> rule(n_points);
+    for (const Point<1> &x : rule.get_points())
+      found->second.push_back(x[0]);
+  }
+  return found->second;
+}
+
+template <int dim>
+const std::vector<Polynomials::Polynomial<double>> &
+ShapeTables<dim>::gauss_lagrange(const unsigned int n_gauss) const
+{
+  auto found = lagrange_bases.find(n_gauss);
+  if (found == lagrange_bases.end())
+    found = lagrange_bases
+                .emplace(n_gauss,
+                         Polynomials::generate_complete_Lagrange_basis(gauss(n_gauss).get_points()))
+                .first;
+  return found->second;
+}
+
+std::vector<double> evaluate(const FullMatrix<double> &table,
+                             const std::vector<double> &coefficients)
+{
+  // A row-major matrix is its transpose to BLAS.
+  const types::blas_int rows = table.m(), shapes = table.n(),
+                        components = coefficients.size() / table.n();
+  const double one = 1., zero = 0.;
+  std::vector<double> result(rows * components);
+  gemm("T", "N", &rows, &components, &shapes, &one, &table(0, 0), &shapes, coefficients.data(),
+       &shapes, &zero, result.data(), &rows);
+  return result;
+}
+
+namespace
+{
+/** Derivative of the d-linear shape function of vertex v, of the given order per direction. */
+template <int dim>
+double vertex_shape(const unsigned int v, const Point<dim> &xi,
+                    const std::array<unsigned int, dim> &order)
+{
+  double product = 1.;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const bool far = (v >> d) & 1;
+    if (order[d] == 0)
+      product *= far ? xi[d] : 1. - xi[d];
+    else if (order[d] == 1)
+      product *= far ? 1. : -1.;
+    else
+      return 0.;
+  }
+  return product;
+}
+} // namespace
+
+template <int dim>
+CellMap<dim>::CellMap(const Vertices &vertices) : corners(vertices), affine(false)
+{
+  Point<dim> centre;
+  for (unsigned int d = 0; d < dim; ++d)
+    centre[d] = 0.5;
+  constant_jacobian = jacobian(centre);
+  affine = hessian(centre).norm() <= 1e-12 * constant_jacobian.norm();
+}
+
+template <int dim>
+const typename CellMap<dim>::Vertices &CellMap<dim>::vertices() const
+{
+  return corners;
+}
+
+template <int dim>
+bool CellMap<dim>::is_affine() const
+{
+  return affine;
+}
+
+template <int dim>
+Point<dim> CellMap<dim>::point(const Point<dim> &reference) const
+{
+  Point<dim> x;
+  for (unsigned int v = 0; v < corners.size(); ++v)
+    x += vertex_shape<dim>(v, reference, {}) * corners[v];
+  return x;
+}
+
+template <int dim>
+Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
+{
+  if (affine)
+    return constant_jacobian;
+  Tensor<2, dim> J;
+  for (unsigned int j = 0; j < dim; ++j)
+  {
+    std::array<unsigned int, dim> order{};
+    order[j] = 1;
+    for (unsigned int v = 0; v < corners.size(); ++v)
+      for (unsigned int i = 0; i < dim; ++i)
+        J[i][j] += vertex_shape<dim>(v, reference, order) * corners[v][i];
+  }
+  return J;
+}
+
+template <int dim>
+Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
+{
+  Tensor<3, dim> H;
+  if (affine)
+    return H;
+  for (unsigned int j = 0; j < dim; ++j)
+    for (unsigned int k = 0; k < dim; ++k)
+    {
+      std::array<unsigned int, dim> order{};
+      ++order[j];
+      ++order[k];
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        for (unsigned int i = 0; i < dim; ++i)
+          H[i][j][k] += vertex_shape<dim>(v, reference, order) * corners[v][i];
+    }
+  return H;
+}
+
+template struct ShapeTable<2>;
+template class ShapeTables<2>;
+template class CellMap<2>;
+template class CellMap<1>;
+template ShapeTable<2> tabulate(unsigned int, const std::vector<Point<2>> &,
+                                const std::vector<double> &, bool);
+} // namespace hpvi

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/body/supports.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Directions that differ by less say the same, as in the check of the scene. */
+constexpr double repeats = 1e-6;
+
+/** What @p boundary asks of a node at @p x on an edge with outer normal @p normal. */
+template <int dim>
+void add_conditions(const BoundaryCondition<dim> &boundary, const Point<dim> &x,
+                    const Tensor<1, dim> &normal, std::vector<NodeCondition<dim>> &conditions)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (boundary.displacement[d] != nullptr)
+    {
+      Tensor<1, dim> direction;
+      direction[d] = 1.;
+      conditions.push_back({direction, boundary.displacement[d]->value(x), boundary.id});
+    }
+  if (boundary.bilateral_contact)
+    conditions.push_back({normal, 0., boundary.id});
+}
+
+/** Orthonormal conditions with the same solutions, by Gram and Schmidt. */
+template <int dim>
+std::vector<NodeCondition<dim>> independent(const std::vector<NodeCondition<dim>> &conditions)
+{
+  std::vector<NodeCondition<dim>> basis;
+  for (NodeCondition<dim> rest : conditions)
+  {
+    for (const NodeCondition<dim> &q : basis)
+    {
+      const double product = rest.direction * q.direction;
+      rest.direction -= product * q.direction;
+      rest.value -= product * q.value;
+    }
+    const double norm = rest.direction.norm();
+    if (norm > repeats)
+      basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
+  }
+  return basis;
+}
+} // namespace
+
+template <int dim>
+std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
+                                                const DisplacementSpace<dim> &space,
+                                                const ShapeTables<dim> &tables)
+{
+  static_assert(dim == 2, "nodes along a straight edge");
+  std::map<types::global_dof_index, SupportedNode<dim>> nodes;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned() && cell->at_boundary())
+      for (const unsigned int f : cell->face_indices())
+      {
+        if (!cell->at_boundary(f))
+          continue;
+        const auto face = cell->face(f);
+        const BoundaryCondition<dim> &boundary = scene.boundaries[face->boundary_id()];
+        if (!boundary.has_displacement() && !boundary.bilateral_contact)
+          continue;
+        const Tensor<1, dim> normal = outer_normal<dim>(cell, f);
+        const unsigned int p = space.degrees()[cell->active_cell_index()];
+        const auto dofs = space.cell_dofs(cell->active_cell_index());
+        const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[f];
+        const std::vector<double> &s = tables.gauss_lobatto(p + 1);
+        for (unsigned int k = 0; k <= p; ++k)
+        {
+          SupportedNode<dim> &node = nodes[dofs[on_edge[k]]];
+          for (unsigned int c = 0; c < dim; ++c)
+            node.dofs[c] = dofs[on_edge[c * (p + 1) + k]];
+          node.x = k == p ? face->vertex(1)
+                          : face->vertex(0) + s[k] * (face->vertex(1) - face->vertex(0));
+          // A vertex inside an edge of the body gets the same conditions from both of its cells.
+          if (std::none_of(node.conditions.begin(), node.conditions.end(),
+                           [&](const auto &known) { return known.boundary == boundary.id; }))
+            add_conditions(boundary, node.x, normal, node.conditions);
+        }
+      }
+  std::vector<SupportedNode<dim>> result;
+  for (auto &node : nodes)
+    result.push_back(std::move(node.second));
+  return result;
+}
+
+template <int dim>
+void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
+                        AffineConstraints<double> &constraints)
+{
+  for (const SupportedNode<dim> &node : nodes)
+  {
+    std::vector<NodeCondition<dim>> rows = independent(node.conditions);
+    std::vector<unsigned int> pivots;
+    // Gauss and Jordan: each row is solved for its largest component, which leaves the others.
+    for (NodeCondition<dim> &row : rows)
+    {
+      unsigned int pivot = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(row.direction[d]) > std::abs(row.direction[pivot]))
+          pivot = d;
+      row.value /= row.direction[pivot];
+      row.direction /= row.direction[pivot];
+      for (NodeCondition<dim> &other : rows)
+        if (&other != &row)
+        {
+          const double factor = other.direction[pivot];
+          other.value -= factor * row.value;
+          other.direction -= factor * row.direction;
+          other.direction[pivot] = 0.;
+        }
+      pivots.push_back(pivot);
+    }
+    for (unsigned int k = 0; k < rows.size(); ++k)
+    {
+      const types::global_dof_index dof = node.dofs[pivots[k]];
+      constraints.add_line(dof);
+      constraints.set_inhomogeneity(dof, rows[k].value);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != pivots[k] &&
+            std::abs(rows[k].direction[d]) > std::numeric_limits<double>::epsilon())
+          constraints.add_entry(dof, node.dofs[d], -rows[k].direction[d]);
+    }
+  }
+}
+
+/** With the orthonormal basis Q of the directions d_k: `mu = C' (C C')^{-1} Q force`, C_jk = q_j . d_k. */
+template <int dim>
+std::vector<double> SupportedNode<dim>::split(const Tensor<1, dim> &force) const
+{
+  const std::vector<NodeCondition<dim>> basis = independent(conditions);
+  FullMatrix<double> C(basis.size(), conditions.size()), CC(basis.size(), basis.size());
+  Vector<double> components(basis.size()), weights(basis.size()), result(conditions.size());
+  for (unsigned int j = 0; j < basis.size(); ++j)
+  {
+    components[j] = basis[j].direction * force;
+    for (unsigned int k = 0; k < conditions.size(); ++k)
+      C(j, k) = basis[j].direction * conditions[k].direction;
+  }
+  C.mTmult(CC, C);
+  CC.gauss_jordan();
+  CC.vmult(weights, components);
+  C.Tvmult(result, weights);
+  return {result.begin(), result.end()};
+}
+
+template struct SupportedNode<2>;
+template std::vector<SupportedNode<2>>
+supported_nodes(const Scene<2> &, const DisplacementSpace<2> &, const ShapeTables<2> &);
+template void constrain_supports(const std::vector<SupportedNode<2>> &,
+                                 AffineConstraints<double> &);
+} // namespace hpvi

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/multiplier_trace.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
+                                      const Vector<double> &lambda)
+{
+  for (const ContactFace<dim> &face : contact_space.faces())
+  {
+    const auto first = lambda.begin() + face.first_multiplier;
+    pieces.push_back({face.condition->id,
+                      face.point(0.),
+                      face.point(1.) - face.point(0.),
+                      {first, first + face.n_multipliers}});
+  }
+}
+
+template <int dim>
+Vector<double> MultiplierTrace<dim>::values(const ContactSpace<dim> &finer,
+                                            const ShapeTables<dim> &tables) const
+{
+  Vector<double> result(finer.n_multipliers());
+  auto piece = pieces.begin();
+  const auto place = [&](const Point<dim> &x)
+  { return (x - piece->begin) * piece->edge / piece->edge.norm_square(); };
+  const auto holds = [&](const ContactFace<dim> &face)
+  {
+    const double s = place(face.point(0.5));
+    return piece->boundary == face.condition->id && s > 0 && s < 1;
+  };
+  for (const ContactFace<dim> &face : finer.faces())
+  {
+    while (piece != pieces.end() && !holds(face))
+      ++piece;
+    if (piece == pieces.end())
+      break;
+    if (piece->values.empty())
+      continue;
+    const auto &basis = tables.gauss_lagrange(piece->values.size());
+    for (unsigned int i = 0; i < face.n_multipliers; ++i)
+    {
+      const double s = place(face.point(tables.gauss(face.n_multipliers).point(i)[0]));
+      for (unsigned int k = 0; k < basis.size(); ++k)
+        result[face.first_multiplier + i] += piece->values[k] * basis[k].value(s);
+    }
+  }
+  return result;
+}
+
+template class MultiplierTrace<2>;
+} // namespace hpvi

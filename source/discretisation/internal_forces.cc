@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/lac/lapack_templates.h>
+#include <hpvi/body/element_matrices.h>
+#include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/evaluation/stress.h>
+
+#include <algorithm>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** C := op(A) B by BLAS, all matrices by columns. */
+void multiply(const char *transpose, const unsigned int rows, const unsigned int columns,
+              const unsigned int inner, const double *A, const unsigned int A_rows,
+              const std::vector<double> &B, std::vector<double> &C)
+{
+  const types::blas_int m = rows, n = columns, k = inner, lda = A_rows;
+  const double one = 1., zero = 0.;
+  C.resize(static_cast<std::size_t>(rows) * columns);
+  gemm(transpose, "N", &m, &n, &k, &one, A, &lda, B.data(), &k, &zero, C.data(), &m);
+}
+
+/** The cells of one degree and one quadrature, some of them at a time: one matrix product serves all. */
+template <int dim>
+class Batch
+{
+public:
+  Batch(const Material &material, const DisplacementSpace<dim> &space,
+        const ShapeTables<dim> &tables, const unsigned int degree, const unsigned int n_gauss)
+      : material(material), space(space), table(tables.gradients(degree, n_gauss)),
+        numbering(tables.numbering(degree)), n_rows(table.derivatives.m())
+  {
+  }
+
+  void add(const unsigned int cell, const CellMap<dim> &map, const Vector<double> &u,
+           InternalForces &sum)
+  {
+    const auto dofs = space.cell_dofs(cell);
+    const std::size_t first = coefficients.size(), n = table.n_shapes;
+    coefficients.resize(first + dim * n);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      coefficients[first + numbering.component[i] * n + numbering.shape[i]] = u[dofs[i]];
+    cells.push_back(cell);
+    maps.push_back(map);
+    if (cells.size() == 64)
+      flush(sum);
+  }
+
+  void flush(InternalForces &sum)
+  {
+    // deal.II's matrix by rows is its transpose by columns.
+    const double *const D = &table.derivatives(0, 0);
+    const unsigned int n = table.n_shapes, columns = dim * cells.size();
+    if (columns == 0)
+      return;
+    multiply("T", n_rows, columns, n, D, n, coefficients, values);
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      sum.energy_product += strains_to_stresses(maps[k], &values[std::size_t(k) * dim * n_rows]);
+    multiply("N", n, columns, n_rows, D, n, values, coefficients);
+    for (unsigned int k = 0; k < cells.size(); ++k)
+    {
+      const auto dofs = space.cell_dofs(cells[k]);
+      const double *const local = &coefficients[std::size_t(k) * dim * n];
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        sum.forces[dofs[i]] += local[numbering.component[i] * n + numbering.shape[i]];
+    }
+    cells.clear();
+    maps.clear();
+    coefficients.clear();
+  }
+
+private:
+  /**
+   * Reference gradients at all points of a cell become `J^-1 sigma |det J| w`, what reference
+   * gradients of test functions are multiplied with. Returns the cell's part of a(u,u).
+   */
+  double strains_to_stresses(const CellMap<dim> &map, double *const value) const
+  {
+    double energy = 0;
+    Tensor<2, dim> J, inverse;
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+    {
+      if (q == 0 || !map.is_affine())
+      {
+        J = map.jacobian(table.points[q]);
+        inverse = invert(J);
+      }
+      Tensor<2, dim> reference;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < dim; ++r)
+          reference[c][r] = value[c * n_rows + q * dim + r];
+      const Tensor<2, dim> gradient = reference * inverse;
+      const double weight = table.weights[q] * std::abs(determinant(J));
+      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(stress(material, gradient));
+      energy += scalar_product(sigma, gradient);
+      const Tensor<2, dim> pulled = sigma * transpose(inverse);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < dim; ++r)
+          value[c * n_rows + q * dim + r] = pulled[c][r];
+    }
+    return energy;
+  }
+
+  const Material &material;
+  const DisplacementSpace<dim> &space;
+  const ShapeTable<dim> &table;
+  const LocalNumbering &numbering;
+  const unsigned int n_rows; ///< of the table of derivatives, points times dim
+  std::vector<unsigned int> cells;
+  std::vector<CellMap<dim>> maps;
+  std::vector<double> coefficients, values; ///< by columns: cell after cell, component by component
+};
+} // namespace
+
+template <int dim>
+InternalForces internal_forces(const Material &material, const DisplacementSpace<dim> &space,
+                               const ShapeTables<dim> &tables, const Vector<double> &u)
+{
+  InternalForces result;
+  result.forces.reinit(space.n_dofs());
+  std::map<std::pair<unsigned int, unsigned int>, Batch<dim>> batches;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
+      const CellMap<dim> map = map_of<dim>(cell);
+      const unsigned int n_gauss = stiffness_points(map, p);
+      const auto batch =
+          batches.try_emplace({p, n_gauss}, material, space, tables, p, n_gauss).first;
+      batch->second.add(index, map, u, result);
+    }
+  for (auto &batch : batches)
+    batch.second.flush(result);
+  return result;
+}
+
+template InternalForces internal_forces(const Material &, const DisplacementSpace<2> &,
+                                        const ShapeTables<2> &, const Vector<double> &);
+} // namespace hpvi

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/edge_constraints.h>
+#include <hpvi/body/supports.h>
+#include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/evaluation/equilibrium.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Adds up nodal forces by boundary, and their absolute values. */
+template <int dim>
+class Resultants
+{
+  static_assert(dim == 2, "a moment is a number");
+
+public:
+  explicit Resultants(const Solution<dim> &solution) : scene(solution.scene)
+  {
+    result.centre = centre_of(scene.geometry);
+    result.loads.boundary = "loads";
+    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+      result.reactions.push_back({boundary.name, {}, 0});
+  }
+
+  void add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
+  {
+    const Tensor<1, dim> arm = x - result.centre;
+    sum.force += force;
+    sum.moment += arm[0] * force[1] - arm[1] * force[0];
+    absolute_force += force.norm();
+    absolute_moment += arm.norm() * force.norm();
+  }
+
+  /** One component of a load at one node. */
+  void add_load(const unsigned int component, const double value, const Point<dim> &x)
+  {
+    Tensor<1, dim> force;
+    force[component] = value;
+    add(result.loads, force, x);
+  }
+
+  void add_reaction(const types::boundary_id boundary, const Tensor<1, dim> &force,
+                    const Point<dim> &x)
+  {
+    add(result.reactions[boundary], force, x);
+  }
+
+  /** Without the boundaries that carry nothing. */
+  Equilibrium<dim> finish()
+  {
+    Tensor<1, dim> force = result.loads.force;
+    double moment = result.loads.moment;
+    std::vector<BoundaryForce<dim>> supporting;
+    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    {
+      const BoundaryForce<dim> &reaction = result.reactions[boundary.id];
+      force += reaction.force;
+      moment += reaction.moment;
+      if (boundary.has_displacement() || boundary.bilateral_contact)
+        supporting.push_back(reaction);
+    }
+    result.reactions = supporting;
+    result.force_imbalance = absolute_force > 0 ? force.norm() / absolute_force : 0.;
+    result.moment_imbalance = absolute_moment > 0 ? std::abs(moment) / absolute_moment : 0.;
+    return result;
+  }
+
+private:
+  const Scene<dim> &scene;
+  Equilibrium<dim> result;
+  double absolute_force = 0, absolute_moment = 0;
+};
+
+/** Where every displacement unknown has its node, and which component it is. */
+template <int dim>
+struct Nodes
+{
+  std::vector<Point<dim>> x;
+  std::vector<unsigned int> component;
+
+  explicit Nodes(const DisplacementSpace<dim> &space) : x(space.n_dofs()), component(space.n_dofs())
+  {
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        const CellMap<dim> map = map_of<dim>(cell);
+        const auto dofs = space.cell_dofs(cell->active_cell_index());
+        const auto &support_points = cell->get_fe().get_unit_support_points();
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          x[dofs[i]] = map.point(support_points[i]);
+          component[dofs[i]] = cell->get_fe().system_to_component_index(i).first;
+        }
+      }
+  }
+};
+
+/** Forces on hanging nodes act on the nodes that these depend on. */
+void carry_to_masters(const AffineConstraints<double> &hanging, Vector<double> &forces)
+{
+  for (types::global_dof_index dof = 0; dof < forces.size(); ++dof)
+    if (const auto *entries = hanging.get_constraint_entries(dof))
+    {
+      for (const auto &[master, weight] : *entries)
+        forces[master] += weight * forces[dof];
+      forces[dof] = 0.;
+    }
+}
+} // namespace
+
+template <int dim>
+Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system,
+                             const ShapeTables<dim> &tables)
+{
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const Nodes<dim> nodes(space);
+  Resultants<dim> resultants(solution);
+  for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
+    if (system.loads()[dof] != 0.)
+      resultants.add_load(nodes.component[dof], system.loads()[dof], nodes.x[dof]);
+
+  Vector<double> reactions =
+      internal_forces(solution.scene.material, space, tables, solution.u).forces;
+  reactions -= system.loads();
+  for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
+    if (boundary.bilateral_contact && solution.lambda.size() > 0)
+    {
+      const Vector<double> friction = system.friction_forces(solution.lambda, boundary.id);
+      reactions += friction;
+      for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
+        if (friction[dof] != 0.)
+        {
+          Tensor<1, dim> force;
+          force[nodes.component[dof]] = -friction[dof];
+          resultants.add_reaction(boundary.id, force, nodes.x[dof]);
+        }
+    }
+
+  AffineConstraints<double> hanging;
+  constrain_hanging_nodes(space, tables, hanging);
+  hanging.close();
+  carry_to_masters(hanging, reactions);
+  for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space, tables))
+  {
+    Tensor<1, dim> force;
+    for (unsigned int c = 0; c < dim; ++c)
+      force[c] = reactions[node.dofs[c]];
+    const std::vector<double> shares = node.split(force);
+    for (unsigned int k = 0; k < shares.size(); ++k)
+      resultants.add_reaction(node.conditions[k].boundary, shares[k] * node.conditions[k].direction,
+                              node.x);
+  }
+  return resultants.finish();
+}
+
+template struct Equilibrium<2>;
+template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &,
+                                    const ShapeTables<2> &);
+} // namespace hpvi

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <hpvi/evaluation/residual_estimator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+namespace hpvi
+{
+using namespace dealii;
+
+double ErrorEstimate::indicator(const unsigned int cell) const
+{
+  return std::sqrt(volume[cell] + jumps[cell] + neumann[cell] + contact[cell]);
+}
+
+double ErrorEstimate::total() const
+{
+  double sum = 0;
+  for (const auto *part : {&volume, &jumps, &neumann, &contact})
+    sum = std::accumulate(part->begin(), part->end(), sum);
+  return std::sqrt(sum);
+}
+
+namespace
+{
+/** One pass over the cells of a solution. */
+template <int dim>
+class Residuals
+{
+public:
+  using Cell = typename DoFHandler<dim>::active_cell_iterator;
+
+  Residuals(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+  ErrorEstimate compute();
+
+private:
+  void add_volume(const Cell &cell);
+  void add_jump(const Cell &cell, unsigned int face);
+  void add_boundary(const Cell &cell, unsigned int face);
+  void add_contact(const ContactFace<dim> &face);
+
+  Tensor<2, dim> stress(const Tensor<2, dim> &gradient) const;
+  std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
+                                        const Tensor<1, dim> &normal) const;
+  double weight(unsigned int cell) const; ///< h_K/p_K
+
+  const Solution<dim> &solution;
+  const ShapeTables<dim> &tables;
+  const Degrees &degrees;
+  const double lambda, mu;
+  std::vector<std::vector<double>> coefficients; ///< of u_N, by active cell index
+  std::vector<double> sizes;                     ///< h_K, the longest edge
+  std::vector<CellMap<dim>> maps;
+  ErrorEstimate result;
+};
+
+template <int dim>
+Residuals<dim>::Residuals(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+    : solution(solution), tables(tables), degrees(solution.displacement_space.degrees()),
+      lambda(solution.scene.material.lambda(dim)), mu(solution.scene.material.mu())
+{
+  const unsigned int n_cells = degrees.size();
+  for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
+    part->assign(n_cells, 0.);
+  for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int index = cell->active_cell_index();
+    coefficients.push_back(solution.coefficients(index, tables.numbering(degrees[index])));
+    maps.push_back(map_of<dim>(cell));
+    double longest = 0;
+    for (const unsigned int line : cell->line_indices())
+      longest = std::max(longest, cell->line(line)->diameter());
+    sizes.push_back(longest);
+  }
+}
+
+template <int dim>
+double Residuals<dim>::weight(const unsigned int cell) const
+{
+  return sizes[cell] / degrees[cell];
+}
+
+template <int dim>
+Tensor<2, dim> Residuals<dim>::stress(const Tensor<2, dim> &gradient) const
+{
+  Tensor<2, dim> sigma = mu * (gradient + transpose(gradient));
+  const double pressure = lambda * trace(gradient);
+  for (unsigned int d = 0; d < dim; ++d)
+    sigma[d][d] += pressure;
+  return sigma;
+}
+
+/** d u_c / d x_j from reference derivatives of point q in @p derivatives (see evaluate()). */
+template <int dim>
+Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
+                                 const unsigned int first_row, const unsigned int n_rows,
+                                 const Tensor<2, dim> &inverse_jacobian)
+{
+  Tensor<2, dim> gradient;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int r = 0; r < dim; ++r)
+      for (unsigned int j = 0; j < dim; ++j)
+        gradient[c][j] += derivatives[c * n_rows + first_row + r] * inverse_jacobian[r][j];
+  return gradient;
+}
+
+/**
+ * -div sigma(u) - F at a point, with div sigma = (lambda + mu) grad div u + mu Laplace u; second
+ * derivatives by the chain rule `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
+ */
+template <int dim>
+void Residuals<dim>::add_volume(const Cell &cell)
+{
+  const unsigned int index = cell->active_cell_index(), p = degrees[index];
+  const ShapeTable<dim> &table = tables.cell(p, p + 1);
+  const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
+  const unsigned int n_rows = table.derivatives.m();
+  Tensor<2, dim> J, inverse;
+  Tensor<3, dim> H;
+  double sum = 0;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    if (q == 0 || !maps[index].is_affine())
+    {
+      J = maps[index].jacobian(table.points[q]);
+      H = maps[index].hessian(table.points[q]);
+      inverse = invert(J);
+    }
+    const unsigned int row = q * table.rows_per_point;
+    const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, row, n_rows, inverse);
+    Tensor<1, dim> residual;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      Tensor<2, dim> second;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+        {
+          second[a][b] = derivatives[c * n_rows + row + dim + a * dim + b];
+          for (unsigned int k = 0; k < dim; ++k)
+            second[a][b] -= gradient[c][k] * H[k][a][b];
+        }
+      second = transpose(inverse) * second * inverse;
+      residual[c] -= mu * trace(second);
+      for (unsigned int d = 0; d < dim; ++d)
+        residual[d] -= (lambda + mu) * second[d][c];
+    }
+    if (solution.scene.has_body_force())
+    {
+      const Point<dim> x = maps[index].point(table.points[q]);
+      for (unsigned int c = 0; c < dim; ++c)
+        if (solution.scene.body_force[c])
+          residual[c] -= solution.scene.body_force[c]->value(x);
+    }
+    sum += table.weights[q] * std::abs(determinant(J)) * residual.norm_square();
+  }
+  result.volume[index] = weight(index) * weight(index) * sum;
+}
+
+template <int dim>
+std::vector<Tensor<1, dim>> Residuals<dim>::tractions(const Cell &cell,
+                                                      const ShapeTable<dim> &table,
+                                                      const Tensor<1, dim> &normal) const
+{
+  const unsigned int index = cell->active_cell_index();
+  const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
+  std::vector<Tensor<1, dim>> result(table.points.size());
+  for (unsigned int q = 0; q < result.size(); ++q)
+    result[q] =
+        stress(physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
+                                      invert(maps[index].jacobian(table.points[q])))) *
+        normal;
+  return result;
+}
+
+/** Half the jump of the traction over an interior edge, seen from its finer or first side. */
+template <int dim>
+void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
+{
+  const Cell neighbor = cell->neighbor(face);
+  const unsigned int index = cell->active_cell_index(), other = neighbor->active_cell_index();
+  const unsigned int n_gauss = std::max(degrees[index], degrees[other]) + 1;
+  const ShapeTable<dim> *other_table;
+  if (cell->neighbor_is_coarser(face))
+  {
+    const auto [other_face, subface] = cell->neighbor_of_coarser_neighbor(face);
+    other_table = &tables.subface(degrees[other], other_face, subface, n_gauss);
+  }
+  else
+    other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
+
+  const Tensor<1, dim> normal = outer_normal<dim>(cell, face);
+  const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
+  const auto own = tractions(cell, table, normal),
+             opposite = tractions(neighbor, *other_table, normal);
+  double sum = 0;
+  for (unsigned int q = 0; q < own.size(); ++q)
+    sum += table.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
+  sum *= cell->face(face)->measure();
+  result.jumps[index] += weight(index) * sum;
+  result.jumps[other] += weight(other) * sum;
+}
+
+/** sigma n - G in the components that no support prescribes. */
+template <int dim>
+void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
+{
+  const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
+  const unsigned int index = cell->active_cell_index();
+  const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
+  const auto own = tractions(cell, table, outer_normal<dim>(cell, face));
+  double sum = 0;
+  for (unsigned int q = 0; q < own.size(); ++q)
+    for (unsigned int c = 0; c < dim; ++c)
+      if (!condition.displacement[c])
+      {
+        double residual = own[q][c];
+        if (condition.traction[c])
+          residual -= condition.traction[c]->value(maps[index].point(table.points[q]));
+        sum += table.weights[q] * residual * residual;
+      }
+  result.neumann[index] += weight(index) * cell->face(face)->measure() * sum;
+}
+
+/** sigma_t + g lambda_N (minus the tangential part of an applied traction). */
+template <int dim>
+void Residuals<dim>::add_contact(const ContactFace<dim> &face)
+{
+  const unsigned int index = face.cell->active_cell_index();
+  const FrictionRule &rule = face.friction;
+  const auto own = tractions(face.cell, face.friction_table(tables), face.normal);
+  double sum = 0;
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
+  {
+    const double s = rule.points[q];
+    const Point<dim> x = face.point(s);
+    double residual = own[q] * face.tangent;
+    if (face.n_multipliers > 0)
+      residual += rule.values[q] * solution.contact_space.value(face, solution.lambda, s);
+    for (unsigned int c = 0; c < dim; ++c)
+      if (face.condition->traction[c])
+        residual -= face.tangent[c] * face.condition->traction[c]->value(x);
+    sum += rule.weights[q] * residual * residual;
+  }
+  result.contact[index] += weight(index) * face.length() * sum;
+}
+
+template <int dim>
+ErrorEstimate Residuals<dim>::compute()
+{
+  for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    add_volume(cell);
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face))
+      {
+        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].bilateral_contact)
+          add_boundary(cell, face);
+      }
+      else if (!cell->face(face)->has_children() &&
+               (cell->neighbor_is_coarser(face) ||
+                cell->active_cell_index() < cell->neighbor(face)->active_cell_index()))
+        add_jump(cell, face);
+  }
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    add_contact(face);
+  return std::move(result);
+}
+} // namespace
+
+template <int dim>
+ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+{
+  return Residuals<dim>(solution, tables).compute();
+}
+
+template <int dim>
+double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+{
+  Scene<dim> unloaded = solution.scene;
+  unloaded.body_force = {};
+  for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
+  {
+    boundary.traction = {};
+    boundary.friction_bound = nullptr;
+  }
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const ContactSpace<dim> contact_space(unloaded, space);
+  std::mt19937 random;
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  Vector<double> u(space.n_dofs());
+  for (unsigned int cell = 0; cell < space.degrees().size(); ++cell)
+  {
+    double largest = 0;
+    for (const auto dof : space.cell_dofs(cell))
+      largest = std::max(largest, std::abs(solution.u[dof]));
+    for (const auto dof : space.cell_dofs(cell))
+      u[dof] = std::numeric_limits<double>::epsilon() * largest * uniform(random);
+  }
+  return estimate_error<dim>({unloaded, space, contact_space, u, {}}, tables).total();
+}
+
+template ErrorEstimate estimate_error(const Solution<2> &, const ShapeTables<2> &);
+template double round_off_of_estimate(const Solution<2> &, const ShapeTables<2> &);
+} // namespace hpvi

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/program/command_line.h>
+#include <hpvi/scene/scene.h>
+
+#include <boost/program_options.hpp>
+
+#include <sstream>
+
+namespace hpvi
+{
+namespace
+{
+namespace po = boost::program_options;
+
+po::options_description visible_options()
+{
+  po::options_description options("Options", 90);
+  auto add = options.add_options();
+  add("output", po::value<std::string>()->value_name("DIR"),
+      "directory of the results (default: output/<scene>)");
+  add("set", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
+      "override one entry of the scene, as in --set \"Material/Poisson's ratio=0.3\"; may be "
+      "repeated");
+  add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
+                 "small, and write no file");
+  add("validate", "check the scene and write nothing");
+  add("print-parameters", "print all entries of the scene with their values; without a scene: the "
+                          "defaults, documented");
+  add("help", "print this text");
+  add("version", "print the version");
+  return options;
+}
+
+po::variables_map parse_options(const int argc, const char *const argv[])
+{
+  po::options_description options = visible_options();
+  options.add_options()("scene", po::value<std::string>());
+  po::positional_options_description positional;
+  positional.add("scene", 1);
+  // An abbreviated option would change its meaning with the next option that starts alike.
+  const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::variables_map values;
+  po::store(po::command_line_parser(argc, argv)
+                .options(options)
+                .positional(positional)
+                .style(style)
+                .run(),
+            values);
+  return values;
+}
+
+std::pair<std::string, std::string> split_override(const std::string &text)
+{
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw InputError("hpvi: --set " + printable(text) +
+                     ": has no '='; write --set \"Section/Entry=value\" with quotes around it");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+} // namespace
+
+CommandLine parse(const int argc, const char *const argv[])
+{
+  po::variables_map values;
+  try
+  {
+    values = parse_options(argc, argv);
+  }
+  catch (const po::error &error)
+  {
+    throw InputError("hpvi: " + printable(error.what()) + "; see hpvi --help");
+  }
+
+  CommandLine result;
+  if (values.count("scene"))
+    result.scene_file = values["scene"].as<std::string>();
+  if (values.count("output"))
+    result.output_directory = values["output"].as<std::string>();
+  if (values.count("set"))
+    for (const std::string &text : values["set"].as<std::vector<std::string>>())
+      result.overrides.push_back(split_override(text));
+  result.validate = values.count("validate");
+  result.inf_sup = values.count("inf-sup");
+  result.print_parameters = values.count("print-parameters");
+  result.help = values.count("help");
+  result.version = values.count("version");
+
+  if (result.inf_sup && !result.output_directory.empty())
+    throw InputError("hpvi: --output " + printable(result.output_directory, 400) +
+                     ": --inf-sup writes no file; remove one of the two");
+  const bool defaults = result.print_parameters && !result.validate && result.overrides.empty();
+  if (result.scene_file.empty() && !result.help && !result.version && !defaults)
+    throw InputError("hpvi: no scene; name a parameter file, as in hpvi prm/han-6-12.prm, or see "
+                     "hpvi --help");
+  return result;
+}
+
+std::string usage()
+{
+  std::ostringstream text;
+  text << "hpvi [options] SCENE.prm\n\n"
+          "Solves the scene with adaptive hp finite elements: an elastic body in contact with\n"
+          "Tresca friction. Prints one row per adaptive step and writes tables and pictures.\n"
+          "Exit status: 0 done, 1 bad input, 2 the numerics gave up or something could not be\n"
+          "written, 128 + n ended by signal n; what is finished stays in the output directory.\n\n"
+       << visible_options();
+  return text.str();
+}
+} // namespace hpvi

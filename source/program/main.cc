@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/memory.h>
+#include <hpvi/base/text.h>
+#include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/output/output.h>
+#include <hpvi/program/command_line.h>
+#include <hpvi/program/interruption.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include <unistd.h>
+
+// Present where OpenBLAS is the BLAS in use.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
+
+namespace
+{
+using namespace hpvi;
+
+constexpr int dim = 2;
+
+std::string version_line()
+{
+#ifdef DEBUG
+  const std::string build = "Debug";
+#else
+  const std::string build = "Release";
+#endif
+  return "hpvi " HPVI_VERSION " (" + build + " build), deal.II " DEAL_II_PACKAGE_VERSION;
+}
+
+/** The one line for stderr. */
+std::string failure_line(const std::exception &error)
+{
+  const bool foreseen =
+      dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
+      dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
+  if (dynamic_cast<const std::bad_alloc *>(&error))
+    return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
+           "Geometry/Subdivisions or allow more memory";
+  return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
+}
+
+int exit_status(const std::exception &error)
+{
+  if (const auto *interruption = dynamic_cast<const Interruption *>(&error))
+    return 128 + interruption->signal;
+  return dynamic_cast<const InputError *>(&error) ? 1 : 2;
+}
+
+/**
+ * A standard stream that is closed gets a descriptor that cannot be written: else the first file of
+ * results would take its number, and the text meant for the stream.
+ */
+void occupy_standard_streams()
+{
+  int descriptor;
+  do
+    descriptor = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO)
+    close(descriptor);
+}
+
+/** What could not be printed is no result; @p complete says what is there nonetheless. */
+void check_standard_output(const std::string &complete)
+{
+  if (!std::cout.flush())
+    throw OutputFailure("hpvi: standard output cannot be written" + complete);
+}
+
+// ---------------------------------------------------------------- what a run prints
+
+/** The true error has a column only where the scene gives something to compare with. */
+void print_table_head(const bool with_error)
+{
+  std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
+            << (with_error ? "  true_error" : "") << "       slack qp_products   seconds"
+            << std::endl;
+}
+
+void print_row(const Step<dim> &step)
+{
+  const DisplacementSpace<dim> &space = step.solution.displacement_space;
+  const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
+  std::ostringstream degrees;
+  degrees << *p_min << '-' << *p_max;
+  std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
+            << std::setw(11) << space.n_free_dofs() << std::setw(10)
+            << step.solution.contact_space.n_multipliers() << std::setw(6) << degrees.str()
+            << std::scientific << std::setprecision(3) << std::setw(11) << step.estimate.total()
+            << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (!std::isnan(step.errors.energy))
+    std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
+  std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)
+            << step.qp.multiplications << std::fixed << std::setprecision(2) << std::setw(10)
+            << step.seconds << std::endl;
+}
+
+void print_stage(const std::string &name, const double seconds, const double total)
+{
+  std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
+            << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
+            << (total > 0 ? 100 * seconds / total : 0.) << '\n';
+}
+
+/** Time per stage, summed over the steps. */
+void print_stages(const StageTimes &times)
+{
+  std::cout << "\nstage        seconds  percent\n" << std::fixed;
+  for (const auto &[name, seconds] : times.named())
+    print_stage(name, seconds, times.total());
+  print_stage("total", times.total(), times.total());
+}
+
+/** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
+class ProgressLine
+{
+public:
+  ~ProgressLine()
+  {
+    erase();
+  }
+
+  void show(const Progress &progress)
+  {
+    erase();
+    if (!progress.note.empty() && !noted)
+      std::cout << "note: " << progress.note << std::endl;
+    noted = noted || !progress.note.empty();
+    const std::string line = "step " + std::to_string(progress.step) + ": " + progress.stage;
+    if (is_terminal)
+      std::cout << line << " ..." << std::flush;
+    shown = is_terminal;
+  }
+
+  void erase()
+  {
+    const char *const return_and_clear = "\r\033[K";
+    if (shown)
+      std::cout << return_and_clear << std::flush;
+    shown = false;
+  }
+
+private:
+  const bool is_terminal = isatty(STDOUT_FILENO);
+  bool shown = false;
+  bool noted = false; ///< a note is worth saying once, not with every step
+};
+
+// ---------------------------------------------------------------- what the program does
+
+void run(const Scene<dim> &scene, const std::string &directory)
+{
+  AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
+  note_interruptions();
+  Output<dim> output(scene, directory);
+  StageTimes times;
+  std::string stopped_by;
+  std::vector<std::string> warnings;
+  std::pair<std::string, std::string> balance;
+  ProgressLine progress;
+  std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
+  print_table_head(scene.has_known_solution());
+  try
+  {
+    solver.run(
+        [&](const Step<dim> &step)
+        {
+          progress.erase();
+          print_row(step);
+          times += step.times;
+          stopped_by = step.stopped_by;
+          warnings = step.warnings;
+          balance = {text(step.equilibrium.force_imbalance, 2),
+                     text(step.equilibrium.moment_imbalance, 2)};
+          output.write_step(step);
+        },
+        [&](const Progress &stage)
+        {
+          stop_if_interrupted();
+          progress.show(stage);
+        });
+  }
+  catch (const Interruption &interruption)
+  {
+    progress.erase();
+    output.give_up("interrupted", interruption.what());
+    throw Interruption(interruption.signal,
+                       "; " + output.safe_steps() + " in " + printable(directory));
+  }
+  catch (const std::exception &error)
+  {
+    output.give_up("failed", failure_line(error)); // the finished steps stay
+    throw;
+  }
+  output.finish();
+  print_stages(times);
+  std::cout << "\nbalance: forces to " << balance.first << ", moments to " << balance.second
+            << " of their absolute sums\n";
+  for (const std::string &warning : warnings)
+    std::cout << "\nwarning: " << warning;
+  std::cout << (warnings.empty() ? "" : "\n") << '\n'
+            << (stopped_by == "round-off" ? "stopped: exact to round-off"
+                                          : "stopped by Adaptivity/" + stopped_by)
+            << "\nresults in " << directory << std::endl;
+  check_standard_output("; the results in " + printable(directory) + " are complete");
+}
+
+void print_inf_sup_row(const Step<dim> &step, const InfSup &inf_sup)
+{
+  const DisplacementSpace<dim> &space = step.solution.displacement_space;
+  std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
+            << std::setw(11) << space.n_free_dofs() << std::setw(12) << inf_sup.n_multipliers
+            << std::setw(6) << inf_sup.lowest_degree << std::setw(6) << inf_sup.highest_degree
+            << std::scientific << std::setprecision(6) << std::setw(14) << inf_sup.beta
+            << std::setprecision(3) << std::setw(11) << inf_sup.bound() << std::endl;
+}
+
+/**
+ * The scene whose run refines the mesh while another's multipliers are measured on it: itself, or
+ * where no run could solve it the same scene with the stable multiplier, or the best its start
+ * degree 1 allows.
+ */
+Scene<dim> refining_scene(const Scene<dim> &measured)
+{
+  Scene<dim> scene = measured;
+  if (scene.solver.multiplier_offset >= 0)
+    scene.solver.multiplier_offset = scene.adaptivity.start_degree < 2 ? -1 : -2;
+  return scene;
+}
+
+/** As in p-2, p, p+1. */
+std::string multiplier_degree(const int offset)
+{
+  return "p" + (offset == 0 ? "" : (offset > 0 ? "+" : "") + std::to_string(offset));
+}
+
+void print_inf_sup(const Scene<dim> &scene)
+{
+  if (!scene.has_friction())
+    throw InputError(scene.file + ": Boundary left, right, bottom, top/Friction bound: no boundary "
+                                  "names one, so there is no multiplier to measure the inf-sup "
+                                  "constant of; name a contact with a bound or remove --inf-sup");
+  const Scene<dim> refining = refining_scene(scene);
+  const ShapeTables<dim> tables;
+  AdaptiveSolver<dim> solver(refining);
+  note_interruptions();
+  std::cout << version_line() << '\n'
+            << legible(scene.title) << "\n\n"
+            << "multiplier degree " << multiplier_degree(scene.solver.multiplier_offset)
+            << "; p_min and p_max on the contact boundary; "
+            << "bound = 1/(p_max^1/2 log^3/2 p_max)\n\n"
+            << "step  elements  dofs_free multipliers p_min p_max          beta      bound"
+            << std::endl;
+  ProgressLine progress;
+  solver.run(
+      [&](const Step<dim> &step)
+      {
+        progress.show({step.number, "measuring the inf-sup constant", ""});
+        const DisplacementSpace<dim> &space = step.solution.displacement_space;
+        const InfSup inf_sup =
+            measure_inf_sup(scene, space.triangulation(), space.degrees(), tables);
+        progress.erase();
+        print_inf_sup_row(step, inf_sup);
+      },
+      [&](const Progress &stage)
+      {
+        stop_if_interrupted();
+        progress.show(stage);
+      });
+}
+
+void obey(const CommandLine &command_line)
+{
+  if (command_line.help)
+    std::cout << usage();
+  else if (command_line.version)
+    std::cout << version_line() << std::endl;
+  else if (command_line.scene_file.empty())
+    std::cout << Scene<dim>::default_parameters();
+  else
+  {
+    const auto scene = Scene<dim>::read(command_line.scene_file, command_line.overrides,
+                                        command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
+    if (command_line.print_parameters)
+      std::cout << scene.effective_parameters;
+    else if (command_line.validate)
+      std::cout << scene.file << ": valid: " << legible(scene.title) << std::endl;
+    else if (command_line.inf_sup)
+      print_inf_sup(scene);
+    else
+      run(scene, command_line.output_directory.empty() ? "output/" + scene.name
+                                                       : command_line.output_directory);
+  }
+}
+
+/**
+ * OpenBLAS starts its threads when it is loaded. Each takes a buffer of 128 MB, tries for ever where
+ * it gets none, and is waited for at the end. A run uses one thread alone: where memory is limited
+ * the program begins again without the others.
+ */
+void do_without_threads_of_openblas(char *argv[])
+{
+  const std::string variable = "OPENBLAS_NUM_THREADS", none = "1";
+  const char *const value = std::getenv(variable.c_str());
+  if (!mapping_is_limited() || !openblas_get_num_threads || openblas_get_num_threads() == 1 ||
+      (value && value == none))
+    return;
+  setenv(variable.c_str(), none.c_str(), 1);
+  execv("/proc/self/exe", argv); // comes back only where it fails
+}
+} // namespace
+
+int main(int argc, char *argv[])
+{
+  do_without_threads_of_openblas(argv);
+  occupy_standard_streams();
+  survive_failed_writes();
+  try
+  {
+    obey(parse(argc, argv));
+    check_standard_output("");
+    return 0;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << failure_line(error) << std::endl;
+    return exit_status(error);
+  }
+}

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/expressions.h>
+
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/text.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <regex>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The parser's own words; the column that deal.II puts before them is an error code. */
+std::string parser_message(const std::exception &error)
+{
+  const std::string text = one_line(error), mark = "The parser said: ";
+  const std::size_t start = text.find(mark);
+  return start == std::string::npos ? text : text.substr(start + mark.size());
+}
+
+/** deal.II's parser prints five lines to stderr before it throws; the message is one line. */
+class SilentStderr
+{
+public:
+  SilentStderr() : original(std::cerr.rdbuf(nullptr))
+  {
+  }
+
+  ~SilentStderr()
+  {
+    std::cerr.rdbuf(original); // also clears the error state of the muted stream
+  }
+
+  SilentStderr(const SilentStderr &) = delete;
+  SilentStderr &operator=(const SilentStderr &) = delete;
+
+private:
+  std::streambuf *const original;
+};
+
+bool is_number(const std::string &text, double &value)
+{
+  char *end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+template <int dim>
+std::string message(const std::string &place, const std::string &problem, const Point<dim> &x,
+                    const double value, const std::string &remedy)
+{
+  const std::string shown = std::isnan(value) ? "nan" : to_string(value); // it may have a sign
+  return place + ": " + problem + " at " + to_string(x) + ": " + shown + "; " + remedy;
+}
+
+/** @p function, which must be finite wherever it is asked. */
+template <int dim>
+std::shared_ptr<const Function<dim>> finite(const std::shared_ptr<const Function<dim>> &function,
+                                            const std::string &place, const std::string &text)
+{
+  const auto value = [=](const Point<dim> &x)
+  {
+    const double result = function->value(x);
+    if (!std::isfinite(result))
+      throw InputError(message(place, "\"" + printable(text) + "\" is not finite", x, result,
+                               "give an expression that is finite everywhere it applies"));
+    return result;
+  };
+  return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
+}
+
+bool is_absent(const std::string &text, const std::string &absent)
+{
+  double value;
+  return absent == "0" ? is_number(text, value) && value == 0. : lower_case(text) == absent;
+}
+} // namespace
+
+template <int dim>
+ExpressionReader<dim>::ExpressionReader(const Parameters &parameters, const Material &material)
+    : parameters(parameters), constants({{"pi", numbers::PI},
+                                         {"E", material.young},
+                                         {"nu", material.poisson},
+                                         {"mu", material.mu()}})
+{
+}
+
+template <int dim>
+template <std::size_t n_components>
+std::array<typename ExpressionReader<dim>::Expression, n_components>
+ExpressionReader<dim>::read(const std::string &section, const std::string &name,
+                            const std::string &absent, const std::vector<Point<dim>> &points,
+                            const ExactField &exact) const
+{
+  std::array<Expression, n_components> result;
+  if (parameters.text(section, name).empty())
+    return result;
+  const auto is_exact = [&exact](const std::string &part)
+  { return exact && lower_case(part) == "exact"; };
+  std::vector<std::string> parts = split_components(parameters.text(section, name));
+  if (parts.size() == 1 && is_exact(parts[0]))
+    parts.resize(n_components, "exact");
+  if (parts.size() != n_components)
+    parameters.reject(section, name,
+                      "has " + std::to_string(parts.size()) + " component(s) instead of " +
+                          std::to_string(n_components) + "; separate components by ';'");
+  for (unsigned int c = 0; c < n_components; ++c)
+    if (is_exact(parts[c]))
+      result[c] = make_exact(section, name, exact, c);
+    else if (!is_absent(parts[c], absent))
+      result[c] = make_function(section, name, parts[c], points);
+  return result;
+}
+
+template <int dim>
+typename ExpressionReader<dim>::Expression
+ExpressionReader<dim>::make_exact(const std::string &section, const std::string &name,
+                                  const ExactField &exact, const unsigned int component) const
+{
+  const Expression result = exact(component);
+  if (result == nullptr)
+    parameters.reject(section, name,
+                      "asks for the exact solution, but the scene has none; set Exact "
+                      "solution/Solution or write an expression");
+  return result;
+}
+
+template <int dim>
+typename ExpressionReader<dim>::Expression
+ExpressionReader<dim>::make_function(const std::string &section, const std::string &name,
+                                     const std::string &text,
+                                     const std::vector<Point<dim>> &points) const
+{
+  double value;
+  if (is_number(text, value))
+    return std::make_shared<Functions::ConstantFunction<dim>>(value);
+  check_misreadings(section, name, text);
+  const auto function = std::make_shared<FunctionParser<dim>>(1);
+  try
+  {
+    const SilentStderr silence;
+    function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
+    function->value(points[0]); // only now does the parser look at the text
+  }
+  catch (const std::exception &error)
+  {
+    parameters.reject(section, name,
+                      "\"" + printable(text) + "\" is not an expression of x and y (" +
+                          parser_message(error) + "); mend it, constants are pi, E, nu, mu");
+  }
+  const Expression result = finite<dim>(function, parameters.place(section, name), text);
+  for (const Point<dim> &point : points)
+    result->value(point);
+  return result;
+}
+
+template <int dim>
+typename ExpressionReader<dim>::Expression
+ExpressionReader<dim>::read_bound(const std::string &section, const std::string &name,
+                                  const std::vector<Point<dim>> &points) const
+{
+  const Expression g = read<1>(section, name, "0", points)[0];
+  if (g == nullptr)
+    return nullptr;
+  double largest = 0;
+  for (const Point<dim> &point : points)
+    largest = std::max(largest, std::abs(g->value(point)));
+  const auto value = [g, largest, place = parameters.place(section, name)](const Point<dim> &x)
+  {
+    const double result = g->value(x);
+    if (result < -1e-12 * largest) // round-off, as in sin(2*pi), is no sign
+      throw InputError(message(place, "is negative", x, result, "Tresca's bound needs g >= 0"));
+    return std::max(result, 0.);
+  };
+  const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
+  for (const Point<dim> &point : points)
+    bound->value(point);
+  return bound;
+}
+
+template <int dim>
+void ExpressionReader<dim>::check_misreadings(const std::string &section, const std::string &name,
+                                              const std::string &text) const
+{
+  if (text.empty())
+    parameters.reject(section, name, "has an empty component; write 0 for zero");
+  static const std::regex random("\\brand(_seed)?\\b");
+  if (std::regex_search(text, random))
+    parameters.reject(section, name,
+                      "\"" + printable(text) +
+                          "\" is random, and equal runs must give equal results; write a function "
+                          "of x and y");
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    depth += (text[i] == '(') - (text[i] == ')');
+    if (text[i] == ',' && depth == 0) // "4,5" would be two numbers, of which the last counts
+      parameters.reject(section, name,
+                        "\"" + printable(text) +
+                            "\" has a comma outside a function's arguments; write decimals with "
+                            "'.' and separate components by ';'");
+    const bool comparison = (i > 0 && std::strchr("=<>!", text[i - 1]) != nullptr) ||
+                            (i + 1 < text.size() && text[i + 1] == '=');
+    if (text[i] == '=' && !comparison) // "x=3" would change x
+      parameters.reject(section, name,
+                        "\"" + printable(text) +
+                            "\" assigns a value; write the expression alone, and == "
+                            "to compare");
+  }
+}
+
+template class ExpressionReader<2>;
+template std::array<ExpressionReader<2>::Expression, 1>
+ExpressionReader<2>::read<1>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<2>> &, const ExactField &) const;
+template std::array<ExpressionReader<2>::Expression, 2>
+ExpressionReader<2>::read<2>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<2>> &, const ExactField &) const;
+} // namespace hpvi

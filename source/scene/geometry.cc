@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/geometry.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+std::vector<Point<2>> Edge::sample() const
+{
+  const unsigned int n = 32;
+  std::vector<Point<2>> points;
+  for (unsigned int i = 0; i < n; ++i)
+    points.push_back(ends[0] + (double(i) / n) * (ends[1] - ends[0]));
+  points.push_back(ends[1]); // exactly, for conditions at corners
+  return points;
+}
+
+std::array<double, 4> corner_angles(const Geometry<2> &geometry)
+{
+  std::array<double, 4> angles;
+  for (unsigned int c = 0; c < angles.size(); ++c)
+  {
+    // Neighbours differ in one bit of the lexicographic number.
+    const Tensor<1, 2> a = geometry.corners[c ^ 1u] - geometry.corners[c],
+                       b = geometry.corners[c ^ 2u] - geometry.corners[c];
+    angles[c] = std::atan2(std::abs(a[0] * b[1] - a[1] * b[0]), a * b) * 180. / numbers::PI;
+  }
+  return angles;
+}
+
+Point<2> centre_of(const Geometry<2> &geometry)
+{
+  Point<2> centre;
+  for (const Point<2> &corner : geometry.corners)
+    centre += corner / 4.;
+  return centre;
+}
+
+std::vector<Edge> edges_of(const Geometry<2> &geometry)
+{
+  const Point<2> centre = centre_of(geometry);
+  std::vector<Edge> edges(GeometryInfo<2>::faces_per_cell);
+  for (unsigned int f = 0; f < edges.size(); ++f)
+  {
+    Edge &edge = edges[f];
+    for (unsigned int v = 0; v < 2; ++v)
+    {
+      edge.corners[v] = GeometryInfo<2>::face_to_cell_vertices(f, v);
+      edge.ends[v] = geometry.corners[edge.corners[v]];
+    }
+    const Tensor<1, 2> along = edge.ends[1] - edge.ends[0];
+    edge.normal[0] = along[1] / along.norm();
+    edge.normal[1] = -along[0] / along.norm();
+    if (edge.normal * (edge.ends[0] - centre) < 0)
+      edge.normal *= -1.;
+  }
+  return edges;
+}
+
+std::vector<Point<2>> sample_body(const Geometry<2> &geometry)
+{
+  const unsigned int n = 16;
+  std::vector<Point<2>> points;
+  for (unsigned int i = 0; i <= n; ++i)
+    for (unsigned int j = 0; j <= n; ++j)
+    {
+      const Point<2> unit(double(i) / n, double(j) / n);
+      Point<2> x;
+      for (unsigned int v = 0; v < 4; ++v)
+        x += geometry.corners[v] * GeometryInfo<2>::d_linear_shape_function(unit, v);
+      points.push_back(x);
+    }
+  return points;
+}
+} // namespace hpvi

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/parameter_file.h>
+
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+class FileScanner
+{
+public:
+  explicit FileScanner(const std::string &file) : file(file), shown(printable(file, 400))
+  {
+  }
+
+  std::vector<Assignment> scan()
+  {
+    std::istringstream stream(content());
+    for (std::string line; next_line(stream, line);)
+      if (!line.empty())
+        read_statement(line);
+    if (!section.empty())
+      fail(section_start, "subsection " + section, "is never closed; add the line \"end\"");
+    return std::move(assignments);
+  }
+
+private:
+  /** A device or a picture would be read for ever. */
+  std::string content() const
+  {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+      throw InputError(shown + ": is a directory; name a scene file (.prm)");
+    std::ifstream stream(file, std::ios::binary);
+    const std::size_t limit = 1 << 20;
+    std::string text(limit + 1, '\0');
+    stream.read(text.data(), text.size());
+    if (stream.bad() || !stream.is_open())
+      throw InputError(shown + ": cannot be read; check the name and the permissions of the file");
+    text.resize(stream.gcount());
+    if (text.size() > limit)
+      throw InputError(shown + ": is larger than a megabyte; name a scene file (.prm)");
+    return text;
+  }
+
+  /** Without comment and surrounding blanks; lines that end in a backslash are joined. */
+  bool next_line(std::istream &stream, std::string &line)
+  {
+    line.clear();
+    bool continued = true, any = false;
+    for (std::string part; continued && std::getline(stream, part); any = true)
+    {
+      ++line_number;
+      if (line_number == 1 && part.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
+        part.erase(0, 3);
+      part = Utilities::trim(part.substr(0, part.find('#')));
+      continued = !part.empty() && part.back() == '\\';
+      if (continued)
+        part.pop_back();
+      line += part;
+    }
+    line = Utilities::trim(line);
+    return any;
+  }
+
+  void read_statement(const std::string &line)
+  {
+    const std::string where = shown + ":" + std::to_string(line_number);
+    const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
+    const std::string keyword = lower_case(line.substr(0, gap));
+    const std::string rest = Utilities::trim(line.substr(gap));
+    if (keyword == "set" && rest.find('=') != std::string::npos)
+      assignments.push_back({section, single_spaced(rest.substr(0, rest.find('='))),
+                             Utilities::trim(rest.substr(rest.find('=') + 1)), where});
+    else if (keyword == "subsection" && !rest.empty())
+      open_section(single_spaced(rest), where);
+    else if (keyword == "end" && rest.empty())
+      close_section(where);
+    else if (keyword == "include")
+      fail(where, line, "include is not supported; write all entries into one file");
+    else
+      fail(where, line,
+           "is not a statement; write \"set Entry = value\", \"subsection Name\" or \"end\"");
+  }
+
+  void open_section(const std::string &name, const std::string &where)
+  {
+    if (!section.empty())
+      fail(where, "subsection " + name,
+           "stands inside subsection " + printable(section) + " of " + section_start +
+               "; close that one with \"end\" first");
+    section = name;
+    section_start = where;
+    assignments.push_back({section, "", "", where}); // lets an empty section be checked by name
+  }
+
+  void close_section(const std::string &where)
+  {
+    if (section.empty())
+      fail(where, "end", "no subsection is open here; remove this line");
+    section.clear();
+  }
+
+  const std::string file, shown;
+  unsigned int line_number = 0;
+  std::string section, section_start;
+  std::vector<Assignment> assignments;
+};
+} // namespace
+
+std::vector<Assignment> read_parameter_file(const std::string &file)
+{
+  return FileScanner(file).scan();
+}
+
+void fail(const std::string &where, const std::string &what, const std::string &problem_and_remedy)
+{
+  throw InputError(where + ": " + printable(what) + ": " + problem_and_remedy);
+}
+} // namespace hpvi

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/parameters.h>
+
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+std::string Entry::path() const
+{
+  return section.empty() ? name : section + "/" + name;
+}
+
+template <typename Action>
+void Parameters::in_section(const std::string &section, const Action &action)
+{
+  if (!section.empty())
+    prm.enter_subsection(section);
+  action();
+  if (!section.empty())
+    prm.leave_subsection();
+}
+
+Parameters::Parameters(std::vector<Entry> all_entries, const std::string &file)
+    : entries(std::move(all_entries)), file(file), shown(printable(file, 400))
+{
+  for (const Entry &entry : entries)
+    in_section(entry.section,
+               [&]() {
+                 prm.declare_entry(entry.name, entry.default_value, *entry.pattern,
+                                   entry.documentation);
+               });
+}
+
+void Parameters::read(const std::vector<std::pair<std::string, std::string>> &overrides)
+{
+  for (const Assignment &assignment : read_parameter_file(file))
+    assign(assignment);
+  for (const auto &override : overrides)
+    assign(override);
+}
+
+void Parameters::assign(const Assignment &assignment)
+{
+  const Entry *entry = known_entry(assignment);
+  if (entry == nullptr)
+    return;
+  std::string value = assignment.value;
+  std::replace_if( // deal.II's lists trim nothing but blanks
+      value.begin(), value.end(), [](const unsigned char c) { return std::isspace(c); }, ' ');
+  if (!entry->pattern->match(value))
+    fail(assignment.where, entry->path() + " = " + value,
+         "is not accepted here; give " + entry->wanted);
+  origins[entry->path()] = assignment.where;
+  set(entry->section, entry->name, value);
+}
+
+void Parameters::assign(const std::pair<std::string, std::string> &override)
+{
+  const std::string where = shown + " (--set)";
+  const std::string value = Utilities::trim(override.second);
+  const std::size_t slash = override.first.rfind('/');
+  const bool top = slash == std::string::npos;
+  // The value must survive a round trip through a parameter file.
+  if (value.find_first_of("#\n\r") != std::string::npos || (!value.empty() && value.back() == '\\'))
+    fail(where, override.first + " = " + value,
+         "holds a character that no parameter file can; remove '#', '\\' and line breaks");
+  const std::string name = single_spaced(top ? override.first : override.first.substr(slash + 1));
+  if (name.empty())
+    fail(where, override.first + " = " + value, "names no entry; write Section/Entry=value");
+  assign(Assignment{top ? "" : single_spaced(override.first.substr(0, slash)), name, value, where});
+}
+
+void Parameters::set(const std::string &section, const std::string &name, const std::string &value)
+{
+  in_section(section, [&]() { prm.set(name, value); });
+}
+
+std::string Parameters::text(const std::string &section, const std::string &name) const
+{
+  return section.empty() ? prm.get(name) : prm.get({section}, name);
+}
+
+namespace
+{
+/** As the patterns read it: deal.II's conversion throws where a number is below the normal ones. */
+double to_number(const std::string &text)
+{
+  double value = 0;
+  std::istringstream(text) >> value;
+  return value;
+}
+} // namespace
+
+double Parameters::number(const std::string &section, const std::string &name) const
+{
+  return to_number(text(section, name));
+}
+
+unsigned int Parameters::integer(const std::string &section, const std::string &name) const
+{
+  return prm.get_integer({section}, name);
+}
+
+bool Parameters::boolean(const std::string &section, const std::string &name) const
+{
+  return prm.get_bool({section}, name);
+}
+
+template <int dim>
+std::vector<Point<dim>> Parameters::points(const std::string &section,
+                                           const std::string &name) const
+{
+  std::vector<Point<dim>> result;
+  for (const std::string &point : Utilities::split_string_list(text(section, name), ';'))
+  {
+    const std::vector<std::string> x = Utilities::split_string_list(point, ',');
+    result.emplace_back();
+    std::transform(x.begin(), x.end(), result.back().begin_raw(), to_number);
+  }
+  return result;
+}
+
+std::string Parameters::place(const std::string &section, const std::string &name) const
+{
+  const std::string path = section.empty() ? name : section + "/" + name;
+  const auto origin = origins.find(path);
+  return (origin == origins.end() ? shown : origin->second) + ": " +
+         printable(path + " = " + text(section, name));
+}
+
+void Parameters::reject(const std::string &section, const std::string &name,
+                        const std::string &problem) const
+{
+  throw InputError(place(section, name) + ": " + problem);
+}
+
+std::string Parameters::print(const bool documented) const
+{
+  std::ostringstream out;
+  const auto style = documented ? ParameterHandler::PRM : ParameterHandler::ShortPRM;
+  prm.print_parameters(
+      out, ParameterHandler::OutputStyle(style | ParameterHandler::KeepDeclarationOrder));
+  return out.str();
+}
+
+const Entry *Parameters::known_entry(const Assignment &assignment) const
+{
+  const bool section_known =
+      std::any_of(entries.begin(), entries.end(),
+                  [&](const Entry &e) { return e.section == assignment.section; });
+  if (!section_known)
+    fail(assignment.where, assignment.section,
+         "is an unknown subsection; the nearest known one is \"" +
+             nearest_section(assignment.section) + "\"");
+  if (assignment.name.empty())
+    return nullptr;
+  for (const Entry &entry : entries)
+    if (entry.section == assignment.section && entry.name == assignment.name)
+      return &entry;
+  const Entry written{assignment.section, assignment.name, "", nullptr, "", ""};
+  fail(assignment.where, written.path() + " = " + assignment.value,
+       "is an unknown entry; the nearest known one is \"" + nearest_entry(written) + "\"");
+}
+
+std::string Parameters::nearest_section(const std::string &section) const
+{
+  const auto cost = [&](const Entry &entry)
+  { return entry.section.empty() ? 1000 : edit_distance(entry.section, section); };
+  return std::min_element(entries.begin(), entries.end(),
+                          [&](const Entry &a, const Entry &b) { return cost(a) < cost(b); })
+      ->section;
+}
+
+/** A name that stands in the wrong section costs no more than one more letter. */
+std::string Parameters::nearest_entry(const Entry &written) const
+{
+  const auto cost = [&](const Entry &entry)
+  {
+    return 2 * edit_distance(entry.name, written.name) + (entry.section == written.section ? 0 : 1);
+  };
+  return std::min_element(entries.begin(), entries.end(),
+                          [&](const Entry &a, const Entry &b) { return cost(a) < cost(b); })
+      ->path();
+}
+
+template std::vector<Point<2>> Parameters::points<2>(const std::string &,
+                                                     const std::string &) const;
+} // namespace hpvi

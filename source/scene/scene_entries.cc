@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/scene_entries.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <limits>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <typename Pattern>
+std::shared_ptr<const Patterns::PatternBase> matching(const Pattern &pattern)
+{
+  return std::make_shared<Pattern>(pattern);
+}
+
+std::string joined(const std::vector<std::string> &words, const std::string &separator)
+{
+  std::string result;
+  for (const std::string &word : words)
+    result += (result.empty() ? "" : separator) + word;
+  return result;
+}
+
+void add_problem_entries(std::vector<Entry> &entries)
+{
+  const auto text = matching(Patterns::Anything());
+  const auto number = matching(Patterns::Double());
+  const auto point = Patterns::List(Patterns::Double(), 2, 2, ",");
+  const std::string point_wanted = "two finite numbers \"x, y\"";
+
+  entries.insert(
+      entries.end(),
+      {{"", "Title", "", text, "one line of text", "One line for humans; empty: the file's name."},
+       {"", "Dimension", "2", matching(Patterns::Integer(2, 3)), "2", "Space dimension."},
+       {"Units", "Length", "", text, "a label", "Label of lengths; nothing is converted."},
+       {"Units", "Stress", "", text, "a label", "Label of stresses; nothing is converted."},
+       {"Geometry", "Shape", "box", matching(Patterns::Selection("box|quadrilateral")),
+        "box or quadrilateral",
+        "box: given by Lower corner and Upper corner. quadrilateral: convex, given by Corners."},
+       {"Geometry", "Lower corner", "0, 0", matching(point), point_wanted,
+        "Corner of the box with the smallest coordinates, x, y [length]."},
+       {"Geometry", "Upper corner", "1, 1", matching(point), point_wanted,
+        "Corner of the box with the largest coordinates, x, y [length]."},
+       {"Geometry", "Corners", "", matching(Patterns::List(point, 0, 4, ";")),
+        "four points \"x, y; x, y; x, y; x, y\", or nothing",
+        "Corners of the quadrilateral, counterclockwise from the bottom left: the edges between "
+        "them are bottom, right, top, left."},
+       {"Geometry", "Subdivisions", "1, 1",
+        matching(Patterns::List(Patterns::Integer(1), 2, 2, ",")), "two positive integers",
+        "Cells of the coarse mesh in each direction."},
+       {"Geometry", "Graded towards", "",
+        matching(Patterns::List(point, 0, Patterns::List::max_int_value, ";")),
+        "points \"x, y; x, y; ...\" or nothing",
+        "Points of the body towards which the coarse mesh is bisected."},
+       {"Geometry", "Grading levels", "0", matching(Patterns::Integer(0, 40)),
+        "an integer from 0 to 40", "How often the cells that touch such a point are bisected."},
+       {"Material", "Young's modulus", "1", matching(Patterns::Double(1e-100, 1e100)),
+        "a number E > 0 (a stress) from 1e-100 to 1e100",
+        "E > 0 [stress]; constant E in expressions."},
+       {"Material", "Poisson's ratio", "0.3", number, "a number nu with -1 < nu < 1/2",
+        "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu))."},
+       {"Material", "Plane", "strain", matching(Patterns::Selection("stress|strain")),
+        "stress or strain", "Plane stress or plane strain (thesis, Section 2.1.3)."},
+       {"Body force", "Expression", "", text, "Fx; Fy or nothing",
+        "Force per volume Fx; Fy as expressions of x and y [stress/length]; empty: none."}});
+}
+
+void add_exact_entries(std::vector<Entry> &entries)
+{
+  const std::string section = "Exact solution";
+  entries.insert(
+      entries.end(),
+      {{section, "Solution", "none", matching(Patterns::Selection("none|stick-slip|smooth")),
+        "none, stick-slip or smooth",
+        "A closed form to measure errors against, for a body above the contact edge y = 0 with a "
+        "constant friction bound; boundaries take it by the word `exact`. stick-slip: sticks where "
+        "x > Transition, lambda = 1 - sqrt((x - Transition)/Length), and slips elsewhere. smooth: "
+        "slips everywhere, u_x = (L/8) exp(s) (1 + kappa - s) on y = 0, s = (x - Transition)/L."},
+       {section, "Transition", "0", matching(Patterns::Double()), "a number",
+        "Where stick meets slip on y = 0 (smooth: the origin of s) [length]."},
+       {section, "Length", "1", matching(Patterns::Double(std::numeric_limits<double>::min())),
+        "a positive number", "The length L over which the exact solution varies [length]."}});
+}
+
+void add_boundary_entries(std::vector<Entry> &entries, const std::string &boundary)
+{
+  const auto text = matching(Patterns::Anything());
+  const std::string section = "Boundary " + boundary;
+  entries.insert(
+      entries.end(),
+      {{section, "Displacement", "", text, "ux; uy or nothing",
+        "Prescribed displacement ux; uy as expressions of x and y [length]; `free` for a component "
+        "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
+       {section, "Traction", "", text, "Gx; Gy or nothing",
+        "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
+       {section, "Contact", "none", matching(Patterns::Selection("none|bilateral")),
+        "none or bilateral", "bilateral: the boundary slides along itself, u_n = 0."},
+       {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
+        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g; empty or 0: no friction."}});
+}
+
+void add_method_entries(std::vector<Entry> &entries)
+{
+  const auto fraction = matching(Patterns::Double(std::numeric_limits<double>::min(), 1));
+  const auto positive = matching(Patterns::Integer(1));
+  const auto degree = matching(Patterns::Integer(1, 20));
+  const std::string section = "Adaptivity";
+
+  entries.insert(
+      entries.end(),
+      {{section, "Method", "hpa3", matching(Patterns::Selection(joined(method_names, "|"))),
+        "one of " + joined(method_names, " "),
+        "hup2, hup3, hup4: bisect every cell, p = 2, 3, 4. hap2, hap3, hap4: bisect cells with "
+        "large indicator. pu: raise p everywhere. hpa1: bisect the first cells by indicator, raise "
+        "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
+        "the same where the indicator exceeds a share of the largest."},
+       {section, "Smoothness reading", "plain", matching(Patterns::Selection("plain|joint")),
+        "plain or joint",
+        "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
+        "the "
+        "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
+       {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
+        "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
+        "hpa2, hpa3: 3)."},
+       {section, "Maximum degree", "12", degree, "an integer from 1 to 20",
+        "Cells of this degree are bisected where p would rise."},
+       {section, "hap threshold", "0.5", fraction, "a number in (0, 1]",
+        "hap: bisect where eta_K > threshold * mean(eta_K)."},
+       {section, "hpa1 bisected fraction", "0.1", fraction, "a number in (0, 1]",
+        "hpa1: fraction of cells bisected."},
+       {section, "hpa1 raised fraction", "0.1", fraction, "a number in (0, 1]",
+        "hpa1: fraction of cells, next in order, whose degree is raised."},
+       {section, "hpa2 marked fraction", "0.2", fraction, "a number in (0, 1]",
+        "hpa2: fraction of cells refined."},
+       {section, "hpa2 decay threshold", "1", matching(Patterns::Double(0)), "a number >= 0",
+        "hpa2: raise p where the decay rate b exceeds this, bisect elsewhere."},
+       {section, "hpa3 threshold", "0.2", fraction, "a number in (0, 1]",
+        "hpa3: refine cells where eta_K > threshold * max(eta_K)."},
+       {section, "hpa3 decay threshold", "0.8", matching(Patterns::Double(0)), "a number >= 0",
+        "hpa3: raise p where the decay rate b exceeds this, bisect elsewhere."},
+       {section, "Maximum steps", "16", positive, "a positive integer",
+        "Number of adaptive steps, the first on the coarse mesh."},
+       {section, "Maximum unknowns", "1000000", positive, "a positive integer",
+        "No step is started after one with as many free displacement unknowns; a coarse mesh with "
+        "more of them is refused."},
+       {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
+        "No step is started after this time of computing; 0: no limit."},
+       {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",
+        "Stop where the relative indicator eta/((2 mu)^(1/2) |u_N|_a) falls below, with "
+        "2 mu + 2 lambda for 2 mu where nu < 0; 0: never."}});
+}
+
+void add_program_entries(std::vector<Entry> &entries)
+{
+  const auto boolean = matching(Patterns::Bool());
+  const std::string yes_no = "true or false";
+  entries.insert(
+      entries.end(),
+      {{"Solver", "QP solver", "active set", matching(Patterns::Selection("mprgp|active set")),
+        "mprgp or active set",
+        "mprgp: conjugate gradients on faces, the thesis's; active set: Newton's method with dense "
+        "Cholesky factorisations, and mprgp where that cycles. Both end at the same tolerance."},
+       {"Solver", "QP warm start", "true", boolean, yes_no,
+        "Start from the multiplier of the previous step; false: from zero, as in the thesis."},
+       {"Solver", "QP tolerance", "1e-12",
+        matching(Patterns::Double(std::numeric_limits<double>::min(), 1)), "a number in (0, 1]",
+        "Stop where the projected gradient is below this, relative to the right-hand side."},
+       {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),
+        "a positive integer", "Products with S before the solver gives up (exit status 2)."},
+       {"Solver", "Diagonal scaling", "true", boolean, yes_no, "Scale S by its diagonal."},
+       {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
+        "an integer from -20 to -1, best -2",
+        "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "
+        "less: stable, whatever mesh and degrees. -1: a warning, the inf-sup constant falls like h "
+        "and is 0 where displacements are prescribed at both ends of the contact. 0 and more: "
+        "S is singular; refused but by --inf-sup, which measures the constant."},
+       {"Solver", "Condition number", "false", boolean, yes_no,
+        "Report the condition number of S, raw and scaled; costs an eigenvalue computation."},
+       {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},
+       {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
+       {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
+       {"Output", "Reference solution", "false", boolean, yes_no,
+        "Write the last step's displacement to reference.dat, for Error/Reference solution."},
+       {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
+        "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
+        "against it. Without effect where an exact solution is named."}});
+}
+} // namespace
+
+std::vector<Entry> scene_entries(const int dim)
+{
+  std::vector<Entry> entries;
+  add_problem_entries(entries);
+  add_exact_entries(entries);
+  for (int b = 0; b < 2 * dim; ++b)
+    add_boundary_entries(entries, boundary_names[b]);
+  add_method_entries(entries);
+  add_program_entries(entries);
+  return entries;
+}
+} // namespace hpvi

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/solver/symmetric_matrix.h>
+
+#include <limits>
+#include <string>
+
+namespace hpvi
+{
+void SymmetricMatrix::resize(const std::size_t n_entries)
+{
+  constexpr std::size_t highest = std::numeric_limits<int>::max();
+  if (n_entries > highest)
+    throw NumericalFailure("the stiffness matrix has " + std::to_string(n_entries) +
+                           " entries, its indices count to " + std::to_string(highest) +
+                           "; lower Adaptivity/Maximum unknowns or take fewer "
+                           "Geometry/Subdivisions");
+  if (n_entries > row.size())
+    require_memory(n_entries * double(sizeof(int) + sizeof(double)), "the stiffness matrix");
+  row.resize(n_entries);
+  value.resize(n_entries);
+}
+} // namespace hpvi

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "memory.h"
+
+#include <gtest/gtest.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/solver/linear_solver.h>
+
+#include <memory>
+#include <new>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace algebra;
+using namespace dealii;
+using hpvi::NumericalFailure;
+using hpvi::SchurComplement;
+using hpvi::SymmetricMatrix;
+
+SymmetricMatrix diagonal(const unsigned int n, const double value)
+{
+  SymmetricMatrix A;
+  A.row.resize(n);
+  std::iota(A.row.begin(), A.row.end(), 0);
+  A.value.assign(n, value);
+  A.column_start.resize(n + 1);
+  std::iota(A.column_start.begin(), A.column_start.end(), 0);
+  return A;
+}
+
+/** The identity, and a last unknown that every other one is coupled to. */
+SymmetricMatrix star(const unsigned int n)
+{
+  SymmetricMatrix A = diagonal(n, 1.);
+  for (unsigned int i = 0; i + 1 < n; ++i)
+  {
+    A.row.push_back(i);
+    A.value.push_back(1e-6);
+  }
+  A.column_start.back() = A.row.size();
+  return A;
+}
+
+/** All memory that there is, but for two blocks of @p size bytes. */
+std::vector<std::unique_ptr<char[]>> all_but_two(const std::size_t size)
+{
+  std::vector<std::unique_ptr<char[]>> large, all;
+  for (const std::size_t block : {size, size / 64})
+    try
+    {
+      for (auto &blocks = block == size ? large : all;;)
+        blocks.emplace_back(new char[block]);
+    }
+    catch (const std::bad_alloc &)
+    {
+    }
+  for (std::size_t k = 2; k < large.size(); ++k)
+    all.push_back(std::move(large[k]));
+  return all;
+}
+
+/** What a factorisation fails with within so many bytes; @p n_contact unknowns come last. */
+std::string failure_of(const SymmetricMatrix &A, const unsigned int n_contact = 0,
+                       const double bytes = 1e15)
+{
+  const Vector<double> f(A.n());
+  const FullMatrix<double> B(1, n_contact);
+  std::vector<unsigned int> contact(n_contact);
+  std::iota(contact.begin(), contact.end(), 0);
+  const AddressSpaceLimit limit(bytes);
+  try
+  {
+    SchurComplement(A, f, contact, B);
+  }
+  catch (const NumericalFailure &failure)
+  {
+    return failure.what();
+  }
+  return "nothing";
+}
+
+bool says(const std::string &line, const std::string &words)
+{
+  return line.find(words) != std::string::npos;
+}
+
+TEST(SchurComplement, NotPositiveDefinite)
+{
+  for (const double value : {0., -1.})
+  {
+    SymmetricMatrix A = diagonal(5, 1.);
+    A.value[3] = value;
+    EXPECT_TRUE(says(failure_of(A), "not positive definite: a rigid-body motion")) << failure_of(A);
+  }
+  EXPECT_EQ(failure_of(diagonal(5, 1.)), "nothing");
+}
+
+/** The unknown in the middle of the star goes first and leaves a dense matrix of all others. */
+TEST(SchurComplement, FactorWithMoreEntriesThanAnIndexCounts)
+{
+  const unsigned int n = 70000;
+  const std::string failure = failure_of(star(n), n - 1);
+  EXPECT_TRUE(says(failure, "(70000 unknowns) has more entries than its indices can count"))
+      << failure;
+}
+
+TEST(SchurComplement, FactorBeyondTheMemory)
+{
+  if (!AddressSpaceLimit::can_be_tested())
+    GTEST_SKIP();
+  const unsigned int n = 8000; // 512 MB of L and as much of its dense block
+  const std::string failure = failure_of(star(n), n - 1, 256e6);
+  EXPECT_TRUE(says(failure, "the factorisation of 8000 unknowns needs 1.")) << failure;
+  EXPECT_TRUE(says(failure, "left of the address space (ulimit -v)")) << failure;
+}
+
+/** The ordering asks for memory before anyone knows how much the factor will take. */
+TEST(SchurComplement, OrderingBeyondTheMemory)
+{
+  if (!AddressSpaceLimit::can_be_tested())
+    GTEST_SKIP();
+  // Three permutations fit, what CAMD works on does not.
+  const std::string failure = failure_of(diagonal(500000, 1.), 0, 10e6);
+  EXPECT_TRUE(says(failure, "the factorisation of 500000 unknowns is out of memory")) << failure;
+}
+
+TEST(SchurComplement, SolutionBeyondTheMemory)
+{
+  if (!AddressSpaceLimit::can_be_tested())
+    GTEST_SKIP();
+  const unsigned int n = 100000;
+  const SchurComplement schur_complement(diagonal(n, 2.), Vector<double>(n), {},
+                                         FullMatrix<double>());
+  const AddressSpaceLimit limit(4e6);
+  const auto the_rest = all_but_two(n * sizeof(double) + 8192);
+  EXPECT_THROW(schur_complement.displacement(Vector<double>()), NumericalFailure);
+}
+} // namespace
