@@ -3,6 +3,7 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/version.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/stress.h>
 #include <hpvi/output/mesh_picture.h>
@@ -496,11 +497,6 @@ void Output<dim>::write_tables()
 template <int dim>
 void Output<dim>::write_summary(const std::string &status, const std::string &message) const
 {
-#ifdef DEBUG
-  const std::string build = "Debug";
-#else
-  const std::string build = "Release";
-#endif
   const auto object = [](const Record &record)
   {
     std::string list;
@@ -522,8 +518,8 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
     json += "  \"message\": " + json_string(message) + ",\n";
   json += "  \"scene\": " + json_string(scene.name) +
           ",\n  \"title\": " + json_string(scene.title) +
-          ",\n  \"program\": " + json_string("hpvi " HPVI_VERSION) +
-          ",\n  \"build\": " + json_string(build) +
+          ",\n  \"program\": " + json_string("hpvi " + version()) +
+          ",\n  \"build\": " + json_string(build_type()) +
           ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
           ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
           ",\n    \"stress\": " + json_string(scene.stress_unit) +

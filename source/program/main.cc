@@ -3,6 +3,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
+#include <hpvi/base/version.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/output/output.h>
 #include <hpvi/program/command_line.h>
@@ -19,8 +20,6 @@
 #include <new>
 #include <sstream>
 
-#include <unistd.h>
-
 // Present where OpenBLAS is the BLAS in use.
 extern "C" int openblas_get_num_threads() __attribute__((weak));
 
@@ -32,12 +31,7 @@ constexpr int dim = 2;
 
 std::string version_line()
 {
-#ifdef DEBUG
-  const std::string build = "Debug";
-#else
-  const std::string build = "Release";
-#endif
-  return "hpvi " HPVI_VERSION " (" + build + " build), deal.II " DEAL_II_PACKAGE_VERSION;
+  return "hpvi " + version() + " (" + build_type() + " build), deal.II " DEAL_II_PACKAGE_VERSION;
 }
 
 /** The one line for stderr. */
