@@ -82,7 +82,7 @@ void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
 
 template <int dim>
 ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables)
-    : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
+    : materials(scene.materials), interior_loads(scene.has_body_force()), tables(tables)
 {
 }
 
@@ -90,7 +90,8 @@ ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const Shape
 template <int dim>
 typename ElementStiffnesses<dim>::Key
 ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices &vertices,
-                                          const unsigned int degree)
+                                          const unsigned int degree,
+                                          const types::material_id material)
 {
   double size = 1.;
   if (dim == 2)
@@ -102,6 +103,7 @@ ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices 
   Key key;
   auto entry = key.begin();
   *entry++ = degree;
+  *entry++ = material;
   for (const Point<dim> &v : vertices)
     for (unsigned int d = 0; d < dim; ++d)
       *entry++ = std::lround((v[d] - vertices[0][d]) / size * 1e11);
@@ -110,11 +112,12 @@ ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices 
 
 template <int dim>
 FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
-                                                      const unsigned int degree) const
+                                                      const unsigned int degree,
+                                                      const types::material_id material) const
 {
   const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
-  const double lambda = material.lambda(dim), mu = material.mu();
+  const StiffnessFormula<dim> product(materials[material]);
   const unsigned int n = numbering.shape.size();
   FullMatrix<double> K(n, n);
   for (unsigned int row = 0; row < n; ++row)
@@ -122,10 +125,8 @@ FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
     {
       const unsigned int i = numbering.shape[row], c = numbering.component[row];
       const unsigned int j = numbering.shape[column], d = numbering.component[column];
-      double sum = lambda * P[c][d](i, j) + mu * P[d][c](i, j);
-      for (unsigned int a = 0; c == d && a < dim; ++a)
-        sum += mu * P[a][a](i, j);
-      K(row, column) = sum;
+      K(row, column) =
+          product([&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
     }
   return K;
 }
@@ -158,14 +159,15 @@ ElementStiffnesses<dim>::condense(const FullMatrix<double> &K, const unsigned in
 }
 
 template <int dim>
-std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellMap<dim> &map,
-                                                                     const unsigned int degree)
+std::shared_ptr<const ElementStiffness>
+ElementStiffnesses<dim>::get(const CellMap<dim> &map, const unsigned int degree,
+                             const types::material_id material)
 {
-  auto &entry = known[congruence_class(map.vertices(), degree)];
+  auto &entry = known[congruence_class(map.vertices(), degree, material)];
   std::shared_ptr<const ElementStiffness> element = entry.lock();
   if (!element)
   {
-    element = condense(stiffness(map, degree), tables.numbering(degree).n_boundary);
+    element = condense(stiffness(map, degree, material), tables.numbering(degree).n_boundary);
     entry = element;
   }
   return element;
@@ -173,9 +175,10 @@ std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellM
 
 template <int dim>
 void ElementStiffnesses<dim>::interior(const CellMap<dim> &map, const unsigned int degree,
+                                       const types::material_id material,
                                        LAPACKFullMatrix<double> &K_ii) const
 {
-  factor_interior(stiffness(map, degree), tables.numbering(degree).n_boundary, K_ii);
+  factor_interior(stiffness(map, degree, material), tables.numbering(degree).n_boundary, K_ii);
 }
 
 namespace

@@ -41,8 +41,8 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
       interior_loads(scene.has_body_force())
 {
   for (const auto &cell : space.dof_handler().active_cell_iterators())
-    elements.push_back(
-        stiffnesses.get(map_of<dim>(cell), space.degrees()[cell->active_cell_index()]));
+    elements.push_back(stiffnesses.get(
+        map_of<dim>(cell), space.degrees()[cell->active_cell_index()], cell->material_id()));
   number_unknowns();
   assemble_loads(scene, tables);
   std::vector<Contribution> contributions;
@@ -507,7 +507,7 @@ ElasticSystem<dim>::interiors(const ElementStiffnesses<dim> &stiffnesses) const
   {
     const unsigned int index = cell->active_cell_index();
     if (elements[index]->extension.m() > 0 && result.count(elements[index].get()) == 0)
-      stiffnesses.interior(map_of<dim>(cell), space.degrees()[index],
+      stiffnesses.interior(map_of<dim>(cell), space.degrees()[index], cell->material_id(),
                            result[elements[index].get()]);
   }
   return result;

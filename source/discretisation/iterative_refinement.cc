@@ -67,7 +67,7 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &lambda,
                                                   const Vector<double> &u,
                                                   double &energy_product) const
 {
-  const InternalForces internal = internal_forces(scene.material, space, tables, u);
+  const InternalForces internal = internal_forces(scene, space, tables, u);
   energy_product = internal.energy_product;
   Vector<double> r(system.loads());
   r -= internal.forces;
@@ -78,13 +78,13 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &lambda,
 
 /**
  * A bound of the energy that the last bits of u have: 100 times `mu (epsilon |u|)^2` for each unknown. A
- * body with no more is moved, not strained.
+ * body with no more is moved, not strained. The stiffest material has most.
  */
 template <int dim>
 double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
   const double last_bit = std::numeric_limits<double>::epsilon() * u.linfty_norm();
-  return 100 * scene.material.mu() * last_bit * last_bit * u.size();
+  return 100 * scene.largest_mu() * last_bit * last_bit * u.size();
 }
 
 /** Does the residual do more work on the free part of u than round-off explains? */
@@ -122,7 +122,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
   for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
        ++error.corrections)
   {
-    const double curvature = internal_forces(scene.material, space, tables, p).energy_product;
+    const double curvature = internal_forces(scene, space, tables, p).energy_product;
     if (!(curvature > 0.))
       break;
     u.add(dot(r, p) / curvature, p);

@@ -6,7 +6,7 @@
 #include <deal.II/numerics/vector_tools_interpolate.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stress.h>
+#include <hpvi/evaluation/contact_traces.h>
 
 #include <algorithm>
 

@@ -60,8 +60,8 @@ struct ConstraintEntry
 
 /**
  * Element matrices by congruence class. In two dimensions a(.,.) does not change when a cell is
- * moved or scaled, so an adaptive mesh has a handful of different element matrices. A class is
- * kept as long as a system uses it.
+ * moved or scaled, so an adaptive mesh has a handful of different element matrices for each
+ * material. A class is kept as long as a system uses it.
  */
 template <int dim>
 class ElementStiffnesses
@@ -69,7 +69,8 @@ class ElementStiffnesses
 public:
   ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables);
 
-  std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree);
+  std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree,
+                                              dealii::types::material_id material);
 
   /**
    * `T'KT`, n_targets x n_targets, with K the condensed matrix of @p element. Most cells keep their
@@ -80,20 +81,22 @@ public:
               const std::vector<ConstraintEntry> &T, unsigned int n_targets);
 
   /** K_ii of one cell, factored: what only a correction of round-off asks for is not kept. */
-  void interior(const CellMap<dim> &map, unsigned int degree,
+  void interior(const CellMap<dim> &map, unsigned int degree, dealii::types::material_id material,
                 dealii::LAPACKFullMatrix<double> &K_ii) const;
 
   /** Forget the constrained matrices that no system uses. */
   void forget_unused();
 
 private:
-  using Key = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
-  static Key congruence_class(const typename CellMap<dim>::Vertices &vertices, unsigned int degree);
-  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
+  using Key = std::array<long, 2 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
+  static Key congruence_class(const typename CellMap<dim>::Vertices &vertices, unsigned int degree,
+                              dealii::types::material_id material);
+  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree,
+                                       dealii::types::material_id material) const;
   std::shared_ptr<ElementStiffness> condense(const dealii::FullMatrix<double> &K,
                                              unsigned int n_boundary) const;
 
-  const Material material;
+  const std::vector<Material> materials;
   const bool interior_loads;
   const ShapeTables<dim> &tables;
   std::map<Key, std::weak_ptr<const ElementStiffness>> known;
