@@ -357,6 +357,7 @@ TEST(Messages, ArePrintable)
   EXPECT_EQ(printable("\u0085\u2028\u202e"), "???");
   EXPECT_EQ(printable("\xe9 \xc0\xaf \xed\xa0\x80 \xf5 \xe2\x82"), "? ?? ??? ? ??");
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????"); // beyond U+10FFFF
+  EXPECT_EQ(printable("\xf9\x80\x80\x80"), "????"); // no first byte
   EXPECT_EQ(printable("abcdef", 6), "abcdef");
   EXPECT_EQ(printable("abcdefg", 6), "abcdef...");
   EXPECT_EQ(printable("abcde\u00e9", 6), "abcde..."); // no half characters
