@@ -116,28 +116,29 @@ std::string coarse_transition(const Solution<dim> &solution)
 }
 
 /** Three steps in a row that bring less than a tenth each. */
-std::string stagnating_estimate(const std::vector<double> &estimates)
+std::string stagnating_estimate(const History &history)
 {
-  const unsigned int n = estimates.size(), steps = 3;
+  const unsigned int n = history.size(), steps = 3;
   if (n <= steps)
     return {};
   for (unsigned int k = n - steps; k < n; ++k)
-    if (!(estimates[k] > 0.9 * estimates[k - 1]))
+    if (!(history[k].estimate > 0.9 * history[k - 1].estimate))
       return {};
-  return line("the error indicator stagnates: ", estimates[n - 1 - steps], " three steps ago, ",
-              estimates[n - 1], " now; the data may hold what no refinement resolves");
+  return line("the error indicator stagnates: ", history[n - 1 - steps].estimate,
+              " three steps ago, ", history[n - 1].estimate,
+              " now; the data may hold what no refinement resolves");
 }
 
 /** Refinement lowers the indicator of any load with finite energy; a factor 4 upwards is none. */
-std::string rising_estimate(const std::vector<double> &estimates)
+std::string rising_estimate(const History &history)
 {
-  for (unsigned int k = 1, least = 0; k < estimates.size(); ++k)
+  for (unsigned int k = 1, least = 0; k < history.size(); ++k)
   {
-    if (estimates[k] > 4 * estimates[least])
-      return line("the error indicator rose from ", estimates[least], " in step ", least + 1,
-                  " to ", estimates[k], " in step ", k + 1,
+    if (history[k].estimate > 4 * history[least].estimate)
+      return line("the error indicator rose from ", history[least].estimate, " in step ", least + 1,
+                  " to ", history[k].estimate, " in step ", k + 1,
                   ": a load or a prescribed displacement may be unbounded; look for poles");
-    if (estimates[k] < estimates[least])
+    if (history[k].estimate < history[least].estimate)
       least = k;
   }
   return {};
@@ -261,25 +262,38 @@ std::string unresolved_bound(const Solution<dim> &solution)
               ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
+
+/** Empty fields of the table are explained once. */
+std::string no_condition_number(const History &history)
+{
+  std::string list;
+  for (unsigned int k = 0; k < history.size(); ++k)
+    if (history[k].lacks_condition)
+      list += (list.empty() ? "" : ", ") + std::to_string(k + 1);
+  if (list.empty())
+    return {};
+  return "S is singular up to round-off in step " + list +
+         ": there the table has no condition number; Friction bound may differ too much from point "
+         "to point, or a multiplier act nowhere";
+}
 } // namespace
 
 template <int dim>
 std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                  const std::vector<double> &estimates,
-                                  const AlgebraicError &algebraic)
+                                  const History &history, const AlgebraicError &algebraic)
 {
   std::vector<std::string> result;
   for (const std::string &warning :
        {tensile_contact(solution, tables), overshooting_multiplier(solution),
-        coarse_transition(solution), stagnating_estimate(estimates), rising_estimate(estimates),
+        coarse_transition(solution), stagnating_estimate(history), rising_estimate(history),
         round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
         locking(solution), rich_multiplier(solution), whole_body_slips(solution),
-        unresolved_bound(solution)})
+        unresolved_bound(solution), no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
 }
 
 template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
-                                           const std::vector<double> &, const AlgebraicError &);
+                                           const History &, const AlgebraicError &);
 } // namespace hpvi

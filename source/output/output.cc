@@ -88,7 +88,8 @@ std::string transition_list(const Solution<dim> &solution)
 
 /** The row of convergence.csv. */
 template <int dim>
-Record convergence_record(const Step<dim> &step, const unsigned int p_min, const unsigned int p_max)
+Record convergence_record(const StepReport<dim> &step, const unsigned int p_min,
+                          const unsigned int p_max)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
@@ -424,7 +425,7 @@ std::string Output<dim>::safe_steps() const
 }
 
 template <int dim>
-void Output<dim>::write_step(const Step<dim> &step)
+void Output<dim>::write_step(const StepReport<dim> &step)
 {
   if (scene.output.contact && scene.has_contact())
     write(numbered("contact", step.number, ".csv"), contact_table(step.solution, tables));
@@ -476,7 +477,7 @@ void Output<dim>::give_up(const std::string &status, const std::string &message)
 }
 
 template <int dim>
-void Output<dim>::add_rows(const Step<dim> &step)
+void Output<dim>::add_rows(const StepReport<dim> &step)
 {
   const Degrees &p = step.solution.displacement_space.degrees();
   const auto [p_min, p_max] = std::minmax_element(p.begin(), p.end());
@@ -536,7 +537,7 @@ void Output<dim>::write_summary(const std::string &status, const std::string &me
 
 /** Linear cells, subdivided as finely as the highest degree asks for, up to a readable file. */
 template <int dim>
-void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name)
+void Output<dim>::write_vtu(const StepReport<dim> &step, const std::string &name)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   Vector<float> degree(space.degrees().size()), estimate(space.degrees().size());

@@ -21,7 +21,7 @@ std::vector<Row> run(const Scene<2> &scene)
 {
   std::vector<Row> rows;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         rows.push_back({step.solution.displacement_space.n_free_dofs(), step.relative_estimate,
                         step.scaled_estimate, step.seconds, step.energies.energy, step.errors,
@@ -142,7 +142,7 @@ TEST(TrueError, EnergyDifferenceObeysItsIdentity)
 {
   AdaptiveSolver<2>(shipped_scene("stick-slip", adaptivity("hpa3", 14)))
       .run(
-          [](const Step<2> &step)
+          [](const StepReport<2> &step)
           {
             const double half_square = 0.5 * std::pow(step.errors.energy, 2);
             const double expected = half_square + step.energies.slack;
@@ -156,7 +156,7 @@ TEST(TrueError, EnergyTendsToThatOfTheExactSolution)
 {
   AdaptiveSolver<2>(shipped_scene("smooth", {{"Adaptivity/Maximum steps", "9"}}))
       .run(
-          [](const Step<2> &step)
+          [](const StepReport<2> &step)
           {
             const double bound = 1e-9 + step.errors.energy * step.errors.energy_norm;
             EXPECT_NEAR(step.energies.energy, step.errors.reference_energy, bound) << step.number;
@@ -198,7 +198,7 @@ public:
   {
     const ShapeTables<2> tables;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           if (step.stopped_by.empty())
             return;
@@ -260,7 +260,7 @@ TEST(StoredSolution, ObeysPythagoras)
     overrides.emplace_back("Error/Reference solution", file.path);
     AdaptiveSolver<2>(shipped_scene("han-6-12", overrides))
         .run(
-            [&](const Step<2> &step)
+            [&](const StepReport<2> &step)
             {
               const double norm = step.errors.energy_norm, own = step.energies.norm;
               const double expected = norm * norm - own * own;
@@ -334,7 +334,7 @@ TEST(Limits, SecondsAreThoseOfAllStepsSoFar)
   double sum = 0;
   AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "4"}}))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             sum += step.times.total();
             EXPECT_GT(step.times.total(), 0.);

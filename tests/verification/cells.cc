@@ -666,7 +666,7 @@ TEST(ResidualIndicator, IsScaledByTheCoercivityOfTheMaterial)
                                                  {"Material/Plane", plane},
                                                  {"Adaptivity/Maximum steps", "2"}}))
         .run(
-            [](const Step<2> &step)
+            [](const StepReport<2> &step)
             {
               const double eta = step.estimate.total();
               EXPECT_NEAR(step.scaled_estimate, eta / std::sqrt(9.6), 1e-12 * eta);

@@ -142,7 +142,7 @@ TEST_P(AnyBound, MeansTheSameInBAndInTheEnergies)
 {
   AdaptiveSolver<2>(pushed_with(GetParam().g))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             SCOPED_TRACE("step " + std::to_string(step.number));
             const Energies &e = step.energies;
@@ -219,7 +219,7 @@ std::string failure_of(const Scene<2> &scene)
   try
   {
     AdaptiveSolver<2>(scene).run(
-        [](const Step<2> &step)
+        [](const StepReport<2> &step)
         {
           EXPECT_TRUE(std::isfinite(step.energies.energy));
           EXPECT_TRUE(std::isfinite(step.solution.u.l2_norm()));
@@ -250,7 +250,7 @@ TEST(FreeBody, BalancesItsLoadsByABump)
   {
     double resultant = 0;
     AdaptiveSolver<2>(free_strip("if(abs(x - " + text(a) + ") < 0.05, 10, 0)", 0.7))
-        .run([&](const Step<2> &step) { resultant = step.energies.resultant; });
+        .run([&](const StepReport<2> &step) { resultant = step.energies.resultant; });
     EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
   }
 }
@@ -288,7 +288,7 @@ TEST(Jump, IsBisectedInEveryStepByMethodsThatBisect)
     double expected = 1;
     AdaptiveSolver<2>(pushed_with("if(x < 1.3, 0.2, 0.3)", {{"Adaptivity/Method", method}}))
         .run(
-            [&](const Step<2> &step)
+            [&](const StepReport<2> &step)
             {
               EXPECT_LE(edge_with_the_jump(step.solution, 1.3), expected)
                   << method << ", step " << step.number;
@@ -304,7 +304,7 @@ TEST(Jump, IsWarnedOfUnlessAVertexLiesThere)
     std::vector<std::string> result;
     AdaptiveSolver<2>(
         pushed_with(bound, {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "2"}}))
-        .run([&](const Step<2> &step) { result = step.warnings; });
+        .run([&](const StepReport<2> &step) { result = step.warnings; });
     return result;
   };
   const std::string words = "Friction bound jumps inside 1 edge, by up to 0.1";
@@ -457,7 +457,7 @@ TEST(TwoContactBoundaries, HaveNoTransitionInsideTheBodyAndNoCommonResultant)
   unsigned int n_transitions = 0;
   AdaptiveSolver<2>(block_in_a_corner())
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             EXPECT_TRUE(std::isnan(step.energies.resultant));
             for (const Point<2> &x : transitions(step.solution))
@@ -526,7 +526,7 @@ struct LoadedFoot
 void expect_uniform(const LoadedFoot &foot, const Scene<2> &scene, const double lambda)
 {
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const ShapeTables<2> tables;
         EXPECT_LE(step.estimate.total(), 1e-12);

@@ -96,7 +96,7 @@ public:
   {
     History history;
     AdaptiveSolver<2>(*scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           history.unknowns.push_back(std::log(step.solution.displacement_space.n_free_dofs()));
           history.error.push_back(std::log(energy_error(step.solution)));
@@ -208,7 +208,7 @@ TEST(Energies, SlackIsNegativeByTheOvershootOfTheMultiplierAtMost)
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "12"}});
     double first = 0, last = 0;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           SCOPED_TRACE(name + ", step " + std::to_string(step.number));
           expect_slack_of_overshoot_alone(step.solution, step.energies.slack);
@@ -232,7 +232,7 @@ History run(const std::string &example, const Overrides &overrides)
   History history;
   const Scene<2> scene = shipped_scene(example, overrides);
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         history.unknowns.push_back(step.solution.displacement_space.n_free_dofs());
         history.indicator.push_back(step.estimate.total());

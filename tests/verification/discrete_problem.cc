@@ -255,10 +255,10 @@ protected:
   const Scene<2> scene = shipped_scene(GetParam(), {{"Adaptivity/Maximum steps", "9"}});
 
   /** After the first step, some steps later, and at the end. */
-  void for_some_steps(const std::function<void(const Step<2> &)> &action) const
+  void for_some_steps(const std::function<void(const StepReport<2> &)> &action) const
   {
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           SCOPED_TRACE("step " + std::to_string(step.number));
           if (step.number % 4 == 1)
@@ -270,7 +270,7 @@ protected:
 TEST_P(ThesisExample, EquilibriumHoldsOnTheWholeSpace)
 {
   for_some_steps(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         const Oracle oracle(step.solution);
         EXPECT_LE(oracle.residual(step.solution).l2_norm(), 1e-10 * oracle.load().l2_norm());
@@ -280,7 +280,7 @@ TEST_P(ThesisExample, EquilibriumHoldsOnTheWholeSpace)
 TEST_P(ThesisExample, MultiplierStaysInItsBounds)
 {
   for_some_steps(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         EXPECT_LE(step.solution.lambda.linfty_norm(), 1.);
         const ContactSpace<2> &contact = step.solution.contact_space;
@@ -319,7 +319,7 @@ unsigned int expect_complementary(const Solution<2> &solution, const ElasticSyst
 TEST_P(ThesisExample, SlipAndStickAreComplementary)
 {
   for_some_steps(
-      [this](const Step<2> &step)
+      [this](const StepReport<2> &step)
       {
         const Solution<2> &solution = step.solution;
         const ShapeTables<2> tables;
@@ -337,7 +337,7 @@ TEST_P(ThesisExample, SlipAndStickAreComplementary)
 TEST_P(ThesisExample, EnergiesObeyTheirIdentities)
 {
   for_some_steps(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         const Energies &e = step.energies;
         const double a = e.norm * e.norm;
@@ -865,7 +865,7 @@ void expect_no_quadratic_program(const Scene<2> &scene, const bool has_contact)
 {
   unsigned int n_steps = 0;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         ++n_steps;
         EXPECT_EQ(step.solution.contact_space.faces().empty(), !has_contact);

@@ -55,7 +55,7 @@ Result run(const std::string &name, const Overrides &overrides)
   {
     Output<2> output(scene, directory.string());
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           result.steps = step.number;
           result.stopped_by = step.stopped_by;

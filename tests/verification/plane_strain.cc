@@ -190,7 +190,7 @@ TEST_P(PlaneStrainScene, HasTheEnergiesOfTheClosedForm)
   unsigned int n_steps = 0;
   AdaptiveSolver<2>(shipped_scene("plane-strain", {{"Material/Poisson's ratio", GetParam()}}))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             ++n_steps;
             EXPECT_NEAR(std::pow(step.errors.energy_norm, 2), a, 1e-12);

@@ -19,7 +19,7 @@ LastStep run(const Scene<2> &scene)
 {
   LastStep last;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const Solution<2> &solution = step.solution;
         expect_slack_of_overshoot_alone(solution, step.energies.slack);

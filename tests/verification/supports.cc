@@ -129,7 +129,7 @@ TEST(Corners, TurnWithTheBody)
                   {"Adaptivity/Method", "hup3"},
                   {"Adaptivity/Maximum steps", "3"}});
     double energy = 0;
-    AdaptiveSolver<2>(scene).run([&](const Step<2> &step) { energy = step.energies.energy; });
+    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { energy = step.energies.energy; });
     return energy;
   };
   const double level = run(0.);
@@ -151,7 +151,7 @@ TEST(Equilibrium, OfABlockIsKnown)
                                    {"Body force/Expression", "0; -0.05"},
                                    {"Adaptivity/Maximum steps", "3"}});
   AdaptiveSolver<2>(scene).run(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         if (step.stopped_by.empty())
           return;
@@ -185,7 +185,7 @@ TEST(Equilibrium, TellsTwoContactsApart)
                                    {"Boundary right/Displacement", "0.2; free"},
                                    {"Adaptivity/Maximum steps", "3"}});
   AdaptiveSolver<2>(scene).run(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         if (step.stopped_by.empty())
           return;

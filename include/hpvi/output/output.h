@@ -56,7 +56,7 @@ public:
   Output(const Scene<dim> &scene, const std::string &path);
 
   /** Write the files of one finished step and bring the tables up to date. Throws OutputFailure. */
-  void write_step(const Step<dim> &step);
+  void write_step(const StepReport<dim> &step);
 
   /** Write that the run is done. Throws OutputFailure. */
   void finish();
@@ -78,10 +78,10 @@ private:
   bool writes(const std::string &name) const;
   void write(const std::string &name, const std::string &content);
   void replace(const std::string &name, const std::string &content) const;
-  void add_rows(const Step<dim> &step);
+  void add_rows(const StepReport<dim> &step);
   void write_tables();
   void write_summary(const std::string &status, const std::string &message) const;
-  void write_vtu(const Step<dim> &step, const std::string &name);
+  void write_vtu(const StepReport<dim> &step, const std::string &name);
 
   const Scene<dim> &scene;
   ResultDirectory directory;
