@@ -185,10 +185,12 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
                                                     const Reduction &reduction)
 {
   Energies step_energies;
+  std::vector<ContactState<dim>> contact;
   {
     StageTimer timer(times.recover);
     step_energies = energies(solution, *discretisation->system, tables, algebraic.energy_product);
     check_numbers(solution, step_energies, algebraic);
+    contact = contact_states(solution, tables);
   }
   const double scaled_estimate = estimate.total() / std::sqrt(scene.material.coercivity(dim));
   history.push_back(
@@ -201,7 +203,8 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           scaled_estimate,
           history.back().relative_estimate,
           step_energies,
-          true_error.measure(solution),
+          contact,
+          true_error.measure(solution, contact),
           algebraic,
           reduction.qp,
           reduction.condition_raw,
@@ -226,7 +229,7 @@ std::string AdaptiveSolver<dim>::Stages::end_of_run(const Solution<dim> &solutio
 template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
-  step.warnings = warnings(step.solution, tables, history, step.algebraic);
+  step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
   if (!dense_note().empty())
     step.warnings.push_back(dense_note());
   step.equilibrium = equilibrium(step.solution, *discretisation->system, tables);

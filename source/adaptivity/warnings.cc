@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/quadrature_lib.h>
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stress.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace hpvi
@@ -35,38 +31,29 @@ std::string labelled(const double value, const std::string &unit)
 
 /** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
 template <int dim>
-std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+std::string tensile_contact(const Solution<dim> &solution,
+                            const std::vector<ContactState<dim>> &contact)
 {
-  double tension = 0, all = 0, highest = 0;
-  Point<dim> where;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  double tension = 0, all = 0;
+  const ContactState<dim> *worst = nullptr;
+  for (const ContactState<dim> &state : contact)
   {
-    const unsigned int n = face.degree + 1;
-    const ContactTraces<dim> traces(face, n, solution, tables);
-    for (unsigned int q = 0; q < n; ++q)
-    {
-      const double weight = tables.gauss(n).weight(q) * face.length();
-      const double traction = traces.normal_traction(q);
-      all += weight * std::abs(traction);
-      tension += weight * std::max(traction, 0.);
-      if (traction > highest)
-      {
-        highest = traction;
-        where = face.point(tables.gauss(n).point(q)[0]);
-      }
-    }
+    tension += state.tension;
+    all += 2 * state.tension - state.normal_resultant;
+    if (!worst || state.highest_tension > worst->highest_tension)
+      worst = &state;
   }
   // A stress that the last bits of u alone make is none.
   const Geometry<dim> &geometry = solution.scene.geometry;
   const double diameter = geometry.corners[0].distance(geometry.corners[3]),
                round_off =
                    1e-12 * solution.scene.material.mu() * solution.u.linfty_norm() / diameter;
-  if (!(tension > 0.01 * all && highest > round_off))
+  if (!worst || !(tension > 0.01 * all && worst->highest_tension > round_off))
     return {};
   return line("bilateral contact pulls: ", 100 * tension / all,
               " % of the normal traction is tensile, up to ",
-              labelled(highest, solution.scene.stress_unit), " at (", where,
-              "); a body that may lift off needs unilateral contact");
+              labelled(worst->highest_tension, solution.scene.stress_unit), " at (",
+              worst->highest_tension_point, "); a body that may lift off needs unilateral contact");
 }
 
 /** Gauss points obey |lambda_i| <= 1, the polynomial through them need not. */
@@ -93,22 +80,22 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
 }
 
 template <int dim>
-std::string coarse_transition(const Solution<dim> &solution)
+std::string coarse_transition(const Solution<dim> &solution,
+                              const std::vector<ContactState<dim>> &contact)
 {
-  std::map<types::boundary_id, double> whole;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    whole[face.condition->id] += face.length();
   std::string list;
-  for (const Point<dim> &x : transitions(solution))
-    for (const ContactFace<dim> &face : solution.contact_space.faces())
-    {
-      const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
-      const double s = (x - face.point(0.)) * edge / edge.norm_square();
-      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
-          face.length() > 0.01 * whole[face.condition->id])
-        list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
-                     labelled(face.length(), solution.scene.length_unit));
-    }
+  for (const ContactState<dim> &state : contact)
+    for (const Point<dim> &x : state.transitions)
+      for (const ContactFace<dim> &face : solution.contact_space.faces())
+      {
+        const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
+        const double s = (x - face.point(0.)) * edge / edge.norm_square();
+        if (face.condition->id == state.boundary && s >= 0 && s < 1 &&
+            (x - face.point(s)).norm() < 1e-6 * face.length() &&
+            face.length() > 0.01 * state.length)
+          list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
+                       labelled(face.length(), solution.scene.length_unit));
+      }
   if (list.empty())
     return {};
   return "stick and slip meet at " + list +
@@ -227,18 +214,16 @@ std::string rich_multiplier(const Solution<dim> &solution)
 
 /** Friction gives all it has, `|int g lambda t| = int g`: both edges of a strip may be in contact. */
 template <int dim>
-std::string whole_body_slips(const Solution<dim> &solution)
+std::string whole_body_slips(const Solution<dim> &solution,
+                             const std::vector<ContactState<dim>> &contact)
 {
   if (!solution.scene.free_translation)
     return {};
-  const ContactSpace<dim> &contact = solution.contact_space;
-  double used = 0;
-  for (const ContactFace<dim> &face : contact.faces())
-    for (unsigned int q = 0; q < face.friction.points.size(); ++q)
-      used += face.friction.weights[q] * face.length() * face.friction.values[q] *
-              contact.value(face, solution.lambda, face.friction.points[q]) *
-              (face.tangent * *solution.scene.free_translation);
-  if (std::abs(used) < (1 - 1e-8) * contact.friction_limit())
+  Tensor<1, dim> friction;
+  for (const ContactState<dim> &state : contact)
+    friction += state.friction_force;
+  if (std::abs(friction * *solution.scene.free_translation) <
+      (1 - slip_tolerance) * solution.contact_space.friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
               *solution.scene.free_translation,
@@ -279,21 +264,24 @@ std::string no_condition_number(const History &history)
 } // namespace
 
 template <int dim>
-std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
+std::vector<std::string> warnings(const Solution<dim> &solution,
+                                  const std::vector<ContactState<dim>> &contact,
                                   const History &history, const AlgebraicError &algebraic)
 {
   std::vector<std::string> result;
   for (const std::string &warning :
-       {tensile_contact(solution, tables), overshooting_multiplier(solution),
-        coarse_transition(solution), stagnating_estimate(history), rising_estimate(history),
-        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution),
-        unresolved_bound(solution), no_condition_number(history)})
+       {tensile_contact(solution, contact), overshooting_multiplier(solution),
+        coarse_transition(solution, contact), stagnating_estimate(history),
+        rising_estimate(history), round_off(algebraic), elongated_elements(solution),
+        sharp_corners(solution.scene.geometry), locking(solution), rich_multiplier(solution),
+        whole_body_slips(solution, contact), unresolved_bound(solution),
+        no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
 }
 
-template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
-                                           const History &, const AlgebraicError &);
+template std::vector<std::string> warnings(const Solution<2> &,
+                                           const std::vector<ContactState<2>> &, const History &,
+                                           const AlgebraicError &);
 } // namespace hpvi

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hpvi
 {
@@ -85,44 +84,32 @@ double friction_work(const ContactFace<dim> &face, const TangentialDisplacement<
     }
   return face.length() * sum;
 }
-
-/** The friction force along t has one direction where there is one contact boundary alone. */
-template <int dim>
-bool has_one_contact_boundary(const Scene<dim> &scene)
-{
-  return std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
-                       [](const auto &boundary) { return boundary.bilateral_contact; }) == 1;
-}
 } // namespace
 
 template <int dim>
 Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
                   const ShapeTables<dim> &tables, const double a)
 {
-  double friction = 0, coupling = 0, resultant = 0;
+  double friction = 0, coupling = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
     {
       const TangentialDisplacement<dim> u_t(face, solution, tables);
       friction += friction_work(face, u_t, tables.gauss(face.degree + 2));
       const FrictionRule &rule = face.friction;
-      double face_coupling = 0, face_resultant = 0;
+      double face_coupling = 0;
       for (unsigned int q = 0; q < rule.points.size(); ++q)
       {
         const double s = rule.points[q], g = rule.values[q];
         const double lambda = solution.contact_space.value(face, solution.lambda, s);
         face_coupling += rule.weights[q] * (g * u_t(s) * lambda);
-        face_resultant += rule.weights[q] * (g * lambda);
       }
       coupling += face.length() * face_coupling;
-      resultant -= face.length() * face_resultant;
     }
-  if (!has_one_contact_boundary(solution.scene))
-    resultant = std::numeric_limits<double>::quiet_NaN();
   const double potential = 0.5 * a - system.work(solution.u);
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
-  return {potential + coupling, potential + friction, norm, resultant, friction - coupling};
+  return {potential + coupling, potential + friction, norm, friction - coupling};
 }
 
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &,

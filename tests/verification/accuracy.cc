@@ -78,7 +78,8 @@ TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
       square += 2 * gauss.weight(i) * gauss.weight(j) *
                 scene.exact_solution->displacement(x).norm_square();
     }
-  const TrueErrors errors = TrueError<2>(scene, discrete.tables).measure(nothing);
+  const TrueErrors errors = TrueError<2>(scene, discrete.tables)
+                                .measure(nothing, contact_states(nothing, discrete.tables));
   EXPECT_NEAR(errors.energy, std::sqrt(0.37710185557), 1e-9);
   EXPECT_NEAR(errors.l2, std::sqrt(square), 1e-8);
   EXPECT_NEAR(errors.multiplier_l2, std::sqrt(7. / 6), 1e-9);
@@ -98,7 +99,10 @@ TEST(TrueError, OfTheTransitionIsADistance)
     lambda[i] = 1.;
   const Solution<2> solution{scene, discrete.displacement_space, discrete.contact_space,
                              Vector<double>(discrete.displacement_space.n_dofs()), lambda};
-  EXPECT_NEAR(TrueError<2>(scene, discrete.tables).measure(solution).transition, 0.1, 1e-14);
+  EXPECT_NEAR(TrueError<2>(scene, discrete.tables)
+                  .measure(solution, contact_states(solution, discrete.tables))
+                  .transition,
+              0.1, 1e-14);
 }
 
 TEST(TrueError, PureDegreeConvergesExponentiallyOnASmoothField)

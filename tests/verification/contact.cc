@@ -150,7 +150,7 @@ TEST_P(AnyBound, MeansTheSameInBAndInTheEnergies)
             EXPECT_NEAR(step.solution.contact_space.friction_limit(), GetParam().integral, 1e-11);
             EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
             const FrictionIntegrals sums = integrate_friction(step.solution, 4096);
-            EXPECT_NEAR(e.resultant, sums.resultant, 1e-6 * sums.bound);
+            EXPECT_NEAR(step.contact.at(0).friction_resultant, sums.resultant, 1e-6 * sums.bound);
             EXPECT_NEAR(e.slack, sums.friction - sums.coupling, 1e-5 * sums.friction);
             expect_slack_of_overshoot_alone(step.solution, e.slack);
           });
@@ -250,7 +250,7 @@ TEST(FreeBody, BalancesItsLoadsByABump)
   {
     double resultant = 0;
     AdaptiveSolver<2>(free_strip("if(abs(x - " + text(a) + ") < 0.05, 10, 0)", 0.7))
-        .run([&](const StepReport<2> &step) { resultant = step.energies.resultant; });
+        .run([&](const StepReport<2> &step) { resultant = step.contact.at(0).friction_resultant; });
     EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
   }
 }
@@ -336,8 +336,9 @@ public:
       for (unsigned int i = 0; i < face.n_multipliers; ++i)
         lambda[face.first_multiplier + i] =
             value(face.point(QGauss<1>(face.n_multipliers).point(i)[0]));
-    return transitions<2>(
-        {discrete.scene, discrete.displacement_space, discrete.contact_space, u, lambda});
+    return transitions(contact_states<2>(
+        {discrete.scene, discrete.displacement_space, discrete.contact_space, u, lambda},
+        discrete.tables));
   }
 
 private:
@@ -459,8 +460,8 @@ TEST(TwoContactBoundaries, HaveNoTransitionInsideTheBodyAndNoCommonResultant)
       .run(
           [&](const StepReport<2> &step)
           {
-            EXPECT_TRUE(std::isnan(step.energies.resultant));
-            for (const Point<2> &x : transitions(step.solution))
+            EXPECT_EQ(step.contact.size(), 2U);
+            for (const Point<2> &x : transitions(step.contact))
             {
               EXPECT_TRUE(x[0] == 0. || x[1] == 0.) << x;
               ++n_transitions;
@@ -476,21 +477,83 @@ TEST(TwoContactBoundaries, TablesRunAlongTheTangentOfEach)
   const Discretisation discrete(scene, mesh);
   std::mt19937 random(5);
   const Solution<2> field = discrete.random_field(random);
-  for (const unsigned int boundary : {0U, 2U})
+  const std::vector<ContactState<2>> states = contact_states(field, discrete.tables);
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_EQ(states[0].boundary, 0U);
+  EXPECT_EQ(states[1].boundary, 2U);
+  for (const ContactState<2> &state : states)
   {
     double last = -2;
+    auto point = state.points.begin();
     for (const ContactFace<2> &face : discrete.contact_space.faces())
-      if (face.condition->id == boundary)
-        for (const ContactPoint<2> &point : contact_points(face, field))
-        {
-          EXPECT_NEAR(point.lambda,
-                      discrete.contact_space.value(
-                          face, field.lambda, point.x.distance(face.point(0.)) / face.length()),
-                      1e-10);
-          const double place = face.tangent * point.x;
-          EXPECT_GT(place, last);
-          last = place;
-        }
+      for (unsigned int q = 0; q < face.n_points && face.condition->id == state.boundary; ++q)
+      {
+        ASSERT_NE(point, state.points.end());
+        EXPECT_NEAR(point->lambda,
+                    discrete.contact_space.value(face, field.lambda,
+                                                 point->x.distance(face.point(0.)) / face.length()),
+                    1e-10);
+        const double place = face.tangent * point->x;
+        EXPECT_GT(place, last);
+        last = place;
+        ++point;
+      }
+    EXPECT_EQ(point, state.points.end());
+  }
+}
+
+/** A displacement with sigma_yy = x - 1 on the bottom of a block of length 4: it pulls beyond x = 1. */
+TEST(ContactState, ResultantsAreIntegrals)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "4, 1"},
+                                   {"Geometry/Subdivisions", "8, 1"},
+                                   {"Material/Young's modulus", "1"},
+                                   {"Material/Poisson's ratio", "0"},
+                                   {"Boundary top/Displacement", "0; 0"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "if(x < 3, 0.5, 0)"}});
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Discretisation discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
+  Vector<double> u(discrete.displacement_space.n_dofs()),
+      lambda(discrete.contact_space.n_multipliers());
+  const VectorFunctionFromScalarFunctionObject<2> rising(
+      [](const Point<2> &x) { return (x[0] - 1) * x[1]; }, 1, 2);
+  VectorTools::interpolate(discrete.displacement_space.dof_handler(), rising, u);
+  lambda = 0.6;
+  const std::vector<ContactState<2>> states = contact_states<2>(
+      {scene, discrete.displacement_space, discrete.contact_space, u, lambda}, discrete.tables);
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_NEAR(states[0].length, 4, 1e-14);
+  EXPECT_NEAR(states[0].normal_resultant, 4, 1e-12);
+  EXPECT_NEAR(states[0].tension, 4.5, 1e-12);
+  EXPECT_NEAR(states[0].highest_tension_point.distance(Point<2>(4, 0)), 0, 0.1);
+  EXPECT_NEAR(states[0].highest_tension, states[0].highest_tension_point[0] - 1, 1e-12);
+  EXPECT_NEAR(states[0].friction_resultant, -0.9, 1e-12);
+  EXPECT_NEAR((states[0].friction_force - Tensor<1, 2>({-0.9, 0})).norm(), 0, 1e-12);
+  for (const ContactPoint<2> &point : states[0].points)
+  {
+    EXPECT_NEAR(point.normal_traction, point.x[0] - 1, 1e-12);
+    EXPECT_EQ(point.tangential_traction, point.x[0] < 3 ? -0.3 : 0.);
+    EXPECT_EQ(point.slips, point.x[0] > 3);
+  }
+}
+
+TEST(ContactState, SlipsWhereLambdaIsOneUpToTheTolerance)
+{
+  const Scene<2> scene = strip();
+  Multipliers multipliers(scene, 3);
+  for (const double sign : {-1., 1.})
+  {
+    const auto at_the_edge = [&](const double distance)
+    {
+      return multipliers
+          .transitions_of([=](const Point<2> &x)
+                          { return x[0] < 3 ? 0. : sign * (1 - distance * slip_tolerance); })
+          .size();
+    };
+    EXPECT_EQ(at_the_edge(0.9), 1U);
+    EXPECT_EQ(at_the_edge(1.1), 0U);
   }
 }
 

@@ -201,7 +201,8 @@ TEST_P(PlaneStrainScene, HasTheEnergiesOfTheClosedForm)
             EXPECT_LT(step.errors.energy, 1e-6);
             EXPECT_NEAR(e.norm * e.norm, a, 1e-6);
             EXPECT_NEAR(e.energy - 0.5 * e.norm * e.norm, friction, 1e-6); // no load works
-            EXPECT_NEAR(e.resultant, -4. / 3 * g, 1e-6); // lambda = 1, then 1 - sqrt(x)
+            EXPECT_NEAR(step.contact.at(0).friction_resultant, -4. / 3 * g,
+                        1e-6); // lambda = 1, then 1 - sqrt(x)
           });
   EXPECT_GE(n_steps, 15u);
 }

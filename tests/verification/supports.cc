@@ -163,7 +163,7 @@ TEST(Equilibrium, OfABlockIsKnown)
         const BoundaryForce<2> &wall = e.reactions[0], &floor = e.reactions[1];
         EXPECT_EQ(wall.boundary, "left");
         EXPECT_EQ(floor.boundary, "bottom");
-        EXPECT_NEAR(floor.force[0], step.energies.resultant, 1e-12);
+        EXPECT_NEAR(floor.force[0], step.contact.at(0).friction_resultant, 1e-12);
         EXPECT_NEAR(wall.force[0] + floor.force[0], 0.2, 1e-12);
         EXPECT_NEAR(wall.force[1], 0., 1e-12);
         EXPECT_NEAR(floor.force[1], 0.7, 1e-12);

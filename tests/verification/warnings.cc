@@ -84,7 +84,9 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
   History history;
   for (const double estimate : estimates)
     history.push_back({estimate, 0., 0.});
-  for (const std::string &line : warnings(discrete.solve(), discrete.tables, history, error))
+  const Solution<2> solution = discrete.solve();
+  for (const std::string &line :
+       warnings(solution, contact_states(solution, discrete.tables), history, error))
     if (line.find(words) != std::string::npos)
       return line;
   return {};

@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/stage_times.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/energies.h>
 #include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/residual_estimator.h>
@@ -31,11 +32,12 @@ struct StepReport
   double scaled_estimate;
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
   Energies energies;
-  TrueErrors errors;           ///< NaN where the scene gives nothing to compare with
-  AlgebraicError algebraic;    ///< what round-off leaves in u_N
-  QpReport qp;                 ///< all zero without multipliers
-  double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
-  double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
+  std::vector<ContactState<dim>> contact; ///< of each contact boundary, by id
+  TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with
+  AlgebraicError algebraic;               ///< what round-off leaves in u_N
+  QpReport qp;                            ///< all zero without multipliers
+  double condition_raw = 0;               ///< cond(S), 0 unless the scene asks for it
+  double condition_scaled = 0;            ///< cond(D^-1/2 S D^-1/2), likewise
   StageTimes times;
   double seconds = 0;                ///< since the start of the run, without output and true errors
   std::string stopped_by;            ///< empty, or the limit that makes this the last step

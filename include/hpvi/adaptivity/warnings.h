@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/history.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/contact_state.h>
 
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ namespace hpvi
  * inside an edge, steps of @p history whose table lacks a condition number.
  */
 template <int dim>
-std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
+std::vector<std::string> warnings(const Solution<dim> &solution,
+                                  const std::vector<ContactState<dim>> &contact,
                                   const History &history, const AlgebraicError &algebraic);
 } // namespace hpvi
 

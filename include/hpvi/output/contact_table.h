@@ -2,15 +2,16 @@
 #ifndef hpvi_contact_table_h
 #define hpvi_contact_table_h
 
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/contact_state.h>
 
 #include <string>
+#include <vector>
 
 namespace hpvi
 {
-/** `contact-NN.csv`: traces at the Gauss points of the contact faces, sorted along the tangent. */
+/** `contact-NN.csv`: the points of each contact boundary, along its tangent. */
 template <int dim>
-std::string contact_table(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+std::string contact_table(const std::vector<ContactState<dim>> &contact);
 } // namespace hpvi
 
 #endif
