@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/one_thread.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/solver/linear_solver.h>
@@ -140,6 +141,7 @@ template <int dim>
 InfSup measure_inf_sup(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
                        const Degrees &degrees, const ShapeTables<dim> &tables)
 {
+  const OneThread one_thread;
   const Discretisation<dim> own(scene, triangulation, degrees, tables);
   InfSup result{std::numeric_limits<double>::infinity(), own.contact_space.n_multipliers(), 0, 0};
   if (result.n_multipliers == 0)

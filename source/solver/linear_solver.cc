@@ -3,33 +3,15 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/one_thread.h>
 #include <hpvi/solver/linear_solver.h>
 
 #include <algorithm>
 #include <string>
 
-// Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
-
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/**
- * One thread for dense algebra. CHOLMOD opens teams of four threads whatever the environment says,
- * which costs more than it brings for matrices of this size.
- */
-void use_one_thread()
-{
-  if (openblas_set_num_threads)
-    openblas_set_num_threads(1);
-  if (omp_set_max_active_levels)
-    omp_set_max_active_levels(0);
-}
-} // namespace
 
 /** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
 struct SchurComplement::Factor
@@ -173,7 +155,7 @@ SchurComplement::SchurComplement(const SymmetricMatrix &A, const Vector<double> 
                                  const FullMatrix<double> &B)
     : factor(std::make_unique<Factor>())
 {
-  use_one_thread();
+  const OneThread one_thread;
   const unsigned int n = A.n(), n_contact = contact.size();
   if (n == 0)
     return;
@@ -223,6 +205,7 @@ const Vector<double> &SchurComplement::d() const
 
 Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
 {
+  const OneThread one_thread;
   const unsigned int n = factor->permutation.size();
   Vector<double> x(n);
   if (n == 0)
@@ -243,6 +226,7 @@ Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
 
 Vector<double> SchurComplement::solve(const Vector<double> &f) const
 {
+  const OneThread one_thread;
   const std::vector<int> &permutation = factor->permutation;
   Vector<double> x(f.size()), permuted(f.size());
   if (f.size() == 0)
