@@ -66,35 +66,20 @@ double ratio(const double part, const double whole)
 {
   return part == 0 ? 0. : part / whole;
 }
-
-/** One discrete problem: spaces and system; each member is built from the ones above it. */
-template <int dim>
-struct Discretisation
-{
-  const DisplacementSpace<dim> displacement_space;
-  const ContactSpace<dim> contact_space;
-  std::unique_ptr<const ElasticSystem<dim>> system;
-
-  Discretisation(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
-                 const Degrees &degrees, const ShapeTables<dim> &tables)
-      : displacement_space(scene, triangulation, degrees, tables),
-        contact_space(scene, displacement_space)
-  {
-  }
-};
 } // namespace
 
 template <int dim>
 struct AdaptiveSolver<dim>::Stages
 {
   const Scene<dim> &scene;
-  Triangulation<dim> triangulation;
+  std::shared_ptr<const Triangulation<dim>> mesh;
   Degrees degrees;
-  const ShapeTables<dim> tables;
-  ElementStiffnesses<dim> stiffnesses;
+  const std::shared_ptr<const ShapeTables<dim>> shared_tables;
+  const ShapeTables<dim> &tables;
+  CondensedElements<dim> elements;
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
-  std::unique_ptr<Discretisation<dim>> discretisation;
+  std::unique_ptr<const Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   double translation = 0;        ///< likewise
   AlgebraicError algebraic;      ///< of the current step
@@ -104,22 +89,25 @@ struct AdaptiveSolver<dim>::Stages
   std::function<void(const Progress &)> about_to;
 
   explicit Stages(const Scene<dim> &scene)
-      : scene(scene), stiffnesses(scene, tables), smoothness(scene.adaptivity.reading),
+      : scene(scene), shared_tables(std::make_shared<const ShapeTables<dim>>()),
+        tables(*shared_tables), elements(scene, tables), smoothness(scene.adaptivity.reading),
         true_error(scene, tables)
   {
     prepare_blas();
-    make_mesh(scene, triangulation);
-    degrees.assign(triangulation.n_active_cells(), scene.adaptivity.start_degree);
+    const auto coarse = std::make_shared<Triangulation<dim>>();
+    make_mesh(scene, *coarse);
+    degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
+    mesh = coarse;
   }
 
   void begin(const std::string &stage, const std::string &note = {}) const;
   std::string dense_note() const;
   void discretise();
-  Solution<dim> solve(Reduction &reduction);
+  Solution<dim> solve(ReducedSolution &reduced);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
   Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
-                   const Reduction &reduction);
+                   const ReducedSolution &reduction);
   void refine(const Refinement &refinement);
 };
 
@@ -133,58 +121,57 @@ void AdaptiveSolver<dim>::Stages::begin(const std::string &stage, const std::str
 template <int dim>
 std::string AdaptiveSolver<dim>::Stages::dense_note() const
 {
-  return DenseWork{discretisation->system->B.n(), discretisation->system->B.m()}.note();
+  return DenseWork{discretisation->contact_rows.kept.size(), discretisation->contact_rows.n_rows()}
+      .note();
 }
 
 template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
   begin("numbering the unknowns of " + std::to_string(degrees.size()) + " elements");
-  std::unique_ptr<Discretisation<dim>> next;
+  std::shared_ptr<const Spaces<dim>> spaces;
   {
     StageTimer timer(times.setup);
-    next = std::make_unique<Discretisation<dim>>(scene, triangulation, degrees, tables);
+    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, degrees, shared_tables);
   }
   begin("assembling " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.assemble);
-  next->system = std::make_unique<const ElasticSystem<dim>>(
-      scene, next->displacement_space, next->contact_space, tables, stiffnesses);
-  // Only now may the previous step go: it kept the element matrices that the new one shares.
-  discretisation = std::move(next);
+  // The previous one goes last: it keeps the element matrices that the new one shares.
+  discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
 }
 
 template <int dim>
-Solution<dim> AdaptiveSolver<dim>::Stages::solve(Reduction &reduction)
+Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
 {
-  const ElasticSystem<dim> &system = *discretisation->system;
-  const ContactSpace<dim> &contact_space = discretisation->contact_space;
+  const ElasticSystem<dim> &system = discretisation->system;
+  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
+  std::unique_ptr<const LinearSolver> solver;
   std::unique_ptr<const SchurComplement> schur_complement;
   begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
   {
     StageTimer timer(times.factor);
-    schur_complement = std::make_unique<const SchurComplement>(system.A, system.f,
-                                                               system.contact_unknowns, system.B);
+    solver = std::make_unique<const LinearSolver>(discretisation->factor());
+    schur_complement =
+        std::make_unique<const SchurComplement>(*solver, system.f, discretisation->contact_rows);
   }
   begin(contact_space.n_multipliers() > 0
             ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
                   " multipliers"
             : "finding the displacement");
-  reduction.lambda = previous.values(contact_space, tables);
-  reduction.translation = translation;
+  reduced.z = previous.values(contact_space, tables);
+  reduced.translation = translation;
   const Timer timer;
-  Vector<double> u =
-      IterativeRefinement<dim>(scene, discretisation->displacement_space, contact_space, tables,
-                               system, stiffnesses, *schur_complement)
-          .solve(reduction, algebraic);
-  times.qp += reduction.seconds;
-  times.recover += timer.wall_time() - reduction.seconds;
+  Vector<double> u = IterativeRefinement<dim>(*discretisation, elements, *solver, *schur_complement)
+                         .solve(reduced, algebraic);
+  times.qp += reduced.seconds;
+  times.recover += timer.wall_time() - reduced.seconds;
   if (contact_space.n_multipliers() > 0 && scene.solver.qp_warm_start)
   {
-    previous = MultiplierTrace<dim>(contact_space, reduction.lambda);
-    translation = reduction.translation;
+    previous = MultiplierTrace<dim>(contact_space, reduced.z);
+    translation = reduced.translation;
   }
-  return {scene, discretisation->displacement_space, contact_space, std::move(u), reduction.lambda};
+  return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
 
 template <int dim>
@@ -207,8 +194,12 @@ Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
       mark(scene.adaptivity, degrees, estimate,
            [&](const unsigned int cell) { return smoothness.decay_rate(solution, tables, cell); });
   if (scene.adaptivity.method != Method::pu)
+  {
     for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps())
       refinement.bisect[jump.face->cell->active_cell_index()] = true;
+    for (const UnresolvedBound<dim> &bound : solution.contact_space.unresolved_bounds())
+      refinement.bisect[bound.face->cell->active_cell_index()] = true;
+  }
   return refinement;
 }
 
@@ -217,7 +208,11 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
   begin("refining");
   StageTimer timer(times.refine);
-  degrees = refine_mesh(triangulation, degrees, refinement);
+  // Solutions keep the mesh that they live on.
+  const auto refined = std::make_shared<Triangulation<dim>>();
+  refined->copy_triangulation(*mesh);
+  degrees = refine_mesh(*refined, degrees, refinement);
+  mesh = refined;
 }
 
 template <int dim>
@@ -232,12 +227,12 @@ AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 template <int dim>
 Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
                                               const ErrorEstimate &estimate,
-                                              const Reduction &reduction)
+                                              const ReducedSolution &reduction)
 {
   Energies step_energies;
   {
     StageTimer timer(times.recover);
-    step_energies = energies(solution, *discretisation->system, tables, algebraic.energy_product);
+    step_energies = energies(solution, discretisation->system, tables, algebraic.energy_product);
     check_finite("the energy", step_energies.energy);
     check_finite("the Lagrangian", step_energies.lagrangian);
     check_finite("the energy norm", step_energies.norm);
@@ -332,7 +327,7 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
   for (bool finished = false; !finished;)
   {
     stages->discretise();
-    Reduction reduction;
+    ReducedSolution reduction;
     const Solution<dim> solution = stages->solve(reduction);
     const ErrorEstimate estimate = stages->estimate(solution);
     const Refinement refinement = stages->decide(solution, estimate);
@@ -352,7 +347,7 @@ void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &fini
         step.warnings.push_back(no_condition_number(singular));
       if (!stages->dense_note().empty())
         step.warnings.push_back(stages->dense_note());
-      step.equilibrium = equilibrium(solution, *stages->discretisation->system, stages->tables);
+      step.equilibrium = equilibrium(solution, stages->discretisation->system, stages->tables);
     }
     finished_step(step);
     stages->times = StageTimes();

@@ -45,7 +45,7 @@ std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim
     const ContactTraces<dim> traces(face, n, solution, tables);
     for (unsigned int q = 0; q < n; ++q)
     {
-      const double weight = tables.gauss(n).weight(q) * face.length();
+      const double weight = tables.gauss(n).weight(q) * face.length;
       const double traction = traces.normal_traction(q);
       all += weight * std::abs(traction);
       tension += weight * std::max(traction, 0.);
@@ -69,7 +69,7 @@ std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim
               "); a body that may lift off needs unilateral contact");
 }
 
-/** Gauss points obey |lambda_i| <= 1, the polynomial through them need not. */
+/** Gauss points obey |z_i| <= g(x_i), the polynomial through them need not. */
 template <int dim>
 std::string overshooting_multiplier(const Solution<dim> &solution)
 {
@@ -79,7 +79,9 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
     for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
     {
       const double s = k / (4. * face.n_multipliers);
-      const double value = std::abs(solution.contact_space.value(face, solution.lambda, s));
+      const double g = face.friction_bound(face.point(s)),
+                   z = std::abs(solution.contact_space.value(face, solution.z, s)),
+                   value = g > 0. ? z / g : 0.;
       if (value > highest)
       {
         highest = value;
@@ -97,17 +99,17 @@ std::string coarse_transition(const Solution<dim> &solution)
 {
   std::map<types::boundary_id, double> whole;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
-    whole[face.condition->id] += face.length();
+    whole[face.condition->id] += face.length;
   std::string list;
   for (const Point<dim> &x : transitions(solution))
     for (const ContactFace<dim> &face : solution.contact_space.faces())
     {
       const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
       const double s = (x - face.point(0.)) * edge / edge.norm_square();
-      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length() &&
-          face.length() > 0.01 * whole[face.condition->id])
+      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length &&
+          face.length > 0.01 * whole[face.condition->id])
         list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
-                     labelled(face.length(), solution.scene.length_unit));
+                     labelled(face.length, solution.scene.length_unit));
     }
   if (list.empty())
     return {};
@@ -159,15 +161,13 @@ std::string elongated_elements(const Solution<dim> &solution)
   Point<dim> where;
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
-    double longest = 0, shortest = std::numeric_limits<double>::max();
-    for (const unsigned int l : cell->line_indices())
+    if (!cell->is_locally_owned())
+      continue;
+    const CellMap<dim> map = map_of<dim>(cell);
+    const double ratio = map.longest_edge() / map.shortest_edge();
+    if (ratio > worst)
     {
-      longest = std::max(longest, cell->line(l)->diameter());
-      shortest = std::min(shortest, cell->line(l)->diameter());
-    }
-    if (longest / shortest > worst)
-    {
-      worst = longest / shortest;
+      worst = ratio;
       where = cell->center();
     }
   }
@@ -218,13 +218,13 @@ std::string locking(const Solution<dim> &solution)
 template <int dim>
 std::string rich_multiplier(const Solution<dim> &solution)
 {
-  if (solution.scene.solver.multiplier_offset < -1 || solution.lambda.size() == 0)
+  if (solution.scene.solver.multiplier_offset < -1 || solution.z.size() == 0)
     return {};
   return "multipliers of degree p - 1 are too many: the inf-sup constant falls as the mesh is "
          "refined (see hpvi --inf-sup); use Solver/Multiplier degree offset = -2";
 }
 
-/** Friction gives all it has, `|int g lambda t| = int g`: both edges of a strip may be in contact. */
+/** Friction gives all it has, `|sum w_i z_i t| = sum w_i g(x_i)`: both edges of a strip may be in contact. */
 template <int dim>
 std::string whole_body_slips(const Solution<dim> &solution)
 {
@@ -233,19 +233,41 @@ std::string whole_body_slips(const Solution<dim> &solution)
   const ContactSpace<dim> &contact = solution.contact_space;
   double used = 0;
   for (const ContactFace<dim> &face : contact.faces())
-    for (unsigned int q = 0; q < face.friction.points.size(); ++q)
-      used += face.friction.weights[q] * face.length() * face.friction.values[q] *
-              contact.value(face, solution.lambda, face.friction.points[q]) *
-              (face.tangent * *solution.scene.free_translation);
-  if (std::abs(used) < (1 - 1e-8) * contact.friction_limit())
+    for (unsigned int i = 0; i < face.n_multipliers; ++i)
+    {
+      const unsigned int k = face.first_multiplier + i;
+      const double s = solution.tables.gauss(face.n_points).point(i)[0];
+      used += contact.weights()[k] * solution.z[k] *
+              (face.frame(s).tangent * *solution.scene.free_translation);
+    }
+  if (std::abs(used) < (1 - 1e-8) * contact.discrete_friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
               *solution.scene.free_translation,
               ") and its place is not unique; lower the loads or add a support");
 }
 
+/** The discrete problem takes g at Gauss points only. */
 template <int dim>
-std::string unresolved_bound(const Solution<dim> &solution)
+std::string coarse_bound(const Solution<dim> &solution)
+{
+  const std::vector<UnresolvedBound<dim>> bounds = solution.contact_space.unresolved_bounds();
+  if (bounds.empty())
+    return {};
+  const auto error = [](const UnresolvedBound<dim> &bound)
+  { return std::abs(bound.sum - bound.integral); };
+  const auto &worst =
+      *std::max_element(bounds.begin(), bounds.end(),
+                        [&](const auto &a, const auto &b) { return error(a) < error(b); });
+  return line("Friction bound varies inside ", bounds.size(),
+              bounds.size() == 1 ? " edge" : " edges",
+              " more than the multiplier's points see: they sum to ", worst.sum,
+              ", the integral is ", worst.integral, " over the edge at (", worst.face->point(0.5),
+              "); refine there, or take more steps of an adaptive method that bisects");
+}
+
+template <int dim>
+std::string unresolved_jump(const Solution<dim> &solution)
 {
   const std::vector<UnresolvedJump<dim>> jumps = solution.contact_space.unresolved_jumps();
   if (jumps.empty())
@@ -253,11 +275,11 @@ std::string unresolved_bound(const Solution<dim> &solution)
   const auto &worst =
       *std::max_element(jumps.begin(), jumps.end(),
                         [](const auto &a, const auto &b)
-                        { return a.height * a.face->length() < b.height * b.face->length(); });
+                        { return a.height * a.face->length < b.height * b.face->length; });
   return line("Friction bound jumps inside ", jumps.size(), jumps.size() == 1 ? " edge" : " edges",
               ", by up to ", labelled(worst.height, solution.scene.stress_unit), " at (",
               worst.where, ") in an edge of length ",
-              labelled(worst.face->length(), solution.scene.length_unit),
+              labelled(worst.face->length, solution.scene.length_unit),
               ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
@@ -274,7 +296,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTabl
         coarse_transition(solution), stagnating_estimate(estimates), rising_estimate(estimates),
         round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
         locking(solution), rich_multiplier(solution), whole_body_slips(solution),
-        unresolved_bound(solution)})
+        coarse_bound(solution), unresolved_jump(solution)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

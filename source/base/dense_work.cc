@@ -7,11 +7,6 @@
 
 namespace hpvi
 {
-double DenseWork::coupling_bytes() const
-{
-  return sizeof(double) * double(n_contact) * n_multipliers;
-}
-
 double DenseWork::bytes() const
 {
   const double c = n_contact, m = n_multipliers;

@@ -61,37 +61,18 @@ unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree
   return degree + 1 + static_cast<unsigned int>(std::ceil(std::min<double>(extra, most)));
 }
 
-namespace
-{
-/**
- * @p K_ii := the block of @p K that belongs to the unknowns inside the cell, by its Cholesky factor. Not
- * returned: a copy of deal.II's matrix forgets that it is a factor.
- */
-void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
-                     LAPACKFullMatrix<double> &K_ii)
-{
-  const unsigned int n_interior = K.m() - n_boundary;
-  K_ii.reinit(n_interior);
-  for (unsigned int i = 0; i < n_interior; ++i)
-    for (unsigned int j = 0; j < n_interior; ++j)
-      K_ii(i, j) = K(n_boundary + i, n_boundary + j);
-  K_ii.set_property(LAPACKSupport::symmetric);
-  K_ii.compute_cholesky_factorization();
-}
-} // namespace
-
 template <int dim>
-ElementStiffnesses<dim>::ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables)
-    : material(scene.material), interior_loads(scene.has_body_force()), tables(tables)
+ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables)
+    : scene(scene), tables(tables)
 {
 }
 
 /** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
 template <int dim>
-typename ElementStiffnesses<dim>::Key
-ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices &vertices,
-                                          const unsigned int degree)
+typename ElementMatrices<dim>::Class
+ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned int degree) const
 {
+  const typename CellMap<dim>::Vertices &vertices = map.vertices();
   double size = 1.;
   if (dim == 2)
   {
@@ -99,7 +80,7 @@ ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices 
     for (const Point<dim> &v : vertices)
       size = std::max(size, (v - vertices[0]).norm());
   }
-  Key key;
+  Class key;
   auto entry = key.begin();
   *entry++ = degree;
   for (const Point<dim> &v : vertices)
@@ -109,12 +90,12 @@ ElementStiffnesses<dim>::congruence_class(const typename CellMap<dim>::Vertices 
 }
 
 template <int dim>
-FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
-                                                      const unsigned int degree) const
+FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
+                                                   const unsigned int degree) const
 {
   const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
-  const double lambda = material.lambda(dim), mu = material.mu();
+  const double lambda = scene.material.lambda(dim), mu = scene.material.mu();
   const unsigned int n = numbering.shape.size();
   FullMatrix<double> K(n, n);
   for (unsigned int row = 0; row < n; ++row)
@@ -131,102 +112,11 @@ FullMatrix<double> ElementStiffnesses<dim>::stiffness(const CellMap<dim> &map,
 }
 
 template <int dim>
-std::shared_ptr<ElementStiffness>
-ElementStiffnesses<dim>::condense(const FullMatrix<double> &K, const unsigned int n_boundary) const
+unsigned int ElementMatrices<dim>::n_boundary(const unsigned int degree) const
 {
-  auto element = std::make_shared<ElementStiffness>();
-  const unsigned int n_interior = K.m() - n_boundary;
-  element->condensed.reinit(n_boundary, n_boundary);
-  element->condensed.fill(K, 0, 0, 0, 0);
-  if (n_interior > 0)
-  {
-    LAPACKFullMatrix<double> K_ii, K_ib(n_interior, n_boundary);
-    factor_interior(K, n_boundary, K_ii);
-    for (unsigned int i = 0; i < n_interior; ++i)
-      for (unsigned int j = 0; j < n_boundary; ++j)
-        K_ib(i, j) = -K(n_boundary + i, j);
-    K_ii.solve(K_ib);
-    element->extension.reinit(n_interior, n_boundary);
-    element->extension = K_ib;
-    FullMatrix<double> K_bi(n_boundary, n_interior);
-    K_bi.fill(K, 0, 0, 0, n_boundary);
-    K_bi.mmult(element->condensed, element->extension, /*adding=*/true);
-    if (interior_loads)
-      element->K_ii = K_ii;
-  }
-  return element;
-}
-
-template <int dim>
-std::shared_ptr<const ElementStiffness> ElementStiffnesses<dim>::get(const CellMap<dim> &map,
-                                                                     const unsigned int degree)
-{
-  auto &entry = known[congruence_class(map.vertices(), degree)];
-  std::shared_ptr<const ElementStiffness> element = entry.lock();
-  if (!element)
-  {
-    element = condense(stiffness(map, degree), tables.numbering(degree).n_boundary);
-    entry = element;
-  }
-  return element;
-}
-
-template <int dim>
-void ElementStiffnesses<dim>::interior(const CellMap<dim> &map, const unsigned int degree,
-                                       LAPACKFullMatrix<double> &K_ii) const
-{
-  factor_interior(stiffness(map, degree), tables.numbering(degree).n_boundary, K_ii);
-}
-
-namespace
-{
-/** T' K T, first its rows, then its columns: T is nearly the identity. */
-FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsigned int n_targets,
-                              const FullMatrix<double> &K)
-{
-  FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
-  for (const ConstraintEntry &entry : T)
-  {
-    double *const sum = &rows(entry.target, 0);
-    const double *const row = &K(entry.local, 0);
-    for (unsigned int j = 0; j < K.n(); ++j)
-      sum[j] += entry.weight * row[j];
-  }
-  for (unsigned int i = 0; i < n_targets; ++i)
-  {
-    double *const sum = &result(i, 0);
-    const double *const row = &rows(i, 0);
-    for (const ConstraintEntry &entry : T)
-      sum[entry.target] += entry.weight * row[entry.local];
-  }
-  return result;
-}
-} // namespace
-
-template <int dim>
-std::shared_ptr<const FullMatrix<double>>
-ElementStiffnesses<dim>::constrained(const std::shared_ptr<const ElementStiffness> &element,
-                                     const std::vector<ConstraintEntry> &T,
-                                     const unsigned int n_targets)
-{
-  auto &entry = known_constrained[{element, T}];
-  std::shared_ptr<const FullMatrix<double>> matrix = entry.lock();
-  if (!matrix)
-  {
-    matrix =
-        std::make_shared<const FullMatrix<double>>(congruence(T, n_targets, element->condensed));
-    entry = matrix;
-  }
-  return matrix;
-}
-
-template <int dim>
-void ElementStiffnesses<dim>::forget_unused()
-{
-  for (auto entry = known_constrained.begin(); entry != known_constrained.end();)
-    entry = entry->second.expired() ? known_constrained.erase(entry) : std::next(entry);
+  return tables.numbering(degree).n_boundary;
 }
 
 template unsigned int stiffness_points(const CellMap<2> &, unsigned int);
-template class ElementStiffnesses<2>;
+template class ElementMatrices<2>;
 } // namespace hpvi

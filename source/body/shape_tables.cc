@@ -318,6 +318,67 @@ ShapeTables<dim>::gauss_lagrange(const unsigned int n_gauss) const
   return found->second;
 }
 
+template <int dim>
+const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigned int n_multipliers,
+                                        const unsigned int n_gauss) const
+{
+  EdgeTable &table = edge_tables[{{degree, n_multipliers, n_gauss}}];
+  if (table.shapes.m() == 0)
+  {
+    std::vector<Point<1>> nodes;
+    for (const double s : gauss_lobatto(degree + 1))
+      nodes.emplace_back(s);
+    const auto shapes = Polynomials::generate_complete_Lagrange_basis(nodes);
+    const auto &multipliers = gauss_lagrange(n_multipliers);
+    table.shapes.reinit(n_gauss, shapes.size());
+    table.multipliers.reinit(n_gauss, n_multipliers);
+    for (unsigned int q = 0; q < n_gauss; ++q)
+    {
+      const double s = gauss(n_gauss).point(q)[0];
+      for (unsigned int j = 0; j < shapes.size(); ++j)
+        table.shapes(q, j) = shapes[j].value(s);
+      for (unsigned int i = 0; i < n_multipliers; ++i)
+        table.multipliers(q, i) = multipliers[i].value(s);
+    }
+  }
+  return table;
+}
+
+template <int dim>
+const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned int degree) const
+{
+  FullMatrix<double> &N = moment_nodes[degree];
+  if (N.m() == 0)
+  {
+    const unsigned int n = degree - 1;
+    const EdgeTable &table = edge(degree, n, degree);
+    FullMatrix<double> inner(n, n), inverse(n, n);
+    Vector<double> weights(n);
+    N.reinit(n, n + 2);
+    // m_i w_i = sum_j inner_ij v_j + what both ends contribute.
+    FullMatrix<double> ends(n, 2);
+    for (unsigned int q = 0; q < degree; ++q)
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const double psi = gauss(degree).weight(q) * table.multipliers(q, i);
+        weights[i] += psi;
+        for (unsigned int j = 0; j < n; ++j)
+          inner(i, j) += psi * table.shapes(q, j + 1);
+        ends(i, 0) += psi * table.shapes(q, 0);
+        ends(i, 1) += psi * table.shapes(q, degree);
+      }
+    inverse.invert(inner);
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        N(j, i) = inverse(j, i) * weights[i];
+        N(j, n) -= inverse(j, i) * ends(i, 0);
+        N(j, n + 1) -= inverse(j, i) * ends(i, 1);
+      }
+  }
+  return N;
+}
+
 std::vector<double> evaluate(const FullMatrix<double> &table,
                              const std::vector<double> &coefficients)
 {
@@ -331,99 +392,8 @@ std::vector<double> evaluate(const FullMatrix<double> &table,
   return result;
 }
 
-namespace
-{
-/** Derivative of the d-linear shape function of vertex v, of the given order per direction. */
-template <int dim>
-double vertex_shape(const unsigned int v, const Point<dim> &xi,
-                    const std::array<unsigned int, dim> &order)
-{
-  double product = 1.;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    const bool far = (v >> d) & 1;
-    if (order[d] == 0)
-      product *= far ? xi[d] : 1. - xi[d];
-    else if (order[d] == 1)
-      product *= far ? 1. : -1.;
-    else
-      return 0.;
-  }
-  return product;
-}
-} // namespace
-
-template <int dim>
-CellMap<dim>::CellMap(const Vertices &vertices) : corners(vertices), affine(false)
-{
-  Point<dim> centre;
-  for (unsigned int d = 0; d < dim; ++d)
-    centre[d] = 0.5;
-  constant_jacobian = jacobian(centre);
-  affine = hessian(centre).norm() <= 1e-12 * constant_jacobian.norm();
-}
-
-template <int dim>
-const typename CellMap<dim>::Vertices &CellMap<dim>::vertices() const
-{
-  return corners;
-}
-
-template <int dim>
-bool CellMap<dim>::is_affine() const
-{
-  return affine;
-}
-
-template <int dim>
-Point<dim> CellMap<dim>::point(const Point<dim> &reference) const
-{
-  Point<dim> x;
-  for (unsigned int v = 0; v < corners.size(); ++v)
-    x += vertex_shape<dim>(v, reference, {}) * corners[v];
-  return x;
-}
-
-template <int dim>
-Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
-{
-  if (affine)
-    return constant_jacobian;
-  Tensor<2, dim> J;
-  for (unsigned int j = 0; j < dim; ++j)
-  {
-    std::array<unsigned int, dim> order{};
-    order[j] = 1;
-    for (unsigned int v = 0; v < corners.size(); ++v)
-      for (unsigned int i = 0; i < dim; ++i)
-        J[i][j] += vertex_shape<dim>(v, reference, order) * corners[v][i];
-  }
-  return J;
-}
-
-template <int dim>
-Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
-{
-  Tensor<3, dim> H;
-  if (affine)
-    return H;
-  for (unsigned int j = 0; j < dim; ++j)
-    for (unsigned int k = 0; k < dim; ++k)
-    {
-      std::array<unsigned int, dim> order{};
-      ++order[j];
-      ++order[k];
-      for (unsigned int v = 0; v < corners.size(); ++v)
-        for (unsigned int i = 0; i < dim; ++i)
-          H[i][j][k] += vertex_shape<dim>(v, reference, order) * corners[v][i];
-    }
-  return H;
-}
-
 template struct ShapeTable<2>;
 template class ShapeTables<2>;
-template class CellMap<2>;
-template class CellMap<1>;
 template ShapeTable<2> tabulate(unsigned int, const std::vector<Point<2>> &,
                                 const std::vector<double> &, bool);
 } // namespace hpvi

@@ -2,6 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/supports.h>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
         const BoundaryCondition<dim> &boundary = scene.boundaries[face->boundary_id()];
         if (!boundary.has_displacement() && !boundary.bilateral_contact)
           continue;
-        const Tensor<1, dim> normal = outer_normal<dim>(cell, f);
+        const CellMap<dim> map = map_of<dim>(cell);
         const unsigned int p = space.degrees()[cell->active_cell_index()];
         const auto dofs = space.cell_dofs(cell->active_cell_index());
         const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[f];
@@ -83,12 +84,12 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           SupportedNode<dim> &node = nodes[dofs[on_edge[k]]];
           for (unsigned int c = 0; c < dim; ++c)
             node.dofs[c] = dofs[on_edge[c * (p + 1) + k]];
-          node.x = k == p ? face->vertex(1)
-                          : face->vertex(0) + s[k] * (face->vertex(1) - face->vertex(0));
+          const Point<dim> reference = point_on_face<dim>(f, Point<dim - 1>(s[k]));
+          node.x = map.point(reference);
           // A vertex inside an edge of the body gets the same conditions from both of its cells.
           if (std::none_of(node.conditions.begin(), node.conditions.end(),
                            [&](const auto &known) { return known.boundary == boundary.id; }))
-            add_conditions(boundary, node.x, normal, node.conditions);
+            add_conditions(boundary, node.x, map.normal(f, reference), node.conditions);
         }
       }
   std::vector<SupportedNode<dim>> result;

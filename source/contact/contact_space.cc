@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace hpvi
 {
@@ -16,64 +17,40 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
                            const unsigned int face_no, const unsigned int degree,
                            const int multiplier_offset, const BoundaryCondition<dim> &condition)
 {
-  const Tensor<1, dim> normal = outer_normal<dim>(cell, face_no);
   const int n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
-  return {cell,
-          face_no,
-          degree,
-          &condition,
-          normal,
-          -cross_product_2d(normal),
-          static_cast<unsigned int>(n_points),
-          0,
-          0,
-          {},
-          nullptr};
+  ContactFace<dim> face{
+      cell, face_no, degree, &condition, map_of<dim>(cell), 0, static_cast<unsigned int>(n_points),
+      0,    0,       {}};
+  face.length = face.frame(0.5).measure;
+  return face;
 }
 
-/** Give the face its rule for g; the integrands of B have degree p + n_points - 1 beside g. */
+/** Give the face its rule for g; in `int g |u_t|` g meets the degree p. */
 template <int dim>
 void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
 {
-  const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
-  face.friction = make_friction_rule(
-      [&face](const double s) { return face.friction_bound(face.point(s)); }, gauss, degree);
-  if (face.friction.cuts.size() == 2)
-    return;
-  std::vector<Point<1>> points;
-  for (const double s : face.friction.points)
-    points.emplace_back(s);
-  std::vector<Point<dim>> on_face(points.size());
-  QProjector<dim>::project_to_face(ReferenceCells::get_hypercube<dim>(), Quadrature<1>(points),
-                                   face.face_no, on_face);
-  face.own_table = std::make_shared<const ShapeTable<dim>>(
-      tabulate<dim>(face.degree, on_face, face.friction.weights, false));
+  face.friction =
+      make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
+                         gauss, face.degree + std::max(1U, face.n_points) - 1);
 }
 } // namespace
 
 template <int dim>
-double ContactFace<dim>::friction_bound(const Point<dim> &x) const
+ContactFrame<dim> ContactFace<dim>::frame(const double s) const
 {
-  return condition->friction_bound ? condition->friction_bound->value(x) : 0.;
+  return contact_frame<dim>(map, face_no, Point<dim - 1>(s));
 }
 
 template <int dim>
 Point<dim> ContactFace<dim>::point(const double s) const
 {
-  const auto edge = cell->face(face_no);
-  return edge->vertex(0) + s * (edge->vertex(1) - edge->vertex(0));
+  return map.point(point_on_face<dim>(face_no, Point<dim - 1>(s)));
 }
 
 template <int dim>
-double ContactFace<dim>::length() const
+double ContactFace<dim>::friction_bound(const Point<dim> &x) const
 {
-  return cell->face(face_no)->diameter();
-}
-
-template <int dim>
-const ShapeTable<dim> &ContactFace<dim>::friction_table(const ShapeTables<dim> &tables) const
-{
-  return own_table ? *own_table : tables.face(degree, face_no, friction.points.size());
+  return condition->friction_bound ? condition->friction_bound->value(x) : 0.;
 }
 
 template <int dim>
@@ -99,7 +76,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                    {
                      if (a.condition->id != b.condition->id)
                        return a.condition->id < b.condition->id;
-                     return a.tangent * (b.point(0.5) - a.point(0.5)) > 0;
+                     return a.frame(0.5).tangent * (b.point(0.5) - a.point(0.5)) > 0;
                    });
   number_multipliers();
 }
@@ -118,8 +95,16 @@ void ContactSpace<dim>::number_multipliers()
     face.first_multiplier = n_unknowns;
     face.n_multipliers = face.friction.vanishes() ? 0 : face.n_points;
     n_unknowns += face.n_multipliers;
-    if (face.n_multipliers > 0 && elements.count(face.n_multipliers) == 0)
-      elements.emplace(face.n_multipliers, QGauss<1>(face.n_multipliers));
+    if (face.n_multipliers == 0)
+      continue;
+    const QGauss<1> &points = gauss.try_emplace(face.n_points, face.n_points).first->second;
+    elements.try_emplace(face.n_points, points);
+    for (unsigned int i = 0; i < face.n_points; ++i)
+    {
+      const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
+      point_weights.push_back(points.weight(i) * frame.measure);
+      bounds.push_back(face.friction_bound(frame.x));
+    }
   }
 }
 
@@ -138,10 +123,10 @@ unsigned int ContactSpace<dim>::n_multipliers() const
 template <int dim>
 FeasibleSet ContactSpace<dim>::feasible_set() const
 {
-  Vector<double> lower(n_unknowns), upper(n_unknowns);
-  lower = -1.;
-  upper = 1.;
-  return {lower, upper};
+  FeasibleSet result;
+  for (const double g : bounds)
+    result.add_interval(-g, g);
+  return result;
 }
 
 template <int dim>
@@ -159,14 +144,20 @@ std::vector<double> ContactSpace<dim>::basis_values(const ContactFace<dim> &face
 }
 
 template <int dim>
-double ContactSpace<dim>::value(const ContactFace<dim> &face, const Vector<double> &lambda,
+double ContactSpace<dim>::value(const ContactFace<dim> &face, const Vector<double> &z,
                                 const double s) const
 {
   const std::vector<double> basis = basis_values(face, s);
   double sum = 0;
   for (unsigned int i = 0; i < basis.size(); ++i)
-    sum += basis[i] * lambda[face.first_multiplier + i];
+    sum += basis[i] * z[face.first_multiplier + i];
   return sum;
+}
+
+template <int dim>
+const std::vector<double> &ContactSpace<dim>::weights() const
+{
+  return point_weights;
 }
 
 template <int dim>
@@ -174,8 +165,37 @@ double ContactSpace<dim>::friction_limit() const
 {
   double sum = 0;
   for (const ContactFace<dim> &face : contact_faces)
-    sum += face.length() * face.friction.integral();
+    sum += face.length * face.friction.integral();
   return sum;
+}
+
+template <int dim>
+double ContactSpace<dim>::discrete_friction_limit() const
+{
+  return std::inner_product(bounds.begin(), bounds.end(), point_weights.begin(), 0.);
+}
+
+template <int dim>
+double ContactSpace<dim>::largest_bound() const
+{
+  return bounds.empty() ? 0. : *std::max_element(bounds.begin(), bounds.end());
+}
+
+template <int dim>
+std::vector<UnresolvedBound<dim>> ContactSpace<dim>::unresolved_bounds() const
+{
+  const double negligible = 1e-6 * friction_limit();
+  std::vector<UnresolvedBound<dim>> result;
+  for (const ContactFace<dim> &face : contact_faces)
+  {
+    double sum = 0;
+    for (unsigned int i = 0; i < face.n_multipliers; ++i)
+      sum += point_weights[face.first_multiplier + i] * bounds[face.first_multiplier + i];
+    const double integral = face.length * face.friction.integral();
+    if (std::abs(sum - integral) > std::max(1e-3 * integral, negligible))
+      result.push_back({&face, sum, integral});
+  }
+  return result;
 }
 
 template <int dim>
@@ -185,7 +205,7 @@ std::vector<UnresolvedJump<dim>> ContactSpace<dim>::unresolved_jumps() const
   std::vector<UnresolvedJump<dim>> result;
   for (const ContactFace<dim> &face : contact_faces)
     for (const FrictionRule::Jump &jump : face.friction.jumps)
-      if (std::abs(jump.height) * face.length() > negligible)
+      if (std::abs(jump.height) * face.length > negligible)
         result.push_back({&face, face.point(jump.s), std::abs(jump.height)});
   return result;
 }

@@ -7,11 +7,11 @@ using namespace dealii;
 
 template <int dim>
 MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
-                                      const Vector<double> &lambda)
+                                      const Vector<double> &z)
 {
   for (const ContactFace<dim> &face : contact_space.faces())
   {
-    const auto first = lambda.begin() + face.first_multiplier;
+    const auto first = z.begin() + face.first_multiplier;
     pieces.push_back({face.condition->id,
                       face.point(0.),
                       face.point(1.) - face.point(0.),

@@ -20,59 +20,59 @@ double dot(const Vector<double> &a, const Vector<double> &b)
 } // namespace
 
 template <int dim>
-IterativeRefinement<dim>::IterativeRefinement(const Scene<dim> &scene,
-                                              const DisplacementSpace<dim> &space,
-                                              const ContactSpace<dim> &contact_space,
-                                              const ShapeTables<dim> &tables,
-                                              const ElasticSystem<dim> &system,
-                                              const ElementStiffnesses<dim> &stiffnesses,
+IterativeRefinement<dim>::IterativeRefinement(const Discretisation<dim> &discretisation,
+                                              const CondensedElements<dim> &elements,
+                                              const LinearSolver &solver,
                                               const SchurComplement &schur_complement)
-    : scene(scene), space(space), contact_space(contact_space), tables(tables), system(system),
-      stiffnesses(stiffnesses), schur_complement(schur_complement)
+    : discretisation(discretisation), elements(elements), solver(solver),
+      schur_complement(schur_complement)
 {
 }
 
 template <int dim>
-Vector<double> IterativeRefinement<dim>::solve(Reduction &reduction, AlgebraicError &error) const
+Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
+                                               AlgebraicError &error) const
 {
+  const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
   Vector<double> u, defect(contact_space.n_multipliers()), last;
   for (unsigned int passes_left = 10;; --passes_left)
   {
     if (defect.size() > 0)
-      reduction = solve_reduced_problem(scene, contact_space, system, schur_complement, defect,
-                                        std::move(reduction));
-    Vector<double> x = schur_complement.displacement(reduction.lambda);
-    if (scene.free_translation)
-      x.add(reduction.translation, system.translation);
-    u = system.recover(x);
-    error = improve(reduction.lambda, u);
+      reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
+    Vector<double> x = schur_complement.displacement(reduced.z);
+    if (discretisation.free_motion)
+      x.add(reduced.translation, discretisation.free_motion->R);
+    u = discretisation.displacement(x);
+    error = improve(reduced.z, u);
     if (error.corrections == 0 || defect.size() == 0)
       return u;
     if (last.size() > 0)
     {
-      last -= reduction.lambda;
-      error.multiplier = last.linfty_norm();
+      last -= reduced.z;
+      error.multiplier =
+          last.linfty_norm() == 0. ? 0. : last.linfty_norm() / contact_space.largest_bound();
       if (error.multiplier <= 1e-9 || passes_left == 1)
         return u;
     }
-    last = reduction.lambda;
-    defect += system.tangential_moments(u);
-    defect -= reduction.moments;
+    last = reduced.z;
+    defect += discretisation.spaces->contact_operator.moments(u);
+    defect -= reduced.moments;
   }
 }
 
-/** `f - B' lambda - A u` for every displacement unknown; at supports that is minus their reaction. */
+/** `f - B' z - A u` for every displacement unknown; at supports that is minus their reaction. */
 template <int dim>
-Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &lambda,
-                                                  const Vector<double> &u,
+Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const Vector<double> &u,
                                                   double &energy_product) const
 {
-  const InternalForces internal = internal_forces(scene.material, space, tables, u);
+  const Spaces<dim> &spaces = *discretisation.spaces;
+  const InternalForces internal =
+      internal_forces(discretisation.scene.material, spaces.displacement_space, *spaces.tables, u);
   energy_product = internal.energy_product;
-  Vector<double> r(system.loads());
+  Vector<double> r(discretisation.system.loads());
   r -= internal.forces;
-  if (lambda.size() > 0)
-    r -= system.friction_forces(lambda);
+  if (z.size() > 0)
+    r -= spaces.contact_operator.forces(z);
   return r;
 }
 
@@ -84,7 +84,7 @@ template <int dim>
 double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
   const double last_bit = std::numeric_limits<double>::epsilon() * u.linfty_norm();
-  return 100 * scene.material.mu() * last_bit * last_bit * u.size();
+  return 100 * discretisation.scene.material.mu() * last_bit * last_bit * u.size();
 }
 
 /** Does the residual do more work on the free part of u than round-off explains? */
@@ -92,7 +92,8 @@ template <int dim>
 bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector<double> &u,
                                            const double energy_product) const
 {
-  const AffineConstraints<double> &constraints = space.constraints();
+  const AffineConstraints<double> &constraints =
+      discretisation.spaces->displacement_space.constraints();
   double work = 0;
   for (types::global_dof_index dof = 0; dof < r.size(); ++dof)
     if (const auto *entries = constraints.get_constraint_entries(dof))
@@ -104,35 +105,47 @@ bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector
 }
 
 template <int dim>
-AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &lambda,
-                                                 Vector<double> &u) const
+AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector<double> &u) const
 {
   AlgebraicError error;
-  Vector<double> r = residual(lambda, u, error.energy_product);
+  Vector<double> r = residual(z, u, error.energy_product);
   if (!(error.energy_product > round_off_energy(u)) || !contradicts(r, u, error.energy_product))
     return error;
 
-  const auto interiors = system.interiors(stiffnesses);
+  const Unknowns<dim> &unknowns = discretisation.unknowns;
+  const Condensation<dim> &condensation = discretisation.condensation;
+  const auto interiors = condensation.interiors(elements);
+  // A^-1 r: condensed, solved, and extended into the cells again.
   const auto precondition = [&](const Vector<double> &forces)
-  { return system.respond(schur_complement.solve(system.reduce(forces)), forces, interiors); };
-  Vector<double> z = precondition(r), p(z), best(u);
-  double square = dot(r, z), least = square;
+  {
+    Vector<double> on_boundary(forces);
+    condensation.eliminate(on_boundary);
+    Vector<double> answer = unknowns.expand(solver.solve(unknowns.collect(on_boundary)));
+    condensation.extend(answer);
+    condensation.add_interior(forces, interiors, answer);
+    return answer;
+  };
+  Vector<double> answer = precondition(r), p(answer), best(u);
+  double square = dot(r, answer), least = square;
   const double exact = 1e-28 * error.energy_product;
   const unsigned int most = 60, patience = 6;
   for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
        ++error.corrections)
   {
-    const double curvature = internal_forces(scene.material, space, tables, p).energy_product;
+    const double curvature =
+        internal_forces(discretisation.scene.material, discretisation.spaces->displacement_space,
+                        *discretisation.spaces->tables, p)
+            .energy_product;
     if (!(curvature > 0.))
       break;
     u.add(dot(r, p) / curvature, p);
     // Always the true residual: the recursion of conjugate gradients would follow its own round-off.
     double energy_product;
-    r = residual(lambda, u, energy_product);
-    z = precondition(r);
+    r = residual(z, u, energy_product);
+    answer = precondition(r);
     const double last = square;
-    square = dot(r, z);
-    p.sadd(square / last, z);
+    square = dot(r, answer);
+    p.sadd(square / last, answer);
     stalled = square < 0.25 * least ? 0 : stalled + 1;
     if (square < least)
     {

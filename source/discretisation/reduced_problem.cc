@@ -3,10 +3,9 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/solver/active_set.h>
-#include <hpvi/solver/augmented_lagrangian.h>
+#include <hpvi/solver/balance_solver.h>
 
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace hpvi
@@ -30,7 +29,7 @@ std::string not_converged(const QpReport &report, const unsigned int size, const
   return line.str();
 }
 
-AugmentedLagrangian::Inner solver_in_the_box(const SolverSettings &solver)
+BalanceSolver::Inner solver_in_the_set(const SolverSettings &solver)
 {
   Mprgp::Settings settings;
   settings.tolerance = solver.qp_tolerance;
@@ -43,71 +42,61 @@ AugmentedLagrangian::Inner solver_in_the_box(const SolverSettings &solver)
   { return mprgp.solve(qp, z); };
 }
 
-/** The balance of forces along the free translation, `R'(f - B' lambda) = 0`. */
-template <int dim>
-EqualityConstraint balance_of_forces(const ElasticSystem<dim> &system)
-{
-  // A sum whose bits do not depend on threads, unlike deal.II's product.
-  const double load =
-      std::inner_product(system.f.begin(), system.f.end(), system.translation.begin(), 0.);
-  EqualityConstraint result{Vector<double>(system.B.m()), load};
-  for (unsigned int m = 0; m < system.B.m(); ++m)
-    for (unsigned int k = 0; k < system.B.n(); ++k)
-      result.G[m] += system.B(m, k) * system.translation[system.contact_unknowns[k]];
-  return result;
-}
-
 /**
- * Friction can carry int g at most: where the loads ask for more there is no equilibrium. The
- * discrete problem may still have one, with |lambda| > 1 between the Gauss points: |G|_1 is larger
- * where g is no polynomial.
+ * Friction can carry int g at most: where the loads ask for more there is no equilibrium. The discrete
+ * problem can carry `sum w_i g(x_i)`, which is another number where g varies between the points.
  */
 template <int dim>
-void check_equilibrium(const Scene<dim> &scene, const ContactSpace<dim> &contact_space,
-                       const EqualityConstraint &balance)
+void check_equilibrium(const RigidMotion<dim> &motion, const ContactSpace<dim> &contact_space)
 {
-  const double applied = std::abs(balance.e), available = contact_space.friction_limit();
-  if (applied <= available * (1 + 1e-10))
+  const double applied = std::abs(motion.load), available = contact_space.friction_limit(),
+               discrete = contact_space.discrete_friction_limit();
+  const auto exceeds = [&](const double limit) { return applied > limit * (1 + 1e-10); };
+  if (!exceeds(available) && !exceeds(discrete))
     return;
   std::ostringstream line;
   line.precision(10); // the two may be close
-  line << "no equilibrium: the loads push the body along (" << *scene.free_translation << ") with "
-       << applied << ", friction can resist with " << available
-       << " at most; add a support, raise Friction bound or lower the loads";
+  line << "no equilibrium: the loads push the body along (" << motion.direction << ") with "
+       << applied << ", friction can resist with ";
+  if (exceeds(available))
+    line << available << " at most; add a support, raise Friction bound or lower the loads";
+  else
+    line << available << " but on this mesh with " << discrete
+         << " only, for Friction bound varies between the points of the multiplier; raise "
+            "Geometry/Subdivisions or set Geometry/Graded towards where it does";
   throw NumericalFailure(line.str());
 }
 } // namespace
 
 template <int dim>
-Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim> &contact_space,
-                                const ElasticSystem<dim> &system,
-                                const SchurComplement &schur_complement,
-                                const Vector<double> &defect, Reduction start)
+ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
+                                      const SchurComplement &schur_complement,
+                                      const Vector<double> &defect, ReducedSolution start)
 {
   const Timer timer;
-  Reduction result = std::move(start);
+  ReducedSolution result = std::move(start);
+  const SolverSettings &settings = discretisation.scene.solver;
+  const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
   QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
-  qp.d += system.B_prescribed;
   qp.d += defect;
-  const AugmentedLagrangian::Inner solve = solver_in_the_box(scene.solver);
-  if (scene.free_translation)
+  const BalanceSolver::Inner solve = solver_in_the_set(settings);
+  if (const auto &motion = discretisation.free_motion)
   {
-    const EqualityConstraint balance = balance_of_forces(system);
-    check_equilibrium(scene, contact_space, balance);
+    check_equilibrium(*motion, contact_space);
     // The inner problems leave noise of their own tolerance in the balance.
-    result.qp = AugmentedLagrangian(solve, 1 / system.spring, 100 * scene.solver.qp_tolerance)
-                    .solve(qp, balance, result.lambda, result.translation);
-    qp.d.add(result.translation, balance.G);
+    result.qp = BalanceSolver(solve, motion->penalty(), 100 * settings.qp_tolerance)
+                    .solve(qp, {motion->G, motion->load}, result.z, result.translation);
+    qp.d.add(result.translation, motion->G);
   }
   else
-    result.qp = solve(qp, result.lambda);
+    result.qp = solve(qp, result.z);
   result.moments = qp.d;
   Vector<double> product(qp.d.size());
-  qp.S.vmult(product, result.lambda);
+  qp.S.vmult(product, result.z);
   result.moments -= product;
   if (!result.qp.converged)
-    throw NumericalFailure(not_converged(result.qp, qp.d.size(), scene.solver.qp_tolerance));
-  if (scene.solver.condition_number)
+    throw NumericalFailure(not_converged(result.qp, qp.d.size(), settings.qp_tolerance));
+  if (settings.condition_number)
   {
     result.condition_raw = condition_number(qp.S);
     result.condition_scaled = condition_number(scaled_by_diagonal(qp.S));
@@ -116,7 +105,6 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
   return result;
 }
 
-template Reduction solve_reduced_problem(const Scene<2> &, const ContactSpace<2> &,
-                                         const ElasticSystem<2> &, const SchurComplement &,
-                                         const Vector<double> &, Reduction);
+template ReducedSolution solve_reduced_problem(const Discretisation<2> &, const SchurComplement &,
+                                               const Vector<double> &, ReducedSolution);
 } // namespace hpvi

@@ -71,10 +71,11 @@ std::vector<ContactPoint<dim>> contact_points(const ContactFace<dim> &face,
   {
     const Point<dim> x = face.point(gauss.point(q)[0]);
     const double g = has_friction ? face.friction_bound(x) : 0.;
-    const double lambda = has_friction ? solution.lambda[face.first_multiplier + q] : 0.;
+    const double z = has_friction ? solution.z[face.first_multiplier + q] : 0.;
+    const double lambda = g == 0. ? 0. : z / g;
     points.push_back({q, x, g, lambda, g == 0. || std::abs(lambda) >= 1. - slip_tolerance});
   }
-  if (face.tangent * (face.point(1.) - face.point(0.)) < 0)
+  if (face.frame(0.5).tangent * (face.point(1.) - face.point(0.)) < 0)
     std::reverse(points.begin(), points.end());
   return points;
 }
@@ -88,7 +89,7 @@ std::vector<Point<dim>> transitions(const Solution<dim> &solution)
   for (auto face = faces.begin(); face != faces.end(); ++face)
   {
     for (const ContactPoint<dim> &point : contact_points(*face, solution))
-      points.push_back({point, face->length()});
+      points.push_back({point, face->length});
     const auto next = std::next(face);
     if (next == faces.end() || next->condition->id != face->condition->id)
     {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace hpvi
 {
@@ -51,8 +52,11 @@ public:
         tables.face(face.degree, face.face_no, face.degree + 1).values,
         solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree)));
     for (unsigned int k = 0; k < nodal.size(); ++k)
+    {
+      const Tensor<1, dim> tangent = face.frame(tables.gauss(nodal.size()).point(k)[0]).tangent;
       for (unsigned int c = 0; c < dim; ++c)
-        nodal[k] += face.tangent[c] * values[c * nodal.size() + k];
+        nodal[k] += tangent[c] * values[c * nodal.size() + k];
+    }
   }
 
   double operator()(const double s) const
@@ -83,7 +87,7 @@ double friction_work(const ContactFace<dim> &face, const TangentialDisplacement<
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
       sum += width * gauss.weight(q) * face.friction_bound(face.point(s)) * std::abs(u_t(s));
     }
-  return face.length() * sum;
+  return face.length * sum;
 }
 
 /** The friction force along t has one direction where there is one contact boundary alone. */
@@ -99,24 +103,16 @@ template <int dim>
 Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
                   const ShapeTables<dim> &tables, const double a)
 {
-  double friction = 0, coupling = 0, resultant = 0;
+  double friction = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
-    {
-      const TangentialDisplacement<dim> u_t(face, solution, tables);
-      friction += friction_work(face, u_t, tables.gauss(face.degree + 2));
-      const FrictionRule &rule = face.friction;
-      double face_coupling = 0, face_resultant = 0;
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-      {
-        const double s = rule.points[q], g = rule.values[q];
-        const double lambda = solution.contact_space.value(face, solution.lambda, s);
-        face_coupling += rule.weights[q] * (g * u_t(s) * lambda);
-        face_resultant += rule.weights[q] * (g * lambda);
-      }
-      coupling += face.length() * face_coupling;
-      resultant -= face.length() * face_resultant;
-    }
+      friction += friction_work(face, TangentialDisplacement<dim>(face, solution, tables),
+                                tables.gauss(face.degree + 2));
+  const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
+  const std::vector<double> &weights = solution.contact_space.weights();
+  const double coupling =
+      std::inner_product(solution.z.begin(), solution.z.end(), moments.begin(), 0.);
+  double resultant = -std::inner_product(solution.z.begin(), solution.z.end(), weights.begin(), 0.);
   if (!has_one_contact_boundary(solution.scene))
     resultant = std::numeric_limits<double>::quiet_NaN();
   const double potential = 0.5 * a - system.work(solution.u);

@@ -128,9 +128,10 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
       internal_forces(solution.scene.material, space, tables, solution.u).forces;
   reactions -= system.loads();
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
-    if (boundary.bilateral_contact && solution.lambda.size() > 0)
+    if (boundary.bilateral_contact && solution.z.size() > 0)
     {
-      const Vector<double> friction = system.friction_forces(solution.lambda, boundary.id);
+      const Vector<double> friction =
+          solution.spaces->contact_operator.forces(solution.z, boundary.id);
       reactions += friction;
       for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
         if (friction[dof] != 0.)

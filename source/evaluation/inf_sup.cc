@@ -2,13 +2,14 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/discretisation/discretisation.h>
 #include <hpvi/evaluation/inf_sup.h>
-#include <hpvi/solver/linear_solver.h>
+#include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace hpvi
 {
@@ -19,26 +20,25 @@ namespace
 /** How much higher than V_N's the degrees of V_* are. */
 constexpr unsigned int additional_degree = 4;
 
-/** The spaces and matrices on one mesh; each member is built from the ones above it. */
+/** One discrete problem with all it stands on. */
 template <int dim>
-struct Discretisation
+struct Laboratory
 {
-  ElementStiffnesses<dim> stiffnesses;
-  const DisplacementSpace<dim> displacement_space;
-  const ContactSpace<dim> contact_space;
-  const ElasticSystem<dim> system;
+  CondensedElements<dim> elements;
+  const Discretisation<dim> discretisation;
 
-  Discretisation(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
-                 const Degrees &degrees, const ShapeTables<dim> &tables)
-      : stiffnesses(scene, tables), displacement_space(scene, triangulation, degrees, tables),
-        contact_space(scene, displacement_space),
-        system(scene, displacement_space, contact_space, tables, stiffnesses)
+  Laboratory(const Scene<dim> &scene, std::shared_ptr<const Triangulation<dim>> mesh,
+             const Degrees &degrees, const std::shared_ptr<const ShapeTables<dim>> &tables)
+      : elements(scene, *tables),
+        discretisation(scene,
+                       std::make_shared<const Spaces<dim>>(scene, std::move(mesh), degrees, tables),
+                       elements)
   {
   }
 
-  LAPACKFullMatrix<double> schur_complement(const FullMatrix<double> &B) const
+  LAPACKFullMatrix<double> schur_complement(const ConditionRows &rows) const
   {
-    return SchurComplement(system.A, system.f, system.contact_unknowns, B).S();
+    return SchurComplement(discretisation.factor(), discretisation.system.f, rows).S();
   }
 };
 
@@ -58,8 +58,7 @@ Degrees make_reference_mesh(const Triangulation<dim> &coarse, const Degrees &deg
 /**
  * T, n_multipliers x n_multipliers of the fine space, with `psi_m = sum_k T_mk phi_k` for the
  * coarse basis psi and the fine phi: the values of psi_m at the fine Gauss points. On one half of
- * an edge psi_m has degree p + offset and phi_k the degree p + 4 + offset, so it is exact. It is
- * right to leave out halves without multipliers: g vanishes there.
+ * an edge psi_m has degree p + offset and phi_k the degree p + 4 + offset, so it is exact.
  */
 template <int dim>
 FullMatrix<double> embedding(const ContactSpace<dim> &coarse, const ContactSpace<dim> &fine)
@@ -90,34 +89,41 @@ template <int dim>
 LAPACKFullMatrix<double>
 reference_schur_complement(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
                            const Degrees &degrees, const ContactSpace<dim> &coarse,
-                           const ShapeTables<dim> &tables)
+                           const std::shared_ptr<const ShapeTables<dim>> &tables)
 {
-  Triangulation<dim> fine_triangulation;
-  const Degrees fine_degrees = make_reference_mesh(triangulation, degrees, fine_triangulation);
-  const Discretisation<dim> fine(scene, fine_triangulation, fine_degrees, tables);
-  FullMatrix<double> B(coarse.n_multipliers(), fine.system.B.n());
-  embedding(coarse, fine.contact_space).mmult(B, fine.system.B);
-  return fine.schur_complement(B);
-}
-
-/** `S_ij := scale_i S_ij scale_j` */
-void scale(LAPACKFullMatrix<double> &S, const Vector<double> &factors)
-{
-  for (unsigned int j = 0; j < S.n(); ++j)
-    for (unsigned int i = 0; i < S.m(); ++i)
-      S(i, j) *= factors[i] * factors[j];
+  const auto mesh = std::make_shared<Triangulation<dim>>();
+  const Degrees fine_degrees = make_reference_mesh(triangulation, degrees, *mesh);
+  // Rows hold no g, but faces without friction have none: here both halves of a face want theirs.
+  Scene<dim> rough(scene);
+  for (BoundaryCondition<dim> &boundary : rough.boundaries)
+    if (boundary.friction_bound)
+      boundary.friction_bound = std::make_shared<const Functions::ConstantFunction<dim>>(1.);
+  const Laboratory<dim> fine(rough, mesh, fine_degrees, tables);
+  const ConditionRows &rows = fine.discretisation.contact_rows;
+  const FullMatrix<double> T = embedding(coarse, fine.discretisation.spaces->contact_space);
+  ConditionRows combined{rows.kept, std::vector<ConditionRows::Row>(T.m()), Vector<double>(T.m())};
+  for (unsigned int m = 0; m < T.m(); ++m)
+  {
+    std::map<unsigned int, double> row;
+    for (unsigned int k = 0; k < T.n(); ++k)
+      if (T(m, k) != 0.)
+        for (const auto &[place, weight] : rows.B[k])
+          row[place] += T(m, k) * weight;
+    combined.B[m].assign(row.begin(), row.end());
+  }
+  return fine.schur_complement(combined);
 }
 
 /**
- * The smallest eigenvalue of `S z = x S_ref z` by dsygv: Cholesky of S_ref, then dsyev, eigenvalues
- * alone. Both matrices are scaled by the diagonal of S_ref first, which keeps the eigenvalues and
- * takes away the factors g^2 that could spoil the Cholesky factorisation.
+ * The smallest eigenvalue of `S_N z = x S_* z` by dsygv: Cholesky of S_*, then dsyev, eigenvalues
+ * alone. Both matrices are scaled by the diagonal of S_* first, which keeps the eigenvalues and
+ * takes away the squares of weights that could spoil the Cholesky factorisation.
  */
-double smallest_eigenvalue(LAPACKFullMatrix<double> S, LAPACKFullMatrix<double> S_ref)
+double smallest_eigenvalue(const LAPACKFullMatrix<double> &S_N,
+                           const LAPACKFullMatrix<double> &S_star)
 {
-  const Vector<double> factors = diagonal_scale(S_ref);
-  scale(S, factors);
-  scale(S_ref, factors);
+  const Vector<double> factors = diagonal_scale(S_star);
+  LAPACKFullMatrix<double> S = scaled(S_N, factors), S_ref = scaled(S_star, factors);
   const types::blas_int n = S.n(), type = 1, work_size = 34 * n; // block size 32 + 2
   std::vector<double> eigenvalues(n), work(work_size);
   types::blas_int info = 0;
@@ -139,14 +145,16 @@ double InfSup::bound() const
 
 template <int dim>
 InfSup measure_inf_sup(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
-                       const Degrees &degrees, const ShapeTables<dim> &tables)
+                       const Degrees &degrees)
 {
   const OneThread one_thread;
-  const Discretisation<dim> own(scene, triangulation, degrees, tables);
-  InfSup result{std::numeric_limits<double>::infinity(), own.contact_space.n_multipliers(), 0, 0};
+  const auto tables = std::make_shared<const ShapeTables<dim>>();
+  const Laboratory<dim> own(scene, borrowed(triangulation), degrees, tables);
+  const ContactSpace<dim> &contact_space = own.discretisation.spaces->contact_space;
+  InfSup result{std::numeric_limits<double>::infinity(), contact_space.n_multipliers(), 0, 0};
   if (result.n_multipliers == 0)
     return result;
-  for (const ContactFace<dim> &face : own.contact_space.faces())
+  for (const ContactFace<dim> &face : contact_space.faces())
     if (face.n_multipliers > 0)
     {
       result.highest_degree = std::max(result.highest_degree, face.degree);
@@ -154,12 +162,11 @@ InfSup measure_inf_sup(const Scene<dim> &scene, const Triangulation<dim> &triang
           result.lowest_degree == 0 ? face.degree : std::min(result.lowest_degree, face.degree);
     }
   const double square = smallest_eigenvalue(
-      own.schur_complement(own.system.B),
-      reference_schur_complement(scene, triangulation, degrees, own.contact_space, tables));
+      own.schur_complement(own.discretisation.contact_rows),
+      reference_schur_complement(scene, triangulation, degrees, contact_space, tables));
   result.beta = std::sqrt(std::max(square, 0.)); // a zero may come out as a negative round-off
   return result;
 }
 
-template InfSup measure_inf_sup(const Scene<2> &, const Triangulation<2> &, const Degrees &,
-                                const ShapeTables<2> &);
+template InfSup measure_inf_sup(const Scene<2> &, const Triangulation<2> &, const Degrees &);
 } // namespace hpvi

@@ -45,8 +45,10 @@ private:
   void add_contact(const ContactFace<dim> &face);
 
   Tensor<2, dim> stress(const Tensor<2, dim> &gradient) const;
+  std::vector<Tensor<1, dim>> normals(const Cell &cell, unsigned int face,
+                                      const ShapeTable<dim> &table) const;
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
-                                        const Tensor<1, dim> &normal) const;
+                                        const std::vector<Tensor<1, dim>> &normals) const;
   double weight(unsigned int cell) const; ///< h_K/p_K
 
   const Solution<dim> &solution;
@@ -72,10 +74,7 @@ Residuals<dim>::Residuals(const Solution<dim> &solution, const ShapeTables<dim> 
     const unsigned int index = cell->active_cell_index();
     coefficients.push_back(solution.coefficients(index, tables.numbering(degrees[index])));
     maps.push_back(map_of<dim>(cell));
-    double longest = 0;
-    for (const unsigned int line : cell->line_indices())
-      longest = std::max(longest, cell->line(line)->diameter());
-    sizes.push_back(longest);
+    sizes.push_back(maps.back().longest_edge());
   }
 }
 
@@ -162,9 +161,20 @@ void Residuals<dim>::add_volume(const Cell &cell)
 }
 
 template <int dim>
-std::vector<Tensor<1, dim>> Residuals<dim>::tractions(const Cell &cell,
-                                                      const ShapeTable<dim> &table,
-                                                      const Tensor<1, dim> &normal) const
+std::vector<Tensor<1, dim>> Residuals<dim>::normals(const Cell &cell, const unsigned int face,
+                                                    const ShapeTable<dim> &table) const
+{
+  std::vector<Tensor<1, dim>> result;
+  for (const Point<dim> &point : table.points)
+    result.push_back(maps[cell->active_cell_index()].normal(face, point));
+  return result;
+}
+
+/** sigma n at the points of @p table. */
+template <int dim>
+std::vector<Tensor<1, dim>>
+Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
+                          const std::vector<Tensor<1, dim>> &normals) const
 {
   const unsigned int index = cell->active_cell_index();
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
@@ -173,7 +183,7 @@ std::vector<Tensor<1, dim>> Residuals<dim>::tractions(const Cell &cell,
     result[q] =
         stress(physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
                                       invert(maps[index].jacobian(table.points[q])))) *
-        normal;
+        normals[q];
   return result;
 }
 
@@ -193,14 +203,13 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   else
     other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
 
-  const Tensor<1, dim> normal = outer_normal<dim>(cell, face);
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
-  const auto own = tractions(cell, table, normal),
-             opposite = tractions(neighbor, *other_table, normal);
+  const std::vector<Tensor<1, dim>> n = normals(cell, face, table);
+  const auto own = tractions(cell, table, n), opposite = tractions(neighbor, *other_table, n);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
-    sum += table.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
-  sum *= cell->face(face)->measure();
+    sum += table.weights[q] * maps[index].face_measure(face, table.points[q]) *
+           (0.5 * (own[q] - opposite[q])).norm_square();
   result.jumps[index] += weight(index) * sum;
   result.jumps[other] += weight(other) * sum;
 }
@@ -212,7 +221,7 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
-  const auto own = tractions(cell, table, outer_normal<dim>(cell, face));
+  const auto own = tractions(cell, table, normals(cell, face, table));
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     for (unsigned int c = 0; c < dim; ++c)
@@ -221,32 +230,32 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
         double residual = own[q][c];
         if (condition.traction[c])
           residual -= condition.traction[c]->value(maps[index].point(table.points[q]));
-        sum += table.weights[q] * residual * residual;
+        sum += table.weights[q] * maps[index].face_measure(face, table.points[q]) * residual *
+               residual;
       }
-  result.neumann[index] += weight(index) * cell->face(face)->measure() * sum;
+  result.neumann[index] += weight(index) * sum;
 }
 
-/** sigma_t + g lambda_N (minus the tangential part of an applied traction). */
+/** sigma_t + z_N (minus the tangential part of an applied traction). */
 template <int dim>
 void Residuals<dim>::add_contact(const ContactFace<dim> &face)
 {
-  const unsigned int index = face.cell->active_cell_index();
-  const FrictionRule &rule = face.friction;
-  const auto own = tractions(face.cell, face.friction_table(tables), face.normal);
+  const unsigned int index = face.cell->active_cell_index(), n_gauss = face.degree + 1;
+  const auto &condition = solution.scene.boundaries[face.condition->id];
+  const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
+  const auto own = tractions(face.cell, table, normals(face.cell, face.face_no, table));
   double sum = 0;
-  for (unsigned int q = 0; q < rule.points.size(); ++q)
+  for (unsigned int q = 0; q < n_gauss; ++q)
   {
-    const double s = rule.points[q];
-    const Point<dim> x = face.point(s);
-    double residual = own[q] * face.tangent;
-    if (face.n_multipliers > 0)
-      residual += rule.values[q] * solution.contact_space.value(face, solution.lambda, s);
+    const double s = tables.gauss(n_gauss).point(q)[0];
+    const ContactFrame<dim> frame = face.frame(s);
+    double residual = own[q] * frame.tangent + solution.contact_space.value(face, solution.z, s);
     for (unsigned int c = 0; c < dim; ++c)
-      if (face.condition->traction[c])
-        residual -= face.tangent[c] * face.condition->traction[c]->value(x);
-    sum += rule.weights[q] * residual * residual;
+      if (condition.traction[c])
+        residual -= frame.tangent[c] * condition.traction[c]->value(frame.x);
+    sum += tables.gauss(n_gauss).weight(q) * frame.measure * residual * residual;
   }
-  result.contact[index] += weight(index) * face.length() * sum;
+  result.contact[index] += weight(index) * sum;
 }
 
 template <int dim>
@@ -286,12 +295,8 @@ double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<di
   Scene<dim> unloaded = solution.scene;
   unloaded.body_force = {};
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
-  {
     boundary.traction = {};
-    boundary.friction_bound = nullptr;
-  }
   const DisplacementSpace<dim> &space = solution.displacement_space;
-  const ContactSpace<dim> contact_space(unloaded, space);
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform(-1., 1.);
   Vector<double> u(space.n_dofs());
@@ -303,7 +308,9 @@ double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<di
     for (const auto dof : space.cell_dofs(cell))
       u[dof] = std::numeric_limits<double>::epsilon() * largest * uniform(random);
   }
-  return estimate_error<dim>({unloaded, space, contact_space, u, {}}, tables).total();
+  return estimate_error<dim>({unloaded, solution.spaces, u, Vector<double>(solution.z.size())},
+                             tables)
+      .total();
 }
 
 template ErrorEstimate estimate_error(const Solution<2> &, const ShapeTables<2> &);

@@ -243,7 +243,7 @@ double integrate_along(const Point<dim> &a, const Point<dim> &b, const ExactSolu
   return sum;
 }
 
-/** |lambda - lambda_N|^2 over one contact face. */
+/** |lambda - z_N/g|^2 over one contact face. */
 template <int dim>
 double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &face,
                          const ExactSolution<dim> &exact)
@@ -251,9 +251,11 @@ double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &
   return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
                          [&](const double s, const Point<dim> &x)
                          {
+                           const double g = face.friction_bound(x);
                            const double difference =
                                exact.multiplier(x) -
-                               solution.contact_space.value(face, solution.lambda, s);
+                               (g == 0. ? 0.
+                                        : solution.contact_space.value(face, solution.z, s) / g);
                            return difference * difference;
                          });
 }

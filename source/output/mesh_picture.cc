@@ -150,12 +150,7 @@ void MeshPicture::draw_cells()
   std::vector<std::pair<double, Cell>> cells;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
-    {
-      double longest_side = 0;
-      for (const unsigned int line : cell->line_indices())
-        longest_side = std::max(longest_side, cell->line(line)->diameter());
-      cells.emplace_back(scale * cell->measure() / longest_side, cell);
-    }
+      cells.emplace_back(scale * cell->measure() / map_of<2>(cell).longest_edge(), cell);
   std::stable_sort(cells.begin(), cells.end(),
                    [](const auto &a, const auto &b) { return a.first > b.first; });
   out << "<g stroke=\"#333\" stroke-linejoin=\"round\" font-size=\"10\" text-anchor=\"middle\">\n";
@@ -170,7 +165,7 @@ void MeshPicture::draw_contact()
   std::string path;
   for (const auto &face : step.solution.contact_space.faces())
   {
-    const Tensor<1, 2> outward = 4. / scale * face.normal;
+    const Tensor<1, 2> outward = 4. / scale * face.frame(0.5).normal;
     path += 'M' + coordinates(page(face.point(0.) + outward)) + 'L' +
             coordinates(page(face.point(1.) + outward));
   }

@@ -277,11 +277,12 @@ void add_face(const ContactFace<dim> &face, const Solution<dim> &solution,
   for (const ContactPoint<dim> &point : points)
   {
     const Tensor<1, dim> u = traces.displacement(point.q);
+    const ContactFrame<dim> frame = face.frame(tables.gauss(points.size()).point(point.q)[0]);
     Record record;
     for (unsigned int d = 0; d < dim; ++d)
       record.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
-    record.emplace_back("normal_displacement", text(face.normal * u));
-    record.emplace_back("tangential_displacement", text(face.tangent * u));
+    record.emplace_back("normal_displacement", text(frame.normal * u));
+    record.emplace_back("tangential_displacement", text(frame.tangent * u));
     record.emplace_back("multiplier", text(point.lambda));
     record.emplace_back("normal_traction", text(traces.normal_traction(point.q)));
     record.emplace_back("tangential_traction",

@@ -248,7 +248,6 @@ void print_inf_sup(const Scene<dim> &scene)
                                   "names one, so there is no multiplier to measure the inf-sup "
                                   "constant of; name a contact with a bound or remove --inf-sup");
   const Scene<dim> refining = refining_scene(scene);
-  const ShapeTables<dim> tables;
   AdaptiveSolver<dim> solver(refining);
   note_interruptions();
   std::cout << version_line() << '\n'
@@ -264,8 +263,7 @@ void print_inf_sup(const Scene<dim> &scene)
       {
         progress.show({step.number, "measuring the inf-sup constant", ""});
         const DisplacementSpace<dim> &space = step.solution.displacement_space;
-        const InfSup inf_sup =
-            measure_inf_sup(scene, space.triangulation(), space.degrees(), tables);
+        const InfSup inf_sup = measure_inf_sup(scene, space.triangulation(), space.degrees());
         progress.erase();
         print_inf_sup_row(step, inf_sup);
       },

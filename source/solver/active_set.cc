@@ -14,9 +14,6 @@ using namespace dealii;
 
 namespace
 {
-/** Which components are held: -1 at the lower wall, 1 at the upper, 0 free. */
-using Prediction = std::vector<signed char>;
-
 /** Newton's method ends after a dozen steps or not at all. */
 constexpr unsigned int maximum_steps = 50;
 
@@ -25,9 +22,11 @@ class Newton
 {
 public:
   Newton(const QuadraticProgram &qp, const Mprgp::Settings &settings, Vector<double> &z)
-      : qp(qp), box(qp.feasible_set), settings(settings), z(z), r(z.size()),
-        scale(diagonal_scale(qp.S))
+      : qp(qp), settings(settings), z(z), r(z.size()), scale(diagonal_scale(qp.S)), step(z.size())
   {
+    qp.feasible_set.make_isotropic(scale);
+    for (unsigned int i = 0; i < step.size(); ++i)
+      step[i] = scale[i] * scale[i];
     qp.S.vmult(r, z);
     ++report.multiplications;
     reference = std::max(norm(r), norm(qp.d));
@@ -36,15 +35,17 @@ public:
 
   /**
    * Until a prediction stays, comes again, or cannot be followed; or, where round-off keeps changing
-   * it, until the gradient is small enough and falls no more.
+   * it or a rim is followed by its tangents, until the gradient is small enough and falls no more.
    */
   QpReport run()
   {
-    std::set<Prediction> known;
+    std::set<std::vector<signed char>> known;
     double last = std::numeric_limits<double>::infinity();
-    for (Prediction next = predict(); known.insert(next).second; next = predict())
+    for (unsigned int steps_left = maximum_steps; steps_left > 0; --steps_left)
     {
-      if (known.size() > maximum_steps || !follow(next))
+      const FeasibleSet::Linearisation next = qp.feasible_set.linearise(z, r, step);
+      const bool is_new = known.insert(next.walls).second;
+      if (!(is_new || next.curved) || !follow(next))
         break;
       const double gradient = projected_gradient();
       if (gradient <= settings.tolerance && gradient > 0.5 * last)
@@ -53,70 +54,53 @@ public:
     }
     report.projected_gradient = projected_gradient();
     report.converged = report.projected_gradient <= settings.tolerance;
-    box.project(z); // the iterate of a prediction that was wrong may lie outside
+    qp.feasible_set.project(z); // the iterate of a prediction that was wrong may lie outside
     return report;
   }
 
 private:
-  Prediction predict() const;
-  bool follow(const Prediction &prediction);
-  bool solve_for(const std::vector<unsigned int> &free);
+  bool follow(const FeasibleSet::Linearisation &prediction);
+  bool solve_along(const std::vector<FeasibleSet::Direction> &directions);
+  double product(const FeasibleSet::Direction &a, const FeasibleSet::Direction &b) const;
   double projected_gradient();
 
   void compute_gradient(const Vector<double> &x);
   double norm(Vector<double> x) const;
 
   const QuadraticProgram &qp;
-  const FeasibleSet &box;
   const Mprgp::Settings &settings;
   Vector<double> &z;
-  Vector<double> r; ///< gradient S z - d
-  const Vector<double> scale;
-  double reference = 0; ///< as in Mprgp
+  Vector<double> r;           ///< gradient S z - d
+  Vector<double> scale, step; ///< of components, and its squares
+  double reference = 0;       ///< as in Mprgp
   QpReport report;
 };
 
-Prediction Newton::predict() const
+bool Newton::follow(const FeasibleSet::Linearisation &prediction)
 {
-  Prediction result(z.size(), 0);
-  for (unsigned int i = 0; i < z.size(); ++i)
-  {
-    const double target = z[i] - r[i] * scale[i] * scale[i];
-    if (target > box.upper()[i])
-      result[i] = 1;
-    else if (target < box.lower()[i] || box.lower()[i] == box.upper()[i])
-      result[i] = -1;
-  }
-  return result;
-}
-
-bool Newton::follow(const Prediction &prediction)
-{
-  std::vector<unsigned int> free;
-  for (unsigned int i = 0; i < z.size(); ++i)
-    if (prediction[i] == 0)
-      free.push_back(i);
-    else
-      z[i] = prediction[i] > 0 ? box.upper()[i] : box.lower()[i];
+  z = prediction.base;
   compute_gradient(z);
-  if (!solve_for(free))
+  if (!solve_along(prediction.directions))
     return false;
   compute_gradient(z);
   return true;
 }
 
-/** `z_F := z_F - S_FF^-1 r_F`. */
-bool Newton::solve_for(const std::vector<unsigned int> &free)
+/** `z := z - Q (Q'SQ + C)^-1 Q'r`, Q the directions and C their curvatures. */
+bool Newton::solve_along(const std::vector<FeasibleSet::Direction> &directions)
 {
-  const types::blas_int n = free.size(), one = 1;
+  const types::blas_int n = directions.size(), one = 1;
   if (n == 0)
     return true;
-  std::vector<double> matrix(free.size() * free.size()), change(free.size());
-  for (unsigned int j = 0; j < free.size(); ++j)
+  std::vector<double> matrix(directions.size() * directions.size()), change(directions.size());
+  for (unsigned int j = 0; j < directions.size(); ++j)
   {
-    for (unsigned int i = j; i < free.size(); ++i)
-      matrix[i + j * free.size()] = qp.S(free[i], free[j]);
-    change[j] = r[free[j]];
+    const FeasibleSet::Direction &q = directions[j];
+    for (unsigned int i = j; i < directions.size(); ++i)
+      matrix[i + j * directions.size()] = product(directions[i], q);
+    matrix[j + j * directions.size()] += q.curvature;
+    for (unsigned int k = 0; k < q.size; ++k)
+      change[j] += q.weights[k] * r[q.first + k];
   }
   types::blas_int info = 0;
   potrf("L", &n, matrix.data(), &n, &info);
@@ -124,9 +108,20 @@ bool Newton::solve_for(const std::vector<unsigned int> &free)
   if (info != 0)
     return false;
   potrs("L", &n, &one, matrix.data(), &n, change.data(), &n, &info);
-  for (unsigned int j = 0; j < free.size(); ++j)
-    z[free[j]] -= change[j];
+  for (unsigned int j = 0; j < directions.size(); ++j)
+    for (unsigned int k = 0; k < directions[j].size; ++k)
+      z[directions[j].first + k] -= directions[j].weights[k] * change[j];
   return true;
+}
+
+/** a'Sb. */
+double Newton::product(const FeasibleSet::Direction &a, const FeasibleSet::Direction &b) const
+{
+  double sum = 0;
+  for (unsigned int i = 0; i < a.size; ++i)
+    for (unsigned int j = 0; j < b.size; ++j)
+      sum += a.weights[i] * qp.S(a.first + i, b.first + j) * b.weights[j];
+  return sum;
 }
 
 void Newton::compute_gradient(const Vector<double> &x)
@@ -148,11 +143,11 @@ double Newton::norm(Vector<double> x) const
 double Newton::projected_gradient()
 {
   Vector<double> nearest(z), phi, beta;
-  box.project(nearest);
+  qp.feasible_set.project(nearest);
   const Vector<double> gradient(r);
   if (nearest != z)
     compute_gradient(nearest);
-  box.split_gradient(nearest, r, phi, beta);
+  qp.feasible_set.split_gradient(nearest, r, phi, beta);
   r = gradient;
   const double nu = std::hypot(norm(phi), norm(beta));
   return nu == 0. ? 0. : nu / reference;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cholmod.h>
-#include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
@@ -14,12 +13,13 @@ namespace hpvi
 using namespace dealii;
 
 /** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
-struct SchurComplement::Factor
+struct LinearSolver::Factor
 {
   cholmod_common common;
   cholmod_factor *L = nullptr;
   std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
-  Vector<double> y;             ///< L^-1 P f
+  LAPACKFullMatrix<double> C;   ///< its copies would forget that it is a triangle
+  std::vector<unsigned int> order;
 
   Factor()
   {
@@ -38,7 +38,7 @@ struct SchurComplement::Factor
   Factor(const Factor &) = delete;
   Factor &operator=(const Factor &) = delete;
 
-  void compute(cholmod_sparse *matrix, const std::vector<int> &is_contact, double dense_bytes);
+  void compute(cholmod_sparse *matrix, const std::vector<int> &is_kept, double more_bytes);
   void check() const;
   LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
   Vector<double> solve(int system, const Vector<double> &right_hand_side);
@@ -65,16 +65,15 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 }
 } // namespace
 
-/** @p dense_bytes are those that the reduction to the contact unknowns will need beside L. */
-void SchurComplement::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_contact,
-                                      const double dense_bytes)
+void LinearSolver::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_kept,
+                                   const double more_bytes)
 {
   permutation.resize(matrix->nrow);
-  std::vector<int> groups(is_contact);
+  std::vector<int> groups(is_kept);
   cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
   check();
 
-  // The order is taken as it is: a postordering could move contact unknowns away from the end.
+  // The order is taken as it is: a postordering could move kept unknowns away from the end.
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = false;
@@ -84,13 +83,13 @@ void SchurComplement::Factor::compute(cholmod_sparse *matrix, const std::vector<
   // L, the largest update of a supernode, and A in the order of L.
   const double bytes = sizeof(double) * (double(L->xsize) + double(L->maxcsize)) +
                        (sizeof(double) + sizeof(int)) * double(matrix->nzmax);
-  require_memory(bytes + dense_bytes, "the factorisation of " + std::to_string(L->n) + " unknowns");
+  require_memory(bytes + more_bytes, "the factorisation of " + std::to_string(L->n) + " unknowns");
   cholmod_factorize(matrix, L, &common);
   check();
 }
 
 /** Throws NumericalFailure unless CHOLMOD's last work succeeded. */
-void SchurComplement::Factor::check() const
+void LinearSolver::Factor::check() const
 {
   const std::string remedy =
       "; lower Adaptivity/Maximum unknowns or take fewer Geometry/Subdivisions";
@@ -113,8 +112,7 @@ void SchurComplement::Factor::check() const
                            std::to_string(common.status));
 }
 
-LAPACKFullMatrix<double>
-SchurComplement::Factor::trailing_block(const unsigned int n_trailing) const
+LAPACKFullMatrix<double> LinearSolver::Factor::trailing_block(const unsigned int n_trailing) const
 {
   LAPACKFullMatrix<double> block(n_trailing, n_trailing);
   const int first = static_cast<int>(L->n - n_trailing);
@@ -133,9 +131,9 @@ SchurComplement::Factor::trailing_block(const unsigned int n_trailing) const
   return block;
 }
 
-Vector<double> SchurComplement::Factor::solve(const int system,
-                                              const Vector<double> &right_hand_side)
+Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double> &right_hand_side)
 {
+  const OneThread one_thread;
   cholmod_dense dense{};
   dense.nrow = dense.nzmax = dense.d = right_hand_side.size();
   dense.ncol = 1;
@@ -150,96 +148,109 @@ Vector<double> SchurComplement::Factor::solve(const int system,
   return solution;
 }
 
-SchurComplement::SchurComplement(const SymmetricMatrix &A, const Vector<double> &f,
-                                 const std::vector<unsigned int> &contact,
-                                 const FullMatrix<double> &B)
+namespace
+{
+/** A + stiffness P P', the upper triangle. */
+cholmod_sparse *stabilised(const SymmetricMatrix &A, const Stabilisation &stabilisation,
+                           cholmod_common &common)
+{
+  SymmetricMatrix PP;
+  const auto &P = stabilisation.P;
+  PP.resize(P.size() * (P.size() + 1) / 2);
+  int end = 0;
+  auto column_entry = P.begin();
+  for (unsigned int column = 0; column < A.n(); ++column)
+  {
+    if (column_entry != P.end() && column_entry->first == column)
+    {
+      for (auto row_entry = P.begin(); row_entry <= column_entry; ++row_entry, ++end)
+      {
+        PP.row[end] = row_entry->first;
+        PP.value[end] = row_entry->second * column_entry->second;
+      }
+      ++column_entry;
+    }
+    PP.column_start.push_back(end);
+  }
+  cholmod_sparse first = as_cholmod(A), second = as_cholmod(PP);
+  double one[2] = {1., 0.}, stiffness[2] = {stabilisation.stiffness, 0.};
+  return cholmod_add(&first, &second, one, stiffness, /*values=*/true, /*sorted=*/false, &common);
+}
+} // namespace
+
+LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+                           const double more_bytes, const Stabilisation &stabilisation)
     : factor(std::make_unique<Factor>())
 {
   const OneThread one_thread;
-  const unsigned int n = A.n(), n_contact = contact.size();
+  const unsigned int n = A.n(), n_kept = kept.size();
   if (n == 0)
     return;
-  std::vector<int> is_contact(n, 0);
-  if (n_contact < n) // else all are in one group, and CAMD wants its number to be below n
-    for (const unsigned int unknown : contact)
-      is_contact[unknown] = 1;
-  cholmod_sparse matrix = as_cholmod(A);
-  factor->compute(&matrix, is_contact, n_contact > 0 ? DenseWork{n_contact, B.m()}.bytes() : 0.);
+  std::vector<int> is_kept(n, 0);
+  if (n_kept < n) // else all are in one group, and CAMD wants its number to be below n
+    for (const unsigned int unknown : kept)
+      is_kept[unknown] = 1;
+  if (stabilisation.stiffness > 0)
+  {
+    cholmod_sparse *matrix = stabilised(A, stabilisation, factor->common);
+    factor->check();
+    factor->compute(matrix, is_kept, more_bytes);
+    cholmod_free_sparse(&matrix, &factor->common);
+  }
+  else
+  {
+    cholmod_sparse matrix = as_cholmod(A);
+    factor->compute(&matrix, is_kept, more_bytes);
+  }
+  if (n_kept == 0)
+    return;
+  factor->C = factor->trailing_block(n_kept);
+  for (unsigned int k = 0; k < n_kept; ++k)
+    factor->order.push_back(
+        std::lower_bound(kept.begin(), kept.end(), factor->permutation[n - n_kept + k]) -
+        kept.begin());
+}
 
-  Vector<double> permuted(n);
-  for (unsigned int i = 0; i < n; ++i)
+LinearSolver::LinearSolver(LinearSolver &&) = default;
+LinearSolver::~LinearSolver() = default;
+
+Vector<double> LinearSolver::forward(const Vector<double> &f) const
+{
+  if (f.size() == 0)
+    return f;
+  Vector<double> permuted(f.size());
+  for (unsigned int i = 0; i < f.size(); ++i)
     permuted[i] = f[factor->permutation[i]];
-  factor->y = factor->solve(CHOLMOD_L, permuted);
-  if (n_contact == 0)
-    return;
-
-  const LAPACKFullMatrix<double> L_cc = factor->trailing_block(n_contact);
-  Y.reinit(n_contact, B.m());
-  for (unsigned int k = 0; k < n_contact; ++k)
-  {
-    const unsigned int unknown = factor->permutation[n - n_contact + k];
-    const unsigned int column =
-        std::lower_bound(contact.begin(), contact.end(), unknown) - contact.begin();
-    for (unsigned int m = 0; m < B.m(); ++m)
-      Y(k, m) = B(m, column);
-  }
-  L_cc.solve(Y);
-  schur_matrix.reinit(B.m(), B.m());
-  Y.Tmmult(schur_matrix, Y);
-  reduced_load.reinit(B.m());
-  Vector<double> y_contact(factor->y.begin() + (n - n_contact), factor->y.end());
-  Y.Tvmult(reduced_load, y_contact);
+  return factor->solve(CHOLMOD_L, permuted);
 }
 
-SchurComplement::~SchurComplement() = default;
-
-const LAPACKFullMatrix<double> &SchurComplement::S() const
+Vector<double> LinearSolver::backward(const Vector<double> &y) const
 {
-  return schur_matrix;
-}
-
-const Vector<double> &SchurComplement::d() const
-{
-  return reduced_load;
-}
-
-Vector<double> SchurComplement::displacement(const Vector<double> &lambda) const
-{
-  const OneThread one_thread;
-  const unsigned int n = factor->permutation.size();
-  Vector<double> x(n);
-  if (n == 0)
-    return x;
-  Vector<double> y(factor->y);
-  if (lambda.size() > 0)
-  {
-    Vector<double> correction(Y.m());
-    Y.vmult(correction, lambda);
-    for (unsigned int k = 0; k < correction.size(); ++k)
-      y[n - correction.size() + k] -= correction[k];
-  }
+  if (y.size() == 0)
+    return y;
   const Vector<double> permuted = factor->solve(CHOLMOD_Lt, y);
-  for (unsigned int i = 0; i < n; ++i)
+  Vector<double> x(y.size());
+  for (unsigned int i = 0; i < y.size(); ++i)
     x[factor->permutation[i]] = permuted[i];
   return x;
 }
 
-Vector<double> SchurComplement::solve(const Vector<double> &f) const
+Vector<double> LinearSolver::solve(const Vector<double> &f) const
 {
-  const OneThread one_thread;
-  const std::vector<int> &permutation = factor->permutation;
-  Vector<double> x(f.size()), permuted(f.size());
-  if (f.size() == 0)
-    return x;
-  for (unsigned int i = 0; i < f.size(); ++i)
-    permuted[i] = f[permutation[i]];
-  permuted = factor->solve(CHOLMOD_Lt, factor->solve(CHOLMOD_L, permuted));
-  for (unsigned int i = 0; i < f.size(); ++i)
-    x[permutation[i]] = permuted[i];
-  return x;
+  return backward(forward(f));
 }
 
-std::size_t SchurComplement::factor_entries() const
+const LAPACKFullMatrix<double> &LinearSolver::kept_factor() const
+{
+  return factor->C;
+}
+
+const std::vector<unsigned int> &LinearSolver::kept_order() const
+{
+  return factor->order;
+}
+
+std::size_t LinearSolver::factor_entries() const
 {
   return factor->L ? factor->L->xsize : 0;
 }

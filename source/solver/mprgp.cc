@@ -242,7 +242,8 @@ bool Iteration::expand_by_projected_cg(const double cg_length, const double requ
 
 /**
  * Leave walls along the chopped gradient; with two-sided bounds the minimum on that line may lie
- * beyond the opposite wall. False as in minimise_on_face().
+ * beyond the opposite wall. Along the rim of a disc no straight line goes: there a projected gradient
+ * step of fixed length is taken, which lowers q. False as in minimise_on_face().
  */
 bool Iteration::proportion()
 {
@@ -252,8 +253,17 @@ bool Iteration::proportion()
   const double length = std::min(curvature > 0 ? slope / curvature : infinity, wall);
   if (!std::isfinite(curvature) || !std::isfinite(length))
     return false;
-  p = beta; // move() overwrites beta
-  move(length, p, Sp);
+  if (length > 0)
+  {
+    p = beta; // move() overwrites beta
+    move(length, p, Sp);
+  }
+  else
+  {
+    y.add(-fixed_length, beta);
+    qp.feasible_set.project(y);
+    recompute_gradient();
+  }
   p = phi;
   ++report.proportioning_steps;
   return true;
@@ -289,20 +299,6 @@ void Iteration::split_gradient()
   qp.feasible_set.split_gradient(y, r, phi, beta);
 }
 
-/** `z_i = scale_i y_i`, where a wall of the scaled box becomes that wall exactly. */
-void unscale(const FeasibleSet &scaled_box, const Vector<double> &y, const FeasibleSet &box,
-             const Vector<double> &scale, Vector<double> &z)
-{
-  // Without this a slipping point could miss |lambda| = 1 by the rounding of 1/s * s.
-  for (unsigned int i = 0; i < z.size(); ++i)
-    if (y[i] == scaled_box.lower()[i])
-      z[i] = box.lower()[i];
-    else if (y[i] == scaled_box.upper()[i])
-      z[i] = box.upper()[i];
-    else
-      z[i] = scale[i] * y[i];
-  box.project(z);
-}
 } // namespace
 
 Mprgp::Mprgp(const Settings &settings) : settings(settings)
@@ -325,14 +321,15 @@ QpReport Mprgp::solve(const QuadraticProgram &qp, Vector<double> &z) const
   if (!settings.diagonal_scaling)
     return Iteration(qp, settings, z).run();
 
-  const Vector<double> scale = diagonal_scale(qp.S);
-  QuadraticProgram scaled{scaled_by_diagonal(qp.S), qp.d, qp.feasible_set.scaled(scale)};
+  Vector<double> scale = diagonal_scale(qp.S);
+  qp.feasible_set.make_isotropic(scale);
+  QuadraticProgram scaled{hpvi::scaled(qp.S, scale), qp.d, qp.feasible_set.scaled(scale)};
   scaled.d.scale(scale);
   Vector<double> y(z.size());
   for (unsigned int i = 0; i < z.size(); ++i)
     y[i] = z[i] / scale[i];
   report = Iteration(scaled, settings, y).run();
-  unscale(scaled.feasible_set, y, qp.feasible_set, scale, z);
+  qp.feasible_set.unscale(y, scale, z);
   return report;
 }
 } // namespace hpvi

@@ -151,7 +151,11 @@ inline void minimise_on_face(const QuadraticProgram &qp, const std::vector<unsig
 inline Vector<double> minimiser_by_enumeration(const QuadraticProgram &qp)
 {
   const unsigned int n = qp.d.size();
-  const Vector<double> &lower = qp.feasible_set.lower(), &upper = qp.feasible_set.upper();
+  Vector<double> lower(n), upper(n); // the nearest points to infinity
+  lower = -infinity;
+  upper = infinity;
+  qp.feasible_set.project(lower);
+  qp.feasible_set.project(upper);
   Vector<double> best;
   double best_value = infinity;
   for (unsigned int face = 0; face < std::pow(3, n); ++face)

@@ -161,8 +161,12 @@ TEST(FeasibleSet, SplitIsTheDerivativeOfTheProjection)
 TEST(FeasibleSet, ScalingDividesTheSides)
 {
   const FeasibleSet box = mixed_box().scaled(vec({2., 4., 0.5, 3., 0.1}));
-  EXPECT_EQ(box.lower(), vec({-0.5, 0., -infinity, -infinity, 3. / 0.1}));
-  EXPECT_EQ(box.upper(), vec({0.5, infinity, 4., infinity, 3. / 0.1}));
+  Vector<double> lower = vec({-infinity, -infinity, -infinity, -infinity, -infinity}), upper(lower);
+  upper *= -1.;
+  box.project(lower);
+  box.project(upper);
+  EXPECT_EQ(lower, vec({-0.5, 0., -infinity, -infinity, 3. / 0.1}));
+  EXPECT_EQ(upper, vec({0.5, infinity, 4., infinity, 3. / 0.1}));
 }
 
 /** A symmetric matrix with the given eigenvalues: the diagonal, reflected by I - 2 v v'/v'v. */

@@ -237,22 +237,34 @@ struct Comparison
   std::vector<double> cholmod, analysis, factor, dense, total;
   double difference = 0; ///< largest relative difference between the two S
 
-  Comparison(const ElasticSystem<2> &system, const int ordering) : asked(ordering)
+  Comparison(const Discretisation<2> &discretisation, const int ordering) : asked(ordering)
   {
+    const ElasticSystem<2> &system = discretisation.system;
+    const ConditionRows &rows = discretisation.contact_rows;
     Triplets A(system.A);
     std::vector<int> schur_unknowns;
-    for (const unsigned int unknown : system.contact_unknowns)
+    for (const unsigned int unknown : rows.kept)
       schur_unknowns.push_back(unknown + 1);
     for (unsigned int repetition = 0; repetition < repetitions; ++repetition)
     {
       Stopwatch watch;
-      const SchurComplement reference(system.A, system.f, system.contact_unknowns, system.B);
+      const LinearSolver solver(system.A, rows.kept);
+      const SchurComplement reference(solver, system.f, rows);
       cholmod.push_back(watch.lap());
-      measure_mumps(A, schur_unknowns, system.B, reference.S());
+      measure_mumps(A, schur_unknowns, dense(rows), reference.S());
     }
   }
 
 private:
+  static FullMatrix<double> dense(const ConditionRows &rows)
+  {
+    FullMatrix<double> B(rows.n_rows(), rows.kept.size());
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      for (const auto &[place, weight] : rows.B[i])
+        B(i, place) = weight;
+    return B;
+  }
+
   void measure_mumps(Triplets &A, std::vector<int> &schur_unknowns, const FullMatrix<double> &B,
                      const LAPACKFullMatrix<double> &expected)
   {
@@ -281,13 +293,14 @@ void print_head()
       << std::endl;
 }
 
-void print_row(const unsigned int n_free_dofs, const ElasticSystem<2> &system,
+void print_row(const unsigned int n_free_dofs, const Discretisation<2> &discretisation,
                const Comparison &comparison)
 {
+  const ConditionRows &rows = discretisation.contact_rows;
   const double cholmod = median(comparison.cholmod), mumps = median(comparison.total);
   std::cout << std::fixed << std::setprecision(4) << std::setw(9) << n_free_dofs << std::setw(9)
-            << system.A.n() << std::setw(9) << system.B.n() << std::setw(12) << system.B.m()
-            << std::setw(9) << cholmod << " | " << std::left << std::setw(8)
+            << discretisation.system.A.n() << std::setw(9) << rows.kept.size() << std::setw(12)
+            << rows.n_rows() << std::setw(9) << cholmod << " | " << std::left << std::setw(8)
             << ordering_names.at(comparison.asked) << std::setw(8)
             << ordering_names.at(comparison.used) << std::right << std::setw(8)
             << median(comparison.analysis) << std::setw(9) << median(comparison.factor)
@@ -302,7 +315,6 @@ void run(const std::string &file)
                                            {"Adaptivity/Maximum steps", "100"},
                                            {"Adaptivity/Maximum unknowns", "60000"}});
   AdaptiveSolver<2> solver(scene);
-  const ShapeTables<2> tables;
   double next_size = 1000;
   print_head();
   solver.run(
@@ -312,11 +324,10 @@ void run(const std::string &file)
         if (n_free_dofs < next_size && step.stopped_by.empty())
           return;
         next_size = 2.5 * n_free_dofs;
-        ElementStiffnesses<2> stiffnesses(scene, tables);
-        const ElasticSystem<2> system(scene, step.solution.displacement_space,
-                                      step.solution.contact_space, tables, stiffnesses);
+        CondensedElements<2> elements(scene, step.solution.tables);
+        const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
         for (const int ordering : {0, 5, 6, 7, given})
-          print_row(n_free_dofs, system, Comparison(system, ordering));
+          print_row(n_free_dofs, discretisation, Comparison(discretisation, ordering));
       });
 }
 } // namespace

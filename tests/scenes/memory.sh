@@ -54,6 +54,6 @@ gives_up "the factorisation of" "unknowns needs" "are left of the address space"
 grep -q '"status": "failed"' "$directory/out/summary.json" || fail "summary.json does not say failed"
 [ ! -e "$directory/out/convergence.csv" ] || fail "a step that failed left a row"
 
-# 12000 multipliers: B, Y and S alone are larger than that.
+# 12000 multipliers: Y and S alone are larger than that.
 solve 2000 "Geometry/Subdivisions=6000, 1"
-gives_up "the dense algebra of 12000 multipliers needs 7.2 GB" "Geometry/Subdivisions"
+gives_up "the dense algebra of 12000 multipliers needs 4.61 GB" "Geometry/Subdivisions"

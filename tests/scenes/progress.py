@@ -58,12 +58,12 @@ def main():
         if without_times(kept) != without_times(plain):
             sys.exit(f"a terminal keeps\n{kept}\ninstead of\n{plain}")
 
-        long = piped(command[:-1] + ["Adaptivity/Maximum steps=1", "--set", "Geometry/Subdivisions=800, 1"])
-        note, row = long.find("note: the dense algebra of 1600 multipliers takes"), long.find("\n   1 ")
+        long = piped(command[:-1] + ["Adaptivity/Maximum steps=1", "--set", "Geometry/Subdivisions=1100, 1"])
+        note, row = long.find("note: the dense algebra of 2200 multipliers takes"), long.find("\n   1 ")
         if not 0 <= note < row:
             sys.exit(f"no note before the first row: {long}")
         warnings = json.loads((pathlib.Path(home) / "summary.json").read_text())["warnings"]
-        if sum("the dense algebra of 1600 multipliers takes" in line for line in warnings) != 1:
+        if sum("the dense algebra of 2200 multipliers takes" in line for line in warnings) != 1:
             sys.exit(f"summary.json does not say it: {warnings}")
 
 

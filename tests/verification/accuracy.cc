@@ -65,8 +65,8 @@ TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
 {
   const Scene<2> scene = shipped_scene("stick-slip");
   const RandomMesh mesh(scene, 1, 1);
-  const Discretisation discrete(scene, mesh);
-  const Solution<2> nothing{scene, discrete.displacement_space, discrete.contact_space,
+  const Laboratory discrete(scene, mesh);
+  const Solution<2> nothing{scene, discrete.spaces,
                             Vector<double>(discrete.displacement_space.n_dofs()),
                             Vector<double>(discrete.contact_space.n_multipliers())};
   double square = 0;
@@ -91,13 +91,13 @@ TEST(TrueError, OfTheTransitionIsADistance)
   const Scene<2> scene = shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"}});
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  const Discretisation discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
-  Vector<double> lambda(discrete.contact_space.n_multipliers());
-  ASSERT_EQ(lambda.size(), 8U);
+  const Laboratory discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
+  Vector<double> z(discrete.contact_space.n_multipliers());
+  ASSERT_EQ(z.size(), 8U);
   for (unsigned int i = 0; i < 4; ++i)
-    lambda[i] = 1.;
-  const Solution<2> solution{scene, discrete.displacement_space, discrete.contact_space,
-                             Vector<double>(discrete.displacement_space.n_dofs()), lambda};
+    z[i] = discrete.contact_space.largest_bound();
+  const Solution<2> solution{scene, discrete.spaces,
+                             Vector<double>(discrete.displacement_space.n_dofs()), z};
   EXPECT_NEAR(TrueError<2>(scene, discrete.tables).measure(solution).transition, 0.1, 1e-14);
 }
 

@@ -268,7 +268,7 @@ protected:
 /** Condensation and extension by plain inversion of the interior block. */
 TEST_P(Stiffness, IsCondensedToTheBoundary)
 {
-  ElementStiffnesses<2> stiffnesses(scene, tables);
+  CondensedElements<2> stiffnesses(scene, tables);
   for (const unsigned int p : {1u, 2u, 4u, 7u})
   {
     const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p);
@@ -311,7 +311,7 @@ TEST(CongruenceCache, SharesTheMatricesOfMovedAndScaledCells)
 {
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
-  ElementStiffnesses<2> stiffnesses(scene, tables);
+  CondensedElements<2> stiffnesses(scene, tables);
   for (const NamedCell &cell : cells)
   {
     const auto element = stiffnesses.get(CellMap<2>(cell.vertices), 4);
@@ -326,9 +326,9 @@ TEST(CongruenceCache, TellsShapesAndDegreesApart)
 {
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
-  ElementStiffnesses<2> stiffnesses(scene, tables);
-  std::vector<std::shared_ptr<const ElementStiffness>> elements; // keeps them alive
-  std::set<const ElementStiffness *> different;
+  CondensedElements<2> stiffnesses(scene, tables);
+  std::vector<std::shared_ptr<const CondensedElement>> elements; // keeps them alive
+  std::set<const CondensedElement *> different;
   const auto add = [&](const Vertices &vertices, const unsigned int degree)
   {
     elements.push_back(stiffnesses.get(CellMap<2>(vertices), degree));
@@ -350,8 +350,8 @@ TEST(CongruenceCache, ForgetsWhatNobodyUses)
 {
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
-  ElementStiffnesses<2> stiffnesses(scene, tables);
-  std::weak_ptr<const ElementStiffness> element = stiffnesses.get(CellMap<2>(square), 3);
+  CondensedElements<2> stiffnesses(scene, tables);
+  std::weak_ptr<const CondensedElement> element = stiffnesses.get(CellMap<2>(square), 3);
   EXPECT_TRUE(element.expired());
 }
 
@@ -360,7 +360,7 @@ TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
 {
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
-  ElementStiffnesses<2> stiffnesses(scene, tables);
+  CondensedElements<2> stiffnesses(scene, tables);
   auto element = stiffnesses.get(CellMap<2>(square), 3);
   const unsigned int n = element->condensed.m(), n_targets = n + 2;
 
@@ -388,7 +388,7 @@ TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
       stiffnesses.constrained(stiffnesses.get(CellMap<2>(cells[1].vertices), 3), T, n_targets),
       matrix);
 
-  const std::weak_ptr<const ElementStiffness> unused = element;
+  const std::weak_ptr<const CondensedElement> unused = element;
   element.reset();
   matrix.reset();
   stiffnesses.forget_unused();
@@ -577,8 +577,7 @@ void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
     const Tensor<1, 2> n = values.normal_vector(q), t = Point<2>(-n[1], n[0]);
     const double s = x.distance(cell->face(face)->vertex(0)) /
                      cell->face(face)->vertex(0).distance(cell->face(face)->vertex(1));
-    double residual = own[q] * t + contact->condition->friction_bound->value(x) *
-                                       solution.contact_space.value(*contact, solution.lambda, s);
+    double residual = own[q] * t + solution.contact_space.value(*contact, solution.z, s);
     for (unsigned int c = 0; c < 2; ++c)
       if (contact->condition->traction[c])
         residual -= contact->condition->traction[c]->value(x) * t[c];
@@ -622,7 +621,7 @@ void expect_right_indicator(const Scene<2> &scene, const unsigned int seed,
 {
   const RandomMesh mesh(scene, seed, 2, 2, 6);
   ASSERT_TRUE(mesh.mesh.has_hanging_nodes());
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   std::mt19937 random(seed);
   const Solution<2> field = discrete.random_field(random);
   const ErrorEstimate computed = estimate_error(field, discrete.tables);

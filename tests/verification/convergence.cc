@@ -184,7 +184,7 @@ TEST(Energies, ResolveTheSignChangesOfTheSlip)
   for (const unsigned int seed : {1u, 2u, 3u})
   {
     const RandomMesh mesh(scene, seed, 1);
-    const Discretisation discrete(scene, mesh);
+    const Laboratory discrete(scene, mesh);
     std::mt19937 random(seed);
     const Solution<2> field = discrete.random_field(random);
     const FrictionIntegrals sums = integrate_friction(field, 4000);

@@ -607,11 +607,21 @@ Indices choose(const unsigned int n, const unsigned int size, std::mt19937 &rand
   return result;
 }
 
+ConditionRows rows_of(const Indices &kept, const FullMatrix<double> &B)
+{
+  ConditionRows rows{kept, std::vector<ConditionRows::Row>(B.m()), Vector<double>(B.m())};
+  for (unsigned int m = 0; m < B.m(); ++m)
+    for (unsigned int k = 0; k < B.n(); ++k)
+      rows.B[m].emplace_back(k, B(m, k));
+  return rows;
+}
+
 /** S, d and u by dense inversion. */
 void expect_right_reduction(const SparseSystem &system, const Indices &contact,
                             const FullMatrix<double> &B)
 {
-  const SchurComplement reduced(system.A, system.f, contact, B);
+  const LinearSolver solver(system.A, contact);
+  const SchurComplement reduced(solver, system.f, rows_of(contact, B));
   const unsigned int n = system.A.n();
   FullMatrix<double> inverse = system.dense, B_all(B.m(), n);
   inverse.gauss_jordan();
@@ -669,7 +679,8 @@ TEST(SchurComplement, TakesMoreMultipliersThanContactUnknowns)
 
 TEST(SchurComplement, WithoutUnknownsThereIsNothingToSolve)
 {
-  const SchurComplement reduced(SymmetricMatrix(), {}, {}, FullMatrix<double>());
+  const LinearSolver solver(SymmetricMatrix(), {});
+  const SchurComplement reduced(solver, {}, {});
   EXPECT_EQ(reduced.S().m(), 0u);
   EXPECT_EQ(reduced.displacement({}).size(), 0u);
 }
@@ -685,9 +696,7 @@ TEST(SchurComplement, RefusesAMatrixThatIsNotPositiveDefinite)
         for (unsigned int i = 0; i < 30; ++i)
           system.dense(i, row) = system.dense(row, i) = i == row ? diagonal : 0.;
         system.compress();
-        EXPECT_THROW(SchurComplement(system.A, system.f, choose(30, n_contact, random),
-                                     random_matrix(3, n_contact, random)),
-                     NumericalFailure)
+        EXPECT_THROW(LinearSolver(system.A, choose(30, n_contact, random)), NumericalFailure)
             << "row " << row << ", diagonal " << diagonal << ", " << n_contact << " in contact";
       }
 }

@@ -91,65 +91,76 @@ struct RandomMesh
 };
 
 /** The stages of one step on a given mesh, each open to questions. */
-class Discretisation
+class Laboratory
 {
 public:
   const Scene<2> &scene;
-  const ShapeTables<2> tables;
-  ElementStiffnesses<2> stiffnesses;
-  const DisplacementSpace<2> displacement_space;
-  const ContactSpace<2> contact_space;
-  const ElasticSystem<2> system;
+  CondensedElements<2> elements;
+  const Discretisation<2> discretisation;
+  const std::shared_ptr<const Spaces<2>> spaces;
+  const ShapeTables<2> &tables;
+  const DisplacementSpace<2> &displacement_space;
+  const ContactSpace<2> &contact_space;
+  const ContactOperator<2> &contact_operator;
+  const ElasticSystem<2> &system;
 
-  Discretisation(const Scene<2> &scene, const Triangulation<2> &mesh, const Degrees &degrees)
-      : scene(scene), stiffnesses(scene, tables), displacement_space(scene, mesh, degrees, tables),
-        contact_space(scene, displacement_space),
-        system(scene, displacement_space, contact_space, tables, stiffnesses)
+  Laboratory(const Scene<2> &scene, const Triangulation<2> &mesh, const Degrees &degrees,
+             const std::shared_ptr<const ShapeTables<2>> &shared =
+                 std::make_shared<const ShapeTables<2>>())
+      : scene(scene), elements(scene, *shared),
+        discretisation(scene,
+                       std::make_shared<const Spaces<2>>(scene, borrowed(mesh), degrees, shared),
+                       elements),
+        spaces(discretisation.spaces), tables(*spaces->tables),
+        displacement_space(spaces->displacement_space), contact_space(spaces->contact_space),
+        contact_operator(spaces->contact_operator), system(discretisation.system)
   {
   }
 
-  Discretisation(const Scene<2> &scene, const RandomMesh &mesh)
-      : Discretisation(scene, mesh.mesh, mesh.degrees)
+  Laboratory(const Scene<2> &scene, const RandomMesh &mesh)
+      : Laboratory(scene, mesh.mesh, mesh.degrees)
   {
   }
 
   SchurComplement reduce() const
   {
-    return SchurComplement(system.A, system.f, system.contact_unknowns, system.B);
+    if (!solver)
+      solver = std::make_unique<const LinearSolver>(discretisation.factor());
+    return SchurComplement(*solver, system.f, discretisation.contact_rows);
   }
 
   QuadraticProgram quadratic_program(const SchurComplement &schur_complement) const
   {
-    QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
-    qp.d += system.B_prescribed;
-    return qp;
+    return {schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
   }
 
   /** By the scene's solver and tolerance, from zero. */
   Solution<2> solve() const
   {
     const SchurComplement schur_complement = reduce();
-    Reduction reduction;
-    reduction.lambda.reinit(contact_space.n_multipliers());
+    ReducedSolution reduced;
+    reduced.z.reinit(contact_space.n_multipliers());
     AlgebraicError error;
-    Vector<double> u = IterativeRefinement<2>(scene, displacement_space, contact_space, tables,
-                                              system, stiffnesses, schur_complement)
-                           .solve(reduction, error);
-    return {scene, displacement_space, contact_space, std::move(u), std::move(reduction.lambda)};
+    Vector<double> u = IterativeRefinement<2>(discretisation, elements, *solver, schur_complement)
+                           .solve(reduced, error);
+    return {scene, spaces, std::move(u), std::move(reduced.z)};
   }
 
-  /** Random displacement that meets all constraints, with any multiplier. */
+  /** Random displacement that meets all constraints, with any multiplier between -1 and 1. */
   Solution<2> random_field(std::mt19937 &random) const
   {
     std::uniform_real_distribution<double> uniform(-1., 1.);
-    Vector<double> u(displacement_space.n_dofs()), lambda(contact_space.n_multipliers());
+    Vector<double> u(displacement_space.n_dofs()), z(contact_space.n_multipliers());
     for (double &value : u)
       value = uniform(random);
-    for (double &value : lambda)
+    for (double &value : z)
       value = uniform(random);
     displacement_space.constraints().distribute(u);
-    return {scene, displacement_space, contact_space, std::move(u), std::move(lambda)};
+    return {scene, spaces, std::move(u), std::move(z)};
   }
+
+private:
+  mutable std::unique_ptr<const LinearSolver> solver;
 };
 } // namespace verification
 

@@ -41,28 +41,29 @@ inline FrictionIntegrals integrate_friction(const Solution<2> &solution,
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
         u_t[k] += solution.u[dofs[i]] * fe.shape_value(i, start + nodes[k][0] * (end - start)) *
-                  face.tangent[fe.system_to_component_index(i).first];
+                  face.frame(0.5).tangent[fe.system_to_component_index(i).first];
     for (unsigned int panel = 0; panel < n_panels; ++panel)
       for (unsigned int q = 0; q < gauss.size(); ++q)
       {
         const double s = (panel + gauss.point(q)[0]) / n_panels;
-        const double g = gauss.weight(q) / n_panels * face.length() *
+        const double g = gauss.weight(q) / n_panels * face.length *
                          face.friction_bound(map.point(start + s * (end - start)));
-        const double lambda = solution.contact_space.value(face, solution.lambda, s);
+        const double z = gauss.weight(q) / n_panels * face.length *
+                         solution.contact_space.value(face, solution.z, s);
         double u = 0;
         for (unsigned int k = 0; k < u_t.size(); ++k)
           u += u_t[k] * basis[k].value(s);
         sums.bound += g;
         sums.friction += g * std::abs(u);
-        sums.coupling += g * lambda * u;
-        sums.resultant -= g * lambda;
-        sums.overshoot += g * std::max(std::abs(lambda) - 1., 0.) * std::abs(u);
+        sums.coupling += z * u;
+        sums.resultant -= z;
+        sums.overshoot += std::max(std::abs(z) - g, 0.) * std::abs(u);
       }
   }
   return sums;
 }
 
-/** `g |u_t| - g lambda u_t >= -g (|lambda| - 1)_+ |u_t|` at every point, so for the integrals too. */
+/** `g |u_t| - z u_t >= -(|z| - g)_+ |u_t|` at every point, so for the integrals too. */
 inline void expect_slack_of_overshoot_alone(const Solution<2> &solution, const double slack)
 {
   const FrictionIntegrals sums = integrate_friction(solution, 256);

@@ -22,7 +22,7 @@ double beta(const unsigned int n, const unsigned int p, const int offset,
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const Degrees degrees(mesh.n_active_cells(), p);
-  return measure_inf_sup(scene, mesh, degrees, ShapeTables<2>()).beta;
+  return measure_inf_sup(scene, mesh, degrees).beta;
 }
 
 /** Row m holds the values of multiplier m of @p coarse at the Gauss points of @p fine. */
@@ -57,8 +57,8 @@ double beta_against(const unsigned int p, const unsigned int n_bisections, const
   make_mesh(scene, mesh);
   make_mesh(scene, fine_mesh);
   fine_mesh.refine_global(n_bisections);
-  const Discretisation own(scene, mesh, Degrees(mesh.n_active_cells(), p));
-  const Discretisation fine(scene, fine_mesh, Degrees(fine_mesh.n_active_cells(), p + more));
+  const Laboratory own(scene, mesh, Degrees(mesh.n_active_cells(), p));
+  const Laboratory fine(scene, fine_mesh, Degrees(fine_mesh.n_active_cells(), p + more));
   const FullMatrix<double> T = values_at(own.contact_space, fine.contact_space);
   const SchurComplement own_reduced = own.reduce(), fine_reduced = fine.reduce();
   FullMatrix<double> S(T.m(), T.m()), fine_S(T.n(), T.n()), TS(T.m(), T.n()),
@@ -106,7 +106,7 @@ TEST(InfSup, NamesTheDegreesOnTheContactBoundary)
     if (cell->center()[1] < 1.)
       degrees[cell->active_cell_index()] = std::array<unsigned int, 4>{{4, 6, 3, 5}}.at(
           static_cast<unsigned int>(cell->center()[0]));
-  const InfSup result = measure_inf_sup(scene, mesh, degrees, ShapeTables<2>());
+  const InfSup result = measure_inf_sup(scene, mesh, degrees);
   EXPECT_EQ(result.lowest_degree, 3U);
   EXPECT_EQ(result.highest_degree, 6U);
   EXPECT_EQ(result.n_multipliers, 3U + 5U + 2U + 4U);

@@ -67,7 +67,7 @@ struct Uniform
 void expect_uniform(const Scene<2> &scene, const Uniform &expected)
 {
   const RandomMesh mesh(scene, 1, 2);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
   double largest_x = 0, largest_y = 0;
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())

@@ -121,7 +121,7 @@ TEST(Process, IsAsItWasAfterARun)
   EXPECT_EQ(process_state(), before);
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3), ShapeTables<2>());
+  measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3));
   EXPECT_EQ(process_state(), before);
 }
 

@@ -24,7 +24,7 @@ Outcome run(const std::string &scene, const Overrides &overrides)
       [&](const Step<2> &step)
       {
         result.lagrangians.push_back(step.energies.lagrangian);
-        result.lambda.assign(step.solution.lambda.begin(), step.solution.lambda.end());
+        result.lambda.assign(step.solution.z.begin(), step.solution.z.end());
         result.steps_that_fell_back += step.qp.fell_back;
         result.largest_gradient = std::max(result.largest_gradient, step.qp.projected_gradient);
         result.last = step.qp;

@@ -133,8 +133,7 @@ TEST(Smoke, InfSup)
   const Scene<2> scene = shipped_scene("han-6-13");
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  const InfSup result =
-      measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3), ShapeTables<2>());
+  const InfSup result = measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3));
   EXPECT_GT(result.beta, 0.5);
 }
 

@@ -11,7 +11,7 @@ namespace
 using namespace verification;
 
 /** The largest violation of any condition of any boundary at its own nodes. */
-double violation(const Discretisation &discrete, const Vector<double> &u)
+double violation(const Laboratory &discrete, const Vector<double> &u)
 {
   double largest = 0;
   for (const SupportedNode<2> &node :
@@ -39,7 +39,7 @@ TEST(Corners, ASupportDoesNotLiftTheContactBesideIt)
 {
   const Scene<2> scene = scene_of(slope());
   const RandomMesh mesh(scene, 4, 2);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   // The corner of wall and slope stays where it is; without u_n = 0 there it slides along the wall.
@@ -61,7 +61,7 @@ TEST(Corners, TwoContactsMeet)
                                    {"Boundary left/Contact", "bilateral"},
                                    {"Boundary right/Traction", "0.2; -0.1"}});
   const RandomMesh mesh(scene, 5, 2);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   EXPECT_LE(violation(discrete, discrete.solve().u), 1e-15);
 }
 
@@ -73,7 +73,7 @@ TEST(Corners, PrescribedValuesAreMetTogether)
   entries.emplace_back("Boundary left/Displacement", "0.03; free");
   const Scene<2> scene = scene_of(entries);
   const RandomMesh mesh(scene, 6, 1);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   for (const SupportedNode<2> &node :
@@ -94,7 +94,7 @@ TEST(Corners, PrescribedValuesAreMetBesideAnInclinedWall)
                                    {"Boundary bottom/Displacement", "free; 0.04"},
                                    {"Boundary right/Traction", "0.1; 0"}});
   const RandomMesh mesh(scene, 8, 1);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   for (const SupportedNode<2> &node :
@@ -203,7 +203,7 @@ TEST(Equilibrium, SeesWhatDoesNotBalance)
 {
   const Scene<2> scene = scene_of(slope());
   const RandomMesh mesh(scene, 7, 2);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   Solution<2> solution = discrete.solve();
   EXPECT_LE(equilibrium(solution, discrete.system, discrete.tables).force_imbalance, 1e-13);
   EXPECT_LE(equilibrium(solution, discrete.system, discrete.tables).moment_imbalance, 1e-13);

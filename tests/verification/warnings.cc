@@ -80,7 +80,7 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
 {
   const Scene<2> scene = shipped_scene("han-6-12");
   const RandomMesh mesh(scene, 1, 1);
-  const Discretisation discrete(scene, mesh);
+  const Laboratory discrete(scene, mesh);
   for (const std::string &line : warnings(discrete.solve(), discrete.tables, estimates, error))
     if (line.find(words) != std::string::npos)
       return line;

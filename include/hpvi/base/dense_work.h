@@ -15,9 +15,6 @@ struct DenseWork
 {
   std::size_t n_contact, n_multipliers;
 
-  /** B: n_multipliers x n_contact. */
-  double coupling_bytes() const;
-
   /** The most at once: L_cc, Y and S of SchurComplement; or Y, S and a solver's two copies of S. */
   double bytes() const;
 

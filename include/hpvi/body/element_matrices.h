@@ -2,18 +2,12 @@
 #ifndef hpvi_element_matrices_h
 #define hpvi_element_matrices_h
 
-#include <boost/functional/hash.hpp>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>
-#include <map>
-#include <memory>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace hpvi
 {
@@ -27,82 +21,30 @@ namespace hpvi
 template <int dim>
 unsigned int stiffness_points(const CellMap<dim> &map, unsigned int degree);
 
-/**
- * Static condensation of the stiffness matrix K of one element: of its unknowns in deal.II's local
- * numbering those in its interior (i) are eliminated, those on its boundary (b) are kept.
- */
-struct ElementStiffness
-{
-  dealii::FullMatrix<double> condensed;  ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
-  dealii::FullMatrix<double> extension;  ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
-  dealii::LAPACKFullMatrix<double> K_ii; ///< factored; empty unless loads act in the interior
-};
-
-/** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
-struct ConstraintEntry
-{
-  unsigned int local, target;
-  double weight;
-
-  bool operator==(const ConstraintEntry &other) const
-  {
-    return local == other.local && target == other.target && weight == other.weight;
-  }
-
-  friend std::size_t hash_value(const ConstraintEntry &entry)
-  {
-    std::size_t seed = boost::hash_value(entry.weight);
-    boost::hash_combine(seed, entry.local);
-    boost::hash_combine(seed, entry.target);
-    return seed;
-  }
-};
-
-/**
- * Element matrices by congruence class. In two dimensions a(.,.) does not change when a cell is
- * moved or scaled, so an adaptive mesh has a handful of different element matrices. A class is
- * kept as long as a system uses it.
- */
+/** Stiffness matrices of elements, each a function of the cell's map, degree and material. */
 template <int dim>
-class ElementStiffnesses
+class ElementMatrices
 {
 public:
-  ElementStiffnesses(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  /** @p scene and @p tables must outlive this object. */
+  ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables);
 
-  std::shared_ptr<const ElementStiffness> get(const CellMap<dim> &map, unsigned int degree);
+  /** `K_ij = a(phi_j, phi_i)` over the cell, in deal.II's local numbering of FESystem(FE_Q(p), dim). */
+  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
+
+  /** How many of the first rows of stiffness() belong to the boundary of the cell. */
+  unsigned int n_boundary(unsigned int degree) const;
 
   /**
-   * `T'KT`, n_targets x n_targets, with K the condensed matrix of @p element. Most cells keep their
-   * neighbours from step to step, and T with them.
+   * Elements of one class have the same matrix: in two dimensions a(.,.) does not change when a
+   * cell is moved or scaled, so an adaptive mesh has a handful of classes.
    */
-  std::shared_ptr<const dealii::FullMatrix<double>>
-  constrained(const std::shared_ptr<const ElementStiffness> &element,
-              const std::vector<ConstraintEntry> &T, unsigned int n_targets);
-
-  /** K_ii of one cell, factored: what only a correction of round-off asks for is not kept. */
-  void interior(const CellMap<dim> &map, unsigned int degree,
-                dealii::LAPACKFullMatrix<double> &K_ii) const;
-
-  /** Forget the constrained matrices that no system uses. */
-  void forget_unused();
+  using Class = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
+  Class congruence_class(const CellMap<dim> &map, unsigned int degree) const;
 
 private:
-  using Key = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
-  static Key congruence_class(const typename CellMap<dim>::Vertices &vertices, unsigned int degree);
-  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
-  std::shared_ptr<ElementStiffness> condense(const dealii::FullMatrix<double> &K,
-                                             unsigned int n_boundary) const;
-
-  const Material material;
-  const bool interior_loads;
+  const Scene<dim> &scene;
   const ShapeTables<dim> &tables;
-  std::map<Key, std::weak_ptr<const ElementStiffness>> known;
-
-  using ConstrainedKey =
-      std::pair<std::shared_ptr<const ElementStiffness>, std::vector<ConstraintEntry>>;
-  std::unordered_map<ConstrainedKey, std::weak_ptr<const dealii::FullMatrix<double>>,
-                     boost::hash<ConstrainedKey>>
-      known_constrained;
 };
 } // namespace hpvi
 

@@ -5,6 +5,7 @@
 #include <deal.II/grid/tria.h>
 #include <hpvi/scene/scene.h>
 
+#include <memory>
 #include <vector>
 
 namespace hpvi
@@ -19,6 +20,14 @@ using Degrees = std::vector<unsigned int>;
  */
 template <int dim>
 void make_mesh(const Scene<dim> &scene, dealii::Triangulation<dim> &triangulation);
+
+/** A pointer to a mesh that somebody else owns, for those that want to share one. */
+template <int dim>
+std::shared_ptr<const dealii::Triangulation<dim>>
+borrowed(const dealii::Triangulation<dim> &triangulation)
+{
+  return {std::shared_ptr<const dealii::Triangulation<dim>>(), &triangulation};
+}
 
 /** What to do with each cell, by active cell index. */
 struct Refinement
@@ -37,15 +46,6 @@ struct Refinement
 template <int dim>
 Degrees refine_mesh(dealii::Triangulation<dim> &triangulation, const Degrees &degrees,
                     const Refinement &refinement);
-/** The outer unit normal of a cell's straight face. */
-template <int dim, class CellIterator>
-dealii::Tensor<1, dim> outer_normal(const CellIterator &cell, const unsigned int face)
-{
-  static_assert(dim == 2, "a straight edge");
-  const dealii::Tensor<1, dim> along = cell->face(face)->vertex(1) - cell->face(face)->vertex(0);
-  const dealii::Tensor<1, dim> normal = dealii::cross_product_2d(along / along.norm());
-  return normal * (cell->face(face)->center() - cell->center()) < 0 ? -normal : normal;
-}
 } // namespace hpvi
 
 #endif

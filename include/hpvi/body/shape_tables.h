@@ -2,11 +2,9 @@
 #ifndef hpvi_shape_tables_h
 #define hpvi_shape_tables_h
 
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/tensor.h>
 #include <deal.II/hp/fe_collection.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -55,6 +53,13 @@ struct EdgeInterpolation
   dealii::FullMatrix<double> weights; ///< new nodes x given nodes
 };
 
+/** Polynomials in one variable at the Gauss points of an edge. */
+struct EdgeTable
+{
+  dealii::FullMatrix<double> shapes;      ///< points x (p+1): FE_Q(p) on the edge
+  dealii::FullMatrix<double> multipliers; ///< points x n: Lagrange basis at the n Gauss points
+};
+
 /**
  * All tables that a run needs, each computed when first asked for. They depend on degree, face and
  * number of points only, never on a cell; so cells cost one small matrix product where deal.II's
@@ -100,6 +105,17 @@ public:
   const std::vector<dealii::Polynomials::Polynomial<double>> &
   gauss_lagrange(unsigned int n_gauss) const;
 
+  /** Along an edge of degree @p degree with @p n_multipliers, at @p n_gauss points. */
+  const EdgeTable &edge(unsigned int degree, unsigned int n_multipliers,
+                        unsigned int n_gauss) const;
+
+  /**
+   * N, (p-1) x (p+1): a polynomial of degree p >= 2 on an edge has at its p-1 interior nodes the values
+   * `N (m, v(0), v(1))`, where `m_i = int psi_i v / int psi_i` are its moments with the Lagrange basis
+   * psi at p-1 Gauss points. N has condition 1.0 (p = 2) to 1.8 (p = 14).
+   */
+  const dealii::FullMatrix<double> &nodes_from_moments(unsigned int degree) const;
+
 private:
   const ShapeTable<dim> &in_cell(unsigned int degree, unsigned int n_gauss,
                                  bool second_derivatives) const;
@@ -112,6 +128,8 @@ private:
   mutable std::map<unsigned int, std::vector<double>> gauss_lobatto_points;
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
       lagrange_bases;
+  mutable std::map<std::array<unsigned int, 3>, EdgeTable> edge_tables;
+  mutable std::map<unsigned int, dealii::FullMatrix<double>> moment_nodes;
 };
 
 /**
@@ -125,44 +143,6 @@ std::vector<double> evaluate(const dealii::FullMatrix<double> &table,
 template <int dim>
 ShapeTable<dim> tabulate(unsigned int degree, const std::vector<dealii::Point<dim>> &points,
                          const std::vector<double> &weights, bool second_derivatives);
-
-/** The d-linear map from the reference cell to a cell with straight edges. */
-template <int dim>
-class CellMap
-{
-public:
-  using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
-
-  explicit CellMap(const Vertices &vertices);
-
-  const Vertices &vertices() const; ///< in deal.II's order
-
-  /** Is the map affine, so that every derivative of it is constant? */
-  bool is_affine() const;
-
-  dealii::Point<dim> point(const dealii::Point<dim> &reference) const;
-
-  /** J_ij = d x_i / d xi_j. */
-  dealii::Tensor<2, dim> jacobian(const dealii::Point<dim> &reference) const;
-
-  /** H_ijk = d^2 x_i / (d xi_j d xi_k). */
-  dealii::Tensor<3, dim> hessian(const dealii::Point<dim> &reference) const;
-
-private:
-  Vertices corners;
-  bool affine;
-  dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
-};
-
-/** The map of a triangulation's cell. */
-template <int dim, class CellIterator>
-CellMap<dim> map_of(const CellIterator &cell)
-{
-  typename CellMap<dim>::Vertices vertices;
-  for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
-    vertices[v] = cell->vertex(v);
-  return CellMap<dim>(vertices);
-}
 } // namespace hpvi
 
 #endif

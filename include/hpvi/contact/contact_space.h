@@ -2,22 +2,21 @@
 #ifndef hpvi_contact_space_h
 #define hpvi_contact_space_h
 
-#include <deal.II/base/tensor.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/body/displacement_space.h>
+#include <hpvi/contact/contact_frame.h>
 #include <hpvi/contact/friction_rule.h>
-#include <hpvi/solver/quadratic_program.h>
+#include <hpvi/solver/feasible_set.h>
 
 #include <map>
-#include <memory>
 #include <vector>
 
 namespace hpvi
 {
 /**
- * One face of the contact boundary. Its multiplier unknowns are the values of lambda_N at its
- * Gauss points, in the order of the face's own reference coordinate.
+ * One face of the contact boundary. Its multiplier unknowns are the values of z_N at its Gauss
+ * points, in the order of the face's own reference coordinate.
  */
 template <int dim>
 struct ContactFace
@@ -26,25 +25,19 @@ struct ContactFace
   unsigned int face_no;
   unsigned int degree; ///< p_K of the cell
   const BoundaryCondition<dim> *condition;
-  dealii::Tensor<1, dim> normal;  ///< outer unit normal n
-  dealii::Tensor<1, dim> tangent; ///< t = (-n_y, n_x)
-  unsigned int n_points;          ///< Gauss points: p + offset + 1
-  unsigned int first_multiplier;  ///< index of the first unknown
-  unsigned int n_multipliers;     ///< n_points, or 0 where g vanishes on the whole face
-  FrictionRule friction;          ///< for every integral over the face that holds g [stress]
-  /** Shape functions at the points of @p friction; null for one piece: those of ShapeTables. */
-  std::shared_ptr<const ShapeTable<dim>> own_table;
+  CellMap<dim> map;              ///< of the cell
+  double length;                 ///< of the face
+  unsigned int n_points;         ///< Gauss points: p + offset + 1
+  unsigned int first_multiplier; ///< index of the first unknown
+  unsigned int n_multipliers;    ///< n_points, or 0 where g vanishes on the whole face
+  FrictionRule friction;         ///< for integrals over the face that hold g [stress]
+
+  /** At reference coordinate s in [0,1] of the face. */
+  ContactFrame<dim> frame(double s) const;
+  dealii::Point<dim> point(double s) const; ///< x there
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;
-
-  /** The point at reference coordinate s in [0,1], from vertex 0 of the face to vertex 1. */
-  dealii::Point<dim> point(double s) const;
-
-  double length() const; ///< of the straight edge
-
-  /** The scalar FE_Q(p) at the points of @p friction. */
-  const ShapeTable<dim> &friction_table(const ShapeTables<dim> &tables) const;
 };
 
 /** A jump of g inside an edge, which no polynomial of the discrete problem follows. */
@@ -56,11 +49,22 @@ struct UnresolvedJump
   double height; ///< of g [stress]
 };
 
+/** An edge on which the Gauss points of the multiplier miss what g does between them. */
+template <int dim>
+struct UnresolvedBound
+{
+  const ContactFace<dim> *face;
+  double sum;      ///< sum_k w_k g(x_k), what the discrete problem takes for int g [stress length]
+  double integral; ///< int g
+};
+
 /**
- * The multiplier space W_N of (3.58): on each contact face where g does not vanish the polynomials
- * of degree p + offset, discontinuous from face to face, Lagrange basis at the p + offset + 1 Gauss
- * points; with the discrete set (3.68), |z_i| <= 1. The thesis has offset = -2
- * (SolverSettings::multiplier_offset).
+ * The space of friction tractions z_N = g lambda_N: on each contact face where g does not vanish the
+ * polynomials of degree p + offset, discontinuous from face to face, Lagrange basis at the
+ * p + offset + 1 Gauss points x_i, in the set |z_i| <= g(x_i). For constant g it is g times W_N of
+ * (3.58) with the discrete set (3.68), and offset = -2 the thesis's
+ * (SolverSettings::multiplier_offset). Where g varies the thesis multiplies the polynomials by g; both
+ * are equal once g is resolved, and this one divides by g nowhere (doc/plan.md).
  */
 template <int dim>
 class ContactSpace
@@ -73,19 +77,33 @@ public:
 
   unsigned int n_multipliers() const;
 
-  /** -1 <= z_i <= 1. */
+  /** |z_i| <= g(x_i), where x_i = point(i). */
   FeasibleSet feasible_set() const;
+
+  /** Gauss weights times ds by multiplier: `int z_N = sum_i weights_i z_i` [length^(dim-1)]. */
+  const std::vector<double> &weights() const;
 
   /**
    * Values of the multiplier's Lagrange basis on @p face at reference coordinates @p s in [0,1].
    */
   std::vector<double> basis_values(const ContactFace<dim> &face, double s) const;
 
-  /** lambda_N on @p face at s in [0,1]; zero on a face without multipliers. Dimensionless. */
-  double value(const ContactFace<dim> &face, const dealii::Vector<double> &lambda, double s) const;
+  /** z_N on @p face at s in [0,1]; zero on a face without multipliers [stress]. */
+  double value(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
 
   /** int g, all that friction can carry along the contact boundary [stress length^(dim-1)]. */
   double friction_limit() const;
+
+  /** `sum_i w_i g(x_i)`, all that friction can carry in the discrete problem. */
+  double discrete_friction_limit() const;
+
+  double largest_bound() const; ///< max g(x_i) [stress]
+
+  /**
+   * Faces where `sum_k w_k g(x_k)` differs from int g by more than 1e-3 of it and 1e-6 of
+   * friction_limit(): the discrete problem has another friction there than the scene.
+   */
+  std::vector<UnresolvedBound<dim>> unresolved_bounds() const;
 
   /** Jumps of g whose height times the length of their edge exceeds 1e-6 of friction_limit(). */
   std::vector<UnresolvedJump<dim>> unresolved_jumps() const;
@@ -94,6 +112,7 @@ private:
   void number_multipliers();
 
   std::vector<ContactFace<dim>> contact_faces;
+  std::vector<double> point_weights, bounds; ///< w_i, g(x_i) by multiplier
   std::map<unsigned int, dealii::FE_DGQArbitraryNodes<dim - 1>> elements; ///< by n_points
   unsigned int n_unknowns = 0;
 };

@@ -14,10 +14,10 @@ public:
   /** Of nothing: zero everywhere. */
   MultiplierTrace() = default;
 
-  MultiplierTrace(const ContactSpace<dim> &contact_space, const dealii::Vector<double> &lambda);
+  MultiplierTrace(const ContactSpace<dim> &contact_space, const dealii::Vector<double> &z);
 
   /**
-   * lambda_N at the Gauss points of @p finer, whose faces are faces of the old mesh or parts of
+   * z_N at the Gauss points of @p finer, whose faces are faces of the old mesh or parts of
    * them; zero where the old face had no multipliers.
    */
   dealii::Vector<double> values(const ContactSpace<dim> &finer,

@@ -8,7 +8,7 @@
 
 namespace hpvi
 {
-/** How exactly `A u + B' lambda = f` is solved. */
+/** How exactly `A u + B' z = f` is solved. */
 struct AlgebraicError
 {
   /**
@@ -16,7 +16,7 @@ struct AlgebraicError
    * residual r. Zero where the work of r on u_N, which costs no solve, shows that it is below 1e-5.
    */
   double relative = 0;
-  double multiplier = 0;        ///< the last change of lambda_N that corrections asked for
+  double multiplier = 0;        ///< the last change of z_N that corrections asked for
   unsigned int corrections = 0; ///< steps of conjugate gradients taken
   double energy_product = 0;    ///< a(u_N,u_N), from strains
 
@@ -34,7 +34,7 @@ struct AlgebraicError
 /**
  * Corrects what round-off did to the displacement. The error of a direct solve is round-off times
  * the condition number: of slender bodies it reaches the size of the solution. The residual
- * `r = f - B' lambda - A u` is formed from strains (see InternalForces) and its work on u compared
+ * `r = f - B' z - A u` is formed from strains (see InternalForces) and its work on u compared
  * with a(u,u). Where they contradict each other, conjugate gradients preconditioned by the
  * factorisation bring u to the exact solution of the discrete problem; they need a few steps, since the
  * factorisation is wrong in a few directions only.
@@ -44,35 +44,31 @@ class IterativeRefinement
 {
 public:
   /** All must outlive this object. */
-  IterativeRefinement(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                      const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
-                      const ElasticSystem<dim> &system, const ElementStiffnesses<dim> &stiffnesses,
+  IterativeRefinement(const Discretisation<dim> &discretisation,
+                      const CondensedElements<dim> &elements, const LinearSolver &solver,
                       const SchurComplement &schur_complement);
 
   /**
-   * The displacement, and the multiplier in @p reduction, which comes with the starting value. Where
+   * The displacement, and the multiplier in @p reduced, which comes with the starting value. Where
    * the displacement has to be corrected, S and d carry the same round-off: the multiplier is then
    * found again from what the corrected displacement does at the contact boundary, until it stays
    * where it is. Throws what solve_reduced_problem throws.
    */
-  dealii::Vector<double> solve(Reduction &reduction, AlgebraicError &error) const;
+  dealii::Vector<double> solve(ReducedSolution &reduced, AlgebraicError &error) const;
 
-  /** Improve @p u, the solution for the multiplier @p lambda, and say how exact it is now. */
-  AlgebraicError improve(const dealii::Vector<double> &lambda, dealii::Vector<double> &u) const;
+  /** Improve @p u, the solution for the multiplier @p z, and say how exact it is now. */
+  AlgebraicError improve(const dealii::Vector<double> &z, dealii::Vector<double> &u) const;
 
 private:
-  dealii::Vector<double> residual(const dealii::Vector<double> &lambda,
-                                  const dealii::Vector<double> &u, double &energy_product) const;
+  dealii::Vector<double> residual(const dealii::Vector<double> &z, const dealii::Vector<double> &u,
+                                  double &energy_product) const;
   double round_off_energy(const dealii::Vector<double> &u) const;
   bool contradicts(const dealii::Vector<double> &residual, const dealii::Vector<double> &u,
                    double energy_product) const;
 
-  const Scene<dim> &scene;
-  const DisplacementSpace<dim> &space;
-  const ContactSpace<dim> &contact_space;
-  const ShapeTables<dim> &tables;
-  const ElasticSystem<dim> &system;
-  const ElementStiffnesses<dim> &stiffnesses;
+  const Discretisation<dim> &discretisation;
+  const CondensedElements<dim> &elements;
+  const LinearSolver &solver;
   const SchurComplement &schur_complement;
 };
 } // namespace hpvi

@@ -3,21 +3,32 @@
 #define hpvi_solution_h
 
 #include <deal.II/lac/vector.h>
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/shape_tables.h>
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/discretisation/discretisation.h>
 
 namespace hpvi
 {
-/** The discrete solution (u_N, lambda_N) of Problem 5.1 and the spaces it lives in. */
+/**
+ * The discrete solution (u_N, z_N) of Problem 5.1, z_N = g lambda_N, and the spaces it lives in, which
+ * live as long as it does. The scene must outlive it.
+ */
 template <int dim>
 struct Solution
 {
+  Solution(const Scene<dim> &scene, std::shared_ptr<const Spaces<dim>> all_spaces,
+           dealii::Vector<double> u, dealii::Vector<double> z)
+      : scene(scene), spaces(std::move(all_spaces)), displacement_space(spaces->displacement_space),
+        contact_space(spaces->contact_space), tables(*spaces->tables), u(std::move(u)),
+        z(std::move(z))
+  {
+  }
+
   const Scene<dim> &scene;
-  const DisplacementSpace<dim> &displacement_space;
+  const std::shared_ptr<const Spaces<dim>> spaces;
+  const DisplacementSpace<dim> &displacement_space; ///< of spaces, like all below
   const ContactSpace<dim> &contact_space;
-  dealii::Vector<double> u;      ///< all displacement unknowns, constrained ones included [length]
-  dealii::Vector<double> lambda; ///< multiplier unknowns, dimensionless
+  const ShapeTables<dim> &tables;
+  dealii::Vector<double> u; ///< all displacement unknowns, constrained ones included [length]
+  dealii::Vector<double> z; ///< friction traction at the Gauss points, `T_t = -z` [stress]
 
   /**
    * Coefficients of u_N on one cell in the scalar FE_Q(p_K), component by component: entry

@@ -8,14 +8,14 @@
 
 namespace hpvi
 {
-/** What u_N, lambda_N do at one Gauss point of the contact boundary. */
+/** What u_N, z_N do at one Gauss point of the contact boundary. */
 template <int dim>
 struct ContactPoint
 {
   unsigned int q; ///< its number on the face, in the order of the face's reference coordinate
   dealii::Point<dim> x;
   double friction_bound; ///< g [stress], 0 on a face without multipliers
-  double lambda;         ///< likewise
+  double lambda;         ///< z_N/g, 0 where g is
   bool slips;            ///< |lambda| = 1 or g = 0
 };
 

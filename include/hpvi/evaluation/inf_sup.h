@@ -3,7 +3,6 @@
 #define hpvi_inf_sup_h
 
 #include <hpvi/body/mesh.h>
-#include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi
@@ -30,12 +29,12 @@ struct InfSup
  * v in V_N, and w in a space V_* that stands for V: degree p + 4 on the mesh bisected once. The
  * maxima are z'S_N z and z'S_* z with `S = B A^-1 B'`, both over the unknowns z of W_N, so beta^2 is
  * the smallest eigenvalue of `S_N z = beta^2 S_* z`. The norm |.|_* is equivalent to that of
- * g W_N in the dual of the traces of V, with constants that depend on material and body only; as
+ * W_N in the dual of the traces of V, with constants that depend on material and body only; as
  * V_N is a part of V_*, beta <= 1. Throws NumericalFailure where S_* is not positive definite.
  */
 template <int dim>
 InfSup measure_inf_sup(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
-                       const Degrees &degrees, const ShapeTables<dim> &tables);
+                       const Degrees &degrees);
 } // namespace hpvi
 
 #endif

@@ -54,11 +54,12 @@ public:
   double normal_traction(const unsigned int q) const
   {
     const dealii::Point<dim> x = map.point(table.points[q]);
-    dealii::Tensor<1, dim> traction = sigma(q) * face.normal;
+    const dealii::Tensor<1, dim> n = map.normal(face.face_no, table.points[q]);
+    dealii::Tensor<1, dim> traction = sigma(q) * n;
     for (unsigned int c = 0; c < dim; ++c)
       if (face.condition->traction[c])
         traction[c] -= face.condition->traction[c]->value(x);
-    return face.normal * traction;
+    return n * traction;
   }
 
 private:

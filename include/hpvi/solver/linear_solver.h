@@ -2,52 +2,64 @@
 #ifndef hpvi_linear_solver_h
 #define hpvi_linear_solver_h
 
-#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/solver/quadratic_program.h>
 #include <hpvi/solver/symmetric_matrix.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace hpvi
 {
 /**
- * Reduction of `A u + B' lambda = f` to the multiplier: `S = B A^-1 B'`, `d = B A^-1 f` (5.6),
- * (5.7). The sparse Cholesky factorisation `A = L L'` takes the contact unknowns c last; then its
- * trailing block L_cc is dense and `S = Y'Y` with `Y = L_cc^-1 B_c'`, so S costs one triangular
- * solve with a small dense matrix and no sparse solve at all. This is the one place that chooses
- * ordering and solver: CHOLMOD (doi:10.1145/1391989.1391995), supernodal, ordered by constrained
- * AMD; tests/benchmark/solvers.cc measures MUMPS beside it.
+ * `stiffness P P'`, added to a singular matrix A whose null vector R has `P'R != 0`. It carries no
+ * force where `R'f = 0`: then A^-1 is a generalised inverse of the matrix without it.
  */
-class SchurComplement
+struct Stabilisation
+{
+  std::vector<std::pair<unsigned int, double>> P; ///< entries that are not zero, ascending
+  double stiffness = 0;                           ///< none where it is 0
+};
+
+/**
+ * The sparse Cholesky factorisation `A = L L'`, which takes some unknowns last: the kept ones, those
+ * of the contact. The trailing block C of L is then dense and holds the Schur complement on them,
+ * `A_kk - A_ki A_ii^-1 A_ik = C C'`. This is the one place that chooses ordering and solver: CHOLMOD
+ * (doi:10.1145/1391989.1391995), supernodal, ordered by constrained AMD; tests/benchmark/solvers.cc
+ * measures MUMPS beside it.
+ */
+class LinearSolver
 {
 public:
   /**
-   * Factor @p A. @p contact (ascending) are the unknowns that belong to the columns of @p B.
-   * Throws NumericalFailure if A is not positive definite.
+   * Factor @p A. @p more_bytes are those that the caller will want beside L. Throws NumericalFailure if
+   * A is not positive definite or memory does not suffice.
    */
-  SchurComplement(const SymmetricMatrix &A, const dealii::Vector<double> &f,
-                  const std::vector<unsigned int> &contact, const dealii::FullMatrix<double> &B);
-  ~SchurComplement();
+  LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+               double more_bytes = 0., const Stabilisation &stabilisation = {});
+  LinearSolver(LinearSolver &&);
+  ~LinearSolver();
 
-  const dealii::LAPACKFullMatrix<double> &S() const; ///< n_multipliers x n_multipliers
-  const dealii::Vector<double> &d() const;           ///< n_multipliers
-
-  /** `x = A^-1 (f - B' lambda)`. */
-  dealii::Vector<double> displacement(const dealii::Vector<double> &lambda) const;
-
-  /** `A^-1 f` for another right-hand side. */
+  /** `A^-1 f` */
   dealii::Vector<double> solve(const dealii::Vector<double> &f) const;
+
+  /** `y = L^-1 f`, in the order of elimination: kept unknowns last. */
+  dealii::Vector<double> forward(const dealii::Vector<double> &f) const;
+
+  /** `L^-T y`: what is left of solve() after forward(). */
+  dealii::Vector<double> backward(const dealii::Vector<double> &y) const;
+
+  const dealii::LAPACKFullMatrix<double> &kept_factor() const; ///< C, lower triangular
+
+  /** The place in kept of each row of C. */
+  const std::vector<unsigned int> &kept_order() const;
 
   std::size_t factor_entries() const; ///< entries stored for L
 
 private:
   struct Factor;
   std::unique_ptr<Factor> factor;
-  dealii::LAPACKFullMatrix<double> Y; ///< L_cc^-1 B_c'
-  dealii::LAPACKFullMatrix<double> schur_matrix;
-  dealii::Vector<double> reduced_load;
 };
 } // namespace hpvi
 

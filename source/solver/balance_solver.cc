@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <boost/math/tools/toms748_solve.hpp>
-#include <hpvi/solver/augmented_lagrangian.h>
+#include <hpvi/solver/balance_solver.h>
 
 #include <cmath>
 #include <cstdint>
@@ -25,13 +25,13 @@ void add(QpReport &sum, const QpReport &part)
 }
 } // namespace
 
-AugmentedLagrangian::AugmentedLagrangian(Inner inner, const double penalty, const double tolerance)
+BalanceSolver::BalanceSolver(Inner inner, const double penalty, const double tolerance)
     : inner(std::move(inner)), penalty(penalty), tolerance(tolerance)
 {
 }
 
-QpReport AugmentedLagrangian::solve(QuadraticProgram qp, const EqualityConstraint &constraint,
-                                    Vector<double> &z, double &alpha) const
+QpReport BalanceSolver::solve(QuadraticProgram qp, const EqualityConstraint &constraint,
+                              Vector<double> &z, double &alpha) const
 {
   const Vector<double> d(qp.d);
   QpReport report;

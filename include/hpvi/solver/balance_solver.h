@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_augmented_lagrangian_h
-#define hpvi_augmented_lagrangian_h
+#ifndef hpvi_balance_solver_h
+#define hpvi_balance_solver_h
 
 #include <hpvi/solver/mprgp.h>
 
@@ -25,14 +25,14 @@ struct EqualityConstraint
  * For a body that only friction holds, G'z = e is the balance of forces along its free translation
  * and alpha the length by which it moves.
  */
-class AugmentedLagrangian
+class BalanceSolver
 {
 public:
   /** Solves a problem in the box, from a starting value that receives the minimiser. */
   using Inner = std::function<QpReport(const QuadraticProgram &, dealii::Vector<double> &)>;
 
   /** @p penalty is c; the equation holds to @p tolerance |G|_1 at the end. */
-  AugmentedLagrangian(Inner inner, double penalty, double tolerance);
+  BalanceSolver(Inner inner, double penalty, double tolerance);
 
   /**
    * z holds the starting value and receives the minimiser; @p alpha likewise. The report adds up

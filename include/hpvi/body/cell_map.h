@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_cell_map_h
+#define hpvi_cell_map_h
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+
+namespace hpvi
+{
+/** The d-linear map from the reference cell to a cell with straight edges. */
+template <int dim>
+class CellMap
+{
+public:
+  using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
+
+  explicit CellMap(const Vertices &vertices);
+
+  const Vertices &vertices() const; ///< in deal.II's order
+
+  /** Is the map affine, so that every derivative of it is constant? */
+  bool is_affine() const;
+
+  dealii::Point<dim> point(const dealii::Point<dim> &reference) const;
+
+  /** J_ij = d x_i / d xi_j. */
+  dealii::Tensor<2, dim> jacobian(const dealii::Point<dim> &reference) const;
+
+  /** H_ijk = d^2 x_i / (d xi_j d xi_k). */
+  dealii::Tensor<3, dim> hessian(const dealii::Point<dim> &reference) const;
+
+  /** Outer unit normal of a face at a point of it. */
+  dealii::Tensor<1, dim> normal(unsigned int face_no, const dealii::Point<dim> &reference) const;
+
+  /** ds of a face over that of the reference face, at a point of it: the length of a straight edge. */
+  double face_measure(unsigned int face_no, const dealii::Point<dim> &reference) const;
+
+  double longest_edge() const; ///< h_K [length]
+  double shortest_edge() const;
+
+private:
+  Vertices corners;
+  bool affine;
+  dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
+};
+
+/** The point of the reference cell at @p s of the reference face @p face_no. */
+template <int dim>
+dealii::Point<dim> point_on_face(const unsigned int face_no, const dealii::Point<dim - 1> &s)
+{
+  dealii::Point<dim> result;
+  for (unsigned int d = 0, k = 0; d < dim; ++d)
+    result[d] = d == face_no / 2 ? face_no % 2 : s[k++];
+  return result;
+}
+
+/** The map of a triangulation's cell. */
+template <int dim, class CellIterator>
+CellMap<dim> map_of(const CellIterator &cell)
+{
+  typename CellMap<dim>::Vertices vertices;
+  for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
+    vertices[v] = cell->vertex(v);
+  return CellMap<dim>(vertices);
+}
+} // namespace hpvi
+
+#endif

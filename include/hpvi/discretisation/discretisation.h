@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_discretisation_h
+#define hpvi_discretisation_h
+
+#include <hpvi/discretisation/rigid_motion.h>
+
+#include <memory>
+#include <optional>
+
+namespace hpvi
+{
+/** The spaces of one mesh, and the mesh: what a solution lives in. */
+template <int dim>
+class Spaces
+{
+public:
+  const std::shared_ptr<const dealii::Triangulation<dim>> mesh;
+  const std::shared_ptr<const ShapeTables<dim>> tables;
+  const DisplacementSpace<dim> displacement_space;
+  const ContactSpace<dim> contact_space;
+  const ContactOperator<dim> contact_operator;
+
+  /** @p degrees by active cell index. The scene must outlive the spaces. */
+  Spaces(const Scene<dim> &scene, std::shared_ptr<const dealii::Triangulation<dim>> mesh,
+         const Degrees &degrees, std::shared_ptr<const ShapeTables<dim>> tables);
+
+  Spaces(const Spaces &) = delete; // members refer to one another
+};
+
+/**
+ * One discrete problem, `A x + B' z = f` and the conditions on z: each member is built from the ones
+ * above it.
+ */
+template <int dim>
+class Discretisation
+{
+public:
+  const Scene<dim> &scene;
+  const std::shared_ptr<const Spaces<dim>> spaces;
+  const Unknowns<dim> unknowns;
+  const ConditionRows contact_rows; ///< B
+  const Condensation<dim> condensation;
+  const ElasticSystem<dim> system;                   ///< A, f
+  const std::optional<RigidMotion<dim>> free_motion; ///< where friction alone holds the body
+
+  /** @p elements remembers element matrices from step to step. Throws what make_translation() throws. */
+  Discretisation(const Scene<dim> &scene, std::shared_ptr<const Spaces<dim>> spaces,
+                 CondensedElements<dim> &elements);
+
+  Discretisation(const Discretisation &) = delete; // members refer to one another
+
+  /** All displacements from values of the unknowns of A. */
+  dealii::Vector<double> displacement(const dealii::Vector<double> &x) const;
+
+  /** A factored with the unknowns of contact_rows last, and stabilised where a motion is free. */
+  LinearSolver factor() const;
+};
+} // namespace hpvi
+
+#endif

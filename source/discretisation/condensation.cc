@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/condensation.h>
+
+#include <iterator>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/**
+ * @p K_ii := the block of @p K that belongs to the unknowns inside the cell, by its Cholesky factor. Not
+ * returned: a copy of deal.II's matrix forgets that it is a factor.
+ */
+void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
+                     LAPACKFullMatrix<double> &K_ii)
+{
+  const unsigned int n_interior = K.m() - n_boundary;
+  K_ii.reinit(n_interior);
+  for (unsigned int i = 0; i < n_interior; ++i)
+    for (unsigned int j = 0; j < n_interior; ++j)
+      K_ii(i, j) = K(n_boundary + i, n_boundary + j);
+  K_ii.set_property(LAPACKSupport::symmetric);
+  K_ii.compute_cholesky_factorization();
+}
+} // namespace
+
+template <int dim>
+CondensedElements<dim>::CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables)
+    : matrices(scene, tables), interior_loads(scene.has_body_force())
+{
+}
+
+template <int dim>
+std::shared_ptr<CondensedElement>
+CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int n_boundary) const
+{
+  auto element = std::make_shared<CondensedElement>();
+  const unsigned int n_interior = K.m() - n_boundary;
+  element->condensed.reinit(n_boundary, n_boundary);
+  element->condensed.fill(K, 0, 0, 0, 0);
+  if (n_interior > 0)
+  {
+    LAPACKFullMatrix<double> K_ii, K_ib(n_interior, n_boundary);
+    factor_interior(K, n_boundary, K_ii);
+    for (unsigned int i = 0; i < n_interior; ++i)
+      for (unsigned int j = 0; j < n_boundary; ++j)
+        K_ib(i, j) = -K(n_boundary + i, j);
+    K_ii.solve(K_ib);
+    element->extension.reinit(n_interior, n_boundary);
+    element->extension = K_ib;
+    FullMatrix<double> K_bi(n_boundary, n_interior);
+    K_bi.fill(K, 0, 0, 0, n_boundary);
+    K_bi.mmult(element->condensed, element->extension, /*adding=*/true);
+    if (interior_loads)
+      element->K_ii = K_ii;
+  }
+  return element;
+}
+
+template <int dim>
+std::shared_ptr<const CondensedElement> CondensedElements<dim>::get(const CellMap<dim> &map,
+                                                                    const unsigned int degree)
+{
+  auto &entry = known[matrices.congruence_class(map, degree)];
+  std::shared_ptr<const CondensedElement> element = entry.lock();
+  if (!element)
+  {
+    element = condense(matrices.stiffness(map, degree), matrices.n_boundary(degree));
+    entry = element;
+  }
+  return element;
+}
+
+template <int dim>
+void CondensedElements<dim>::interior(const CellMap<dim> &map, const unsigned int degree,
+                                      LAPACKFullMatrix<double> &K_ii) const
+{
+  factor_interior(matrices.stiffness(map, degree), matrices.n_boundary(degree), K_ii);
+}
+
+namespace
+{
+/** T' K T, first its rows, then its columns: T is nearly the identity. */
+FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsigned int n_targets,
+                              const FullMatrix<double> &K)
+{
+  FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
+  for (const ConstraintEntry &entry : T)
+  {
+    double *const sum = &rows(entry.target, 0);
+    const double *const row = &K(entry.local, 0);
+    for (unsigned int j = 0; j < K.n(); ++j)
+      sum[j] += entry.weight * row[j];
+  }
+  for (unsigned int i = 0; i < n_targets; ++i)
+  {
+    double *const sum = &result(i, 0);
+    const double *const row = &rows(i, 0);
+    for (const ConstraintEntry &entry : T)
+      sum[entry.target] += entry.weight * row[entry.local];
+  }
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::shared_ptr<const FullMatrix<double>>
+CondensedElements<dim>::constrained(const std::shared_ptr<const CondensedElement> &element,
+                                    const std::vector<ConstraintEntry> &T,
+                                    const unsigned int n_targets)
+{
+  auto &entry = known_constrained[{element, T}];
+  std::shared_ptr<const FullMatrix<double>> matrix = entry.lock();
+  if (!matrix)
+  {
+    matrix =
+        std::make_shared<const FullMatrix<double>>(congruence(T, n_targets, element->condensed));
+    entry = matrix;
+  }
+  return matrix;
+}
+
+template <int dim>
+void CondensedElements<dim>::forget_unused()
+{
+  for (auto entry = known_constrained.begin(); entry != known_constrained.end();)
+    entry = entry->second.expired() ? known_constrained.erase(entry) : std::next(entry);
+}
+
+template <int dim>
+Condensation<dim>::Condensation(const DisplacementSpace<dim> &space,
+                                CondensedElements<dim> &condensed)
+    : space(space), elements(space.degrees().size())
+{
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int index = cell->active_cell_index();
+      elements[index] = condensed.get(map_of<dim>(cell), space.degrees()[index]);
+    }
+}
+
+template <int dim>
+const std::shared_ptr<const CondensedElement> &
+Condensation<dim>::element(const unsigned int cell) const
+{
+  return elements[cell];
+}
+
+template <int dim>
+void Condensation<dim>::eliminate(Vector<double> &forces) const
+{
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    if (elements[cell] && elements[cell]->extension.m() > 0)
+    {
+      const FullMatrix<double> &extension = elements[cell]->extension;
+      const auto dofs = space.cell_dofs(cell);
+      Vector<double> inside(extension.m()), boundary(extension.n());
+      for (unsigned int i = 0; i < inside.size(); ++i)
+        inside[i] = forces[dofs[boundary.size() + i]];
+      extension.Tvmult(boundary, inside);
+      for (unsigned int i = 0; i < boundary.size(); ++i)
+        forces[dofs[i]] += boundary[i];
+    }
+}
+
+template <int dim>
+void Condensation<dim>::extend(Vector<double> &u) const
+{
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    if (elements[cell] && elements[cell]->extension.m() > 0)
+    {
+      const FullMatrix<double> &extension = elements[cell]->extension;
+      const auto dofs = space.cell_dofs(cell);
+      Vector<double> inside(extension.m()), boundary(extension.n());
+      for (unsigned int i = 0; i < boundary.size(); ++i)
+        boundary[i] = u[dofs[i]];
+      extension.vmult(inside, boundary);
+      for (unsigned int i = 0; i < inside.size(); ++i)
+        u[dofs[boundary.size() + i]] = inside[i];
+    }
+}
+
+template <int dim>
+typename Condensation<dim>::Interiors
+Condensation<dim>::interiors(const CondensedElements<dim> &condensed) const
+{
+  Interiors result;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int index = cell->active_cell_index();
+      if (elements[index]->extension.m() > 0 && result.count(elements[index].get()) == 0)
+        condensed.interior(map_of<dim>(cell), space.degrees()[index],
+                           result[elements[index].get()]);
+    }
+  return result;
+}
+
+template <int dim>
+template <class Solve>
+void Condensation<dim>::solve_inside(const Vector<double> &forces, const Solve &solve,
+                                     Vector<double> &u) const
+{
+  for (unsigned int cell = 0; cell < elements.size(); ++cell)
+    if (elements[cell] && elements[cell]->extension.m() > 0)
+    {
+      const auto dofs = space.cell_dofs(cell);
+      const unsigned int n_boundary = elements[cell]->extension.n();
+      Vector<double> inside(elements[cell]->extension.m());
+      for (unsigned int i = 0; i < inside.size(); ++i)
+        inside[i] = forces[dofs[n_boundary + i]];
+      solve(*elements[cell], inside);
+      for (unsigned int i = 0; i < inside.size(); ++i)
+        u[dofs[n_boundary + i]] += inside[i];
+    }
+}
+
+template <int dim>
+void Condensation<dim>::add_interior(const Vector<double> &forces, const Interiors &interiors,
+                                     Vector<double> &u) const
+{
+  solve_inside(
+      forces,
+      [&](const CondensedElement &element, Vector<double> &inside)
+      { interiors.at(&element).solve(inside); },
+      u);
+}
+
+template <int dim>
+void Condensation<dim>::add_interior(const Vector<double> &forces, Vector<double> &u) const
+{
+  solve_inside(
+      forces,
+      [](const CondensedElement &element, Vector<double> &inside) { element.K_ii.solve(inside); },
+      u);
+}
+
+template class CondensedElements<2>;
+template class Condensation<2>;
+} // namespace hpvi

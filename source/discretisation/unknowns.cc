@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/unknowns.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+}
+
+template <int dim>
+Unknowns<dim>::Unknowns(const DisplacementSpace<dim> &displacement_space,
+                        const ContactOperator<dim> &contact_operator,
+                        const ShapeTables<dim> &tables)
+    : space(displacement_space), contact_operator(contact_operator),
+      moments(contact_operator.contact_space().n_multipliers(), none), offsets(space.n_dofs())
+{
+  const std::vector<unsigned int> numbers = number(tables);
+  std::map<types::global_dof_index, Line> inside_contact_edges;
+  for (const EdgeRows &rows : contact_operator.rows())
+    if (rows.nodes)
+      express_by_moments(rows, numbers, inside_contact_edges);
+
+  first_entry.reserve(space.n_dofs() + 1);
+  Line line;
+  for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
+  {
+    first_entry.push_back(entries.size());
+    const auto found = inside_contact_edges.find(dof);
+    if (found == inside_contact_edges.end())
+    {
+      line.clear();
+      add_terms(dof, 1., numbers, line, offsets[dof]);
+      entries.insert(entries.end(), line.begin(), line.end());
+    }
+    else
+      entries.insert(entries.end(), found->second.begin(), found->second.end());
+  }
+  first_entry.push_back(entries.size());
+}
+
+/** Free displacements on the boundary of cells, in the order in which cells show them. */
+template <int dim>
+std::vector<unsigned int> Unknowns<dim>::number(const ShapeTables<dim> &tables)
+{
+  std::vector<unsigned int> numbers(space.n_dofs(), none);
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int index = cell->active_cell_index();
+      const auto cell_dofs = space.cell_dofs(index);
+      for (unsigned int i = 0; i < tables.numbering(space.degrees()[index]).n_boundary; ++i)
+        if (numbers[cell_dofs[i]] == none && !space.constraints().is_constrained(cell_dofs[i]))
+        {
+          numbers[cell_dofs[i]] = dofs.size();
+          dofs.push_back(cell_dofs[i]);
+        }
+    }
+  return numbers;
+}
+
+/** Add `weight u` of a displacement that is free or constrained by others that are. */
+template <int dim>
+void Unknowns<dim>::add_terms(const types::global_dof_index dof, const double weight,
+                              const std::vector<unsigned int> &numbers, Line &line,
+                              double &offset) const
+{
+  if (const auto *constrained = space.constraints().get_constraint_entries(dof))
+  {
+    for (const auto &[master, factor] : *constrained)
+      line.emplace_back(numbers[master], weight * factor);
+    offset += weight * space.constraints().get_inhomogeneity(dof);
+  }
+  else if (numbers[dof] != none)
+    line.emplace_back(numbers[dof], weight);
+}
+
+/** `u = t (N (m, u_t(0), u_t(1)))` at the nodes inside a contact edge, where u_n = 0. */
+template <int dim>
+void Unknowns<dim>::express_by_moments(const EdgeRows &rows,
+                                       const std::vector<unsigned int> &numbers,
+                                       std::map<types::global_dof_index, Line> &lines)
+{
+  const FullMatrix<double> &N = *rows.nodes;
+  const unsigned int n = N.m(), n_nodes = n + 2;
+  const Tensor<1, dim> tangent = rows.face->frame(0.5).tangent;
+  const auto dof_at = [&](const unsigned int c, const unsigned int node)
+  { return rows.dofs[c * n_nodes + node]; };
+
+  // One component of an inner node is free; its unknown becomes a moment.
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      if (numbers[dof_at(c, i + 1)] != none)
+        moments[rows.face->first_multiplier + i] = numbers[dof_at(c, i + 1)];
+
+  for (unsigned int j = 0; j < n; ++j)
+  {
+    std::map<unsigned int, double> u_t;
+    double offset = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      u_t[moments[rows.face->first_multiplier + i]] = N(j, i);
+    for (const unsigned int end : {0U, 1U})
+      for (unsigned int c = 0; c < dim; ++c)
+        if (tangent[c] != 0.)
+        {
+          Line line;
+          add_terms(dof_at(c, end * (n_nodes - 1)), N(j, n + end) * tangent[c], numbers, line,
+                    offset);
+          for (const auto &[unknown, weight] : line)
+            u_t[unknown] += weight;
+        }
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      Line &line = lines[dof_at(c, j + 1)];
+      offsets[dof_at(c, j + 1)] = tangent[c] * offset;
+      for (const auto &[unknown, weight] : u_t)
+        if (tangent[c] != 0.)
+          line.emplace_back(unknown, tangent[c] * weight);
+    }
+  }
+}
+
+template <int dim>
+unsigned int Unknowns<dim>::n() const
+{
+  return dofs.size();
+}
+
+template <int dim>
+Terms Unknowns<dim>::terms(const types::global_dof_index dof) const
+{
+  return {entries.data() + first_entry[dof], first_entry[dof + 1] - first_entry[dof]};
+}
+
+template <int dim>
+double Unknowns<dim>::prescribed(const types::global_dof_index dof) const
+{
+  return offsets[dof];
+}
+
+template <int dim>
+bool Unknowns<dim>::is_plain(const types::global_dof_index dof) const
+{
+  return first_entry[dof + 1] == first_entry[dof] + 1 && entries[first_entry[dof]].second == 1. &&
+         dofs[entries[first_entry[dof]].first] == dof;
+}
+
+template <int dim>
+Vector<double> Unknowns<dim>::expand(const Vector<double> &x) const
+{
+  Vector<double> u(space.n_dofs());
+  for (types::global_dof_index dof = 0; dof < u.size(); ++dof)
+    for (const auto &[unknown, weight] : terms(dof))
+      u[dof] += weight * x[unknown];
+  return u;
+}
+
+template <int dim>
+Vector<double> Unknowns<dim>::distribute(const Vector<double> &x) const
+{
+  Vector<double> u = expand(x);
+  u += offsets;
+  return u;
+}
+
+template <int dim>
+Vector<double> Unknowns<dim>::collect(const Vector<double> &forces) const
+{
+  Vector<double> result(n());
+  for (types::global_dof_index dof = 0; dof < forces.size(); ++dof)
+    if (forces[dof] != 0.)
+      for (const auto &[unknown, weight] : terms(dof))
+        result[unknown] += weight * forces[dof];
+  return result;
+}
+
+template <int dim>
+Vector<double> Unknowns<dim>::coordinates(const Vector<double> &u) const
+{
+  Vector<double> x(n());
+  for (unsigned int unknown = 0; unknown < n(); ++unknown)
+    x[unknown] = u[dofs[unknown]];
+  const Vector<double> Bu = contact_operator.moments(u);
+  const std::vector<double> &weights = contact_operator.contact_space().weights();
+  for (unsigned int i = 0; i < moments.size(); ++i)
+    if (moments[i] != none)
+      x[moments[i]] = Bu[i] / weights[i];
+  return x;
+}
+
+template <int dim>
+ConditionRows Unknowns<dim>::contact_rows() const
+{
+  const double negligible = 1e-14;
+  const std::vector<double> &weights = contact_operator.contact_space().weights();
+  ConditionRows result;
+  result.B.resize(moments.size());
+  result.prescribed.reinit(moments.size());
+  for (const EdgeRows &rows : contact_operator.rows())
+    for (unsigned int i = 0; i < rows.B.m(); ++i)
+    {
+      const unsigned int row = rows.face->first_multiplier + i;
+      if (rows.nodes)
+      {
+        result.B[row] = {{moments[row], weights[row]}};
+        continue;
+      }
+      std::map<unsigned int, double> sum;
+      for (unsigned int j = 0; j < rows.B.n(); ++j)
+      {
+        result.prescribed[row] += rows.B(i, j) * offsets[rows.dofs[j]];
+        if (std::abs(rows.B(i, j)) > negligible * rows.B.linfty_norm())
+          for (const auto &[unknown, weight] : terms(rows.dofs[j]))
+            sum[unknown] += rows.B(i, j) * weight;
+      }
+      result.B[row].assign(sum.begin(), sum.end());
+    }
+
+  for (const Line &row : result.B)
+    for (const auto &entry : row)
+      result.kept.push_back(entry.first);
+  std::sort(result.kept.begin(), result.kept.end());
+  result.kept.erase(std::unique(result.kept.begin(), result.kept.end()), result.kept.end());
+  for (Line &row : result.B)
+    for (auto &entry : row)
+      entry.first = std::lower_bound(result.kept.begin(), result.kept.end(), entry.first) -
+                    result.kept.begin();
+  return result;
+}
+
+template class Unknowns<2>;
+} // namespace hpvi
