@@ -55,10 +55,11 @@ void check_underflow(const Solution<dim> &solution)
   const double largest = solution.u.linfty_norm();
   const double negligible =
       std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-  if (largest > 0 && solution.scene.material.young * largest * largest < negligible)
-    throw NumericalFailure("the energy underflows: Young's modulus " +
-                           to_string(solution.scene.material.young) + " and displacements up to " +
-                           to_string(largest) + "; choose units in which loads are moderate");
+  for (const Material &material : solution.scene.materials) // the softest part may hold it all
+    if (largest > 0 && material.young * largest * largest < negligible)
+      throw NumericalFailure("the energy underflows: Young's modulus " + to_string(material.young) +
+                             " and displacements up to " + to_string(largest) +
+                             "; choose units in which loads are moderate");
 }
 
 /** Part of a whole that may be zero, which has no parts. */
@@ -238,7 +239,7 @@ Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
     check_finite("the energy norm", step_energies.norm);
     check_underflow(solution);
   }
-  const double scaled_estimate = estimate.total() / std::sqrt(scene.material.coercivity(dim));
+  const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
   seconds += times.total();
   return {++number,
           solution,
@@ -268,7 +269,7 @@ template <int dim>
 bool is_exact_to_round_off(const Step<dim> &step, const ShapeTables<dim> &tables)
 {
   const Solution<dim> &solution = step.solution;
-  const double small = 1e-7 * solution.scene.material.mu() * solution.u.linfty_norm();
+  const double small = 1e-7 * solution.scene.largest_mu() * solution.u.linfty_norm();
   return step.estimate.total() <= small &&
          step.estimate.total() <= 4 * round_off_of_estimate(solution, tables);
 }

@@ -3,7 +3,7 @@
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stress.h>
+#include <hpvi/evaluation/contact_traces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,9 @@ std::string labelled(const double value, const std::string &unit)
 template <int dim>
 std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
 {
-  double tension = 0, all = 0, highest = 0;
+  const Geometry<dim> &geometry = solution.scene.geometry;
+  const double diameter = geometry.corners[0].distance(geometry.corners[3]);
+  double tension = 0, all = 0, highest = 0, round_off = 0;
   Point<dim> where;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
   {
@@ -53,14 +55,12 @@ std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim
       {
         highest = traction;
         where = face.point(tables.gauss(n).point(q)[0]);
+        // A stress that the last bits of u alone make is none.
+        round_off = 1e-12 * solution.scene.material_of(face.cell).mu() * solution.u.linfty_norm() /
+                    diameter;
       }
     }
   }
-  // A stress that the last bits of u alone make is none.
-  const Geometry<dim> &geometry = solution.scene.geometry;
-  const double diameter = geometry.corners[0].distance(geometry.corners[3]),
-               round_off =
-                   1e-12 * solution.scene.material.mu() * solution.u.linfty_norm() / diameter;
   if (!(tension > 0.01 * all && highest > round_off))
     return {};
   return line("bilateral contact pulls: ", 100 * tension / all,
@@ -201,17 +201,29 @@ std::string sharp_corners(const Geometry<2> &geometry)
 template <int dim>
 std::string locking(const Solution<dim> &solution)
 {
-  const Material &material = solution.scene.material;
-  const Degrees &degrees = solution.displacement_space.degrees();
-  unsigned int lowest = *std::min_element(degrees.begin(), degrees.end());
-  // hp meshes that began with low degrees are refined for what those could not resolve.
-  if (solution.scene.adaptivity.method >= Method::hpa1)
-    lowest = std::min(lowest, solution.scene.adaptivity.start_degree);
-  const double ratio = material.lambda(dim) / material.mu();
-  if (ratio < 50 || lowest >= 4)
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const Adaptivity &adaptivity = solution.scene.adaptivity;
+  const auto ratio = [](const Material &material) { return material.lambda(dim) / material.mu(); };
+  unsigned int lowest = 4; // locks no more
+  const Material *locked = nullptr;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    unsigned int degree = space.degrees()[cell->active_cell_index()];
+    // hp meshes that began with low degrees are refined for what those could not resolve.
+    if (adaptivity.method >= Method::hpa1)
+      degree = std::min(degree, adaptivity.start_degree);
+    const Material &material = solution.scene.material_of(cell);
+    if (degree < lowest && ratio(material) >= 50)
+    {
+      lowest = degree;
+      locked = &material;
+    }
+  }
+  if (locked == nullptr)
     return {};
-  return line("Poisson's ratio ", text(material.poisson), " is near 1/2 (lambda/mu = ", ratio,
-              ") and elements of degree ", lowest, " may lock; use Adaptivity/Start degree = 6");
+  return line("Poisson's ratio ", text(locked->poisson),
+              " is near 1/2 (lambda/mu = ", ratio(*locked), ") and elements of degree ", lowest,
+              " may lock; use Adaptivity/Start degree = 6");
 }
 
 /** The least offset at which displacement and multiplier no longer balance: the thesis has -2. */

@@ -70,7 +70,8 @@ ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables
 /** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
 template <int dim>
 typename ElementMatrices<dim>::Class
-ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned int degree) const
+ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned int degree,
+                                       const types::material_id material) const
 {
   const typename CellMap<dim>::Vertices &vertices = map.vertices();
   double size = 1.;
@@ -83,6 +84,7 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
   Class key;
   auto entry = key.begin();
   *entry++ = degree;
+  *entry++ = material;
   for (const Point<dim> &v : vertices)
     for (unsigned int d = 0; d < dim; ++d)
       *entry++ = std::lround((v[d] - vertices[0][d]) / size * 1e11);
@@ -91,11 +93,12 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
 
 template <int dim>
 FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
-                                                   const unsigned int degree) const
+                                                   const unsigned int degree,
+                                                   const types::material_id material) const
 {
   const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
-  const double lambda = scene.material.lambda(dim), mu = scene.material.mu();
+  const StiffnessFormula<dim> product(scene.materials[material]);
   const unsigned int n = numbering.shape.size();
   FullMatrix<double> K(n, n);
   for (unsigned int row = 0; row < n; ++row)
@@ -103,10 +106,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
     {
       const unsigned int i = numbering.shape[row], c = numbering.component[row];
       const unsigned int j = numbering.shape[column], d = numbering.component[column];
-      double sum = lambda * P[c][d](i, j) + mu * P[d][c](i, j);
-      for (unsigned int a = 0; c == d && a < dim; ++a)
-        sum += mu * P[a][a](i, j);
-      K(row, column) = sum;
+      K(row, column) =
+          product([&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
     }
   return K;
 }

@@ -67,6 +67,8 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.
   AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
               ExcMessage("The scene has no boundary of the number that a face carries."));
+  for (const auto &cell : triangulation.active_cell_iterators())
+    cell->set_material_id(0); // deal.II colours the cells of a box by octants
   grade_towards_points(geometry, triangulation);
 }
 

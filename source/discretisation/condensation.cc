@@ -60,14 +60,15 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
 }
 
 template <int dim>
-std::shared_ptr<const CondensedElement> CondensedElements<dim>::get(const CellMap<dim> &map,
-                                                                    const unsigned int degree)
+std::shared_ptr<const CondensedElement>
+CondensedElements<dim>::get(const CellMap<dim> &map, const unsigned int degree,
+                            const types::material_id material)
 {
-  auto &entry = known[matrices.congruence_class(map, degree)];
+  auto &entry = known[matrices.congruence_class(map, degree, material)];
   std::shared_ptr<const CondensedElement> element = entry.lock();
   if (!element)
   {
-    element = condense(matrices.stiffness(map, degree), matrices.n_boundary(degree));
+    element = condense(matrices.stiffness(map, degree, material), matrices.n_boundary(degree));
     entry = element;
   }
   return element;
@@ -75,9 +76,10 @@ std::shared_ptr<const CondensedElement> CondensedElements<dim>::get(const CellMa
 
 template <int dim>
 void CondensedElements<dim>::interior(const CellMap<dim> &map, const unsigned int degree,
+                                      const types::material_id material,
                                       LAPACKFullMatrix<double> &K_ii) const
 {
-  factor_interior(matrices.stiffness(map, degree), matrices.n_boundary(degree), K_ii);
+  factor_interior(matrices.stiffness(map, degree, material), matrices.n_boundary(degree), K_ii);
 }
 
 namespace
@@ -138,7 +140,8 @@ Condensation<dim>::Condensation(const DisplacementSpace<dim> &space,
     if (cell->is_locally_owned())
     {
       const unsigned int index = cell->active_cell_index();
-      elements[index] = condensed.get(map_of<dim>(cell), space.degrees()[index]);
+      elements[index] =
+          condensed.get(map_of<dim>(cell), space.degrees()[index], cell->material_id());
     }
 }
 
@@ -193,7 +196,7 @@ Condensation<dim>::interiors(const CondensedElements<dim> &condensed) const
     {
       const unsigned int index = cell->active_cell_index();
       if (elements[index]->extension.m() > 0 && result.count(elements[index].get()) == 0)
-        condensed.interior(map_of<dim>(cell), space.degrees()[index],
+        condensed.interior(map_of<dim>(cell), space.degrees()[index], cell->material_id(),
                            result[elements[index].get()]);
     }
   return result;

@@ -2,9 +2,9 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/evaluation/stress.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace hpvi
@@ -24,7 +24,7 @@ void multiply(const char *transpose, const unsigned int rows, const unsigned int
   gemm(transpose, "N", &m, &n, &k, &one, A, &lda, B.data(), &k, &zero, C.data(), &m);
 }
 
-/** The cells of one degree and one quadrature, some of them at a time: one matrix product serves all. */
+/** The cells of one material, one degree and one quadrature, some of them at a time: one matrix product serves all. */
 template <int dim>
 class Batch
 {
@@ -95,7 +95,7 @@ private:
           reference[c][r] = value[c * n_rows + q * dim + r];
       const Tensor<2, dim> gradient = reference * inverse;
       const double weight = table.weights[q] * std::abs(determinant(J));
-      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(stress(material, gradient));
+      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(material.stress(gradient));
       energy += scalar_product(sigma, gradient);
       const Tensor<2, dim> pulled = sigma * transpose(inverse);
       for (unsigned int c = 0; c < dim; ++c)
@@ -117,20 +117,22 @@ private:
 } // namespace
 
 template <int dim>
-InternalForces internal_forces(const Material &material, const DisplacementSpace<dim> &space,
+InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                const ShapeTables<dim> &tables, const Vector<double> &u)
 {
   InternalForces result;
   result.forces.reinit(space.n_dofs());
-  std::map<std::pair<unsigned int, unsigned int>, Batch<dim>> batches;
+  std::map<std::array<unsigned int, 3>, Batch<dim>> batches;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
       const CellMap<dim> map = map_of<dim>(cell);
       const unsigned int n_gauss = stiffness_points(map, p);
-      const auto batch =
-          batches.try_emplace({p, n_gauss}, material, space, tables, p, n_gauss).first;
+      const auto batch = batches
+                             .try_emplace({{cell->material_id(), p, n_gauss}},
+                                          scene.material_of(cell), space, tables, p, n_gauss)
+                             .first;
       batch->second.add(index, map, u, result);
     }
   for (auto &batch : batches)
@@ -138,6 +140,6 @@ InternalForces internal_forces(const Material &material, const DisplacementSpace
   return result;
 }
 
-template InternalForces internal_forces(const Material &, const DisplacementSpace<2> &,
+template InternalForces internal_forces(const Scene<2> &, const DisplacementSpace<2> &,
                                         const ShapeTables<2> &, const Vector<double> &);
 } // namespace hpvi

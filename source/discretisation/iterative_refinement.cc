@@ -67,7 +67,7 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
 {
   const Spaces<dim> &spaces = *discretisation.spaces;
   const InternalForces internal =
-      internal_forces(discretisation.scene.material, spaces.displacement_space, *spaces.tables, u);
+      internal_forces(discretisation.scene, spaces.displacement_space, *spaces.tables, u);
   energy_product = internal.energy_product;
   Vector<double> r(discretisation.system.loads());
   r -= internal.forces;
@@ -78,13 +78,13 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
 
 /**
  * A bound of the energy that the last bits of u have: 100 times `mu (epsilon |u|)^2` for each unknown. A
- * body with no more is moved, not strained.
+ * body with no more is moved, not strained. The stiffest material has most.
  */
 template <int dim>
 double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
   const double last_bit = std::numeric_limits<double>::epsilon() * u.linfty_norm();
-  return 100 * discretisation.scene.material.mu() * last_bit * last_bit * u.size();
+  return 100 * discretisation.scene.largest_mu() * last_bit * last_bit * u.size();
 }
 
 /** Does the residual do more work on the free part of u than round-off explains? */
@@ -133,7 +133,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector
        ++error.corrections)
   {
     const double curvature =
-        internal_forces(discretisation.scene.material, discretisation.spaces->displacement_space,
+        internal_forces(discretisation.scene, discretisation.spaces->displacement_space,
                         *discretisation.spaces->tables, p)
             .energy_product;
     if (!(curvature > 0.))

@@ -124,8 +124,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
     if (system.loads()[dof] != 0.)
       resultants.add_load(nodes.component[dof], system.loads()[dof], nodes.x[dof]);
 
-  Vector<double> reactions =
-      internal_forces(solution.scene.material, space, tables, solution.u).forces;
+  Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
   reactions -= system.loads();
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.bilateral_contact && solution.z.size() > 0)

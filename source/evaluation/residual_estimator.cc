@@ -44,7 +44,6 @@ private:
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const ContactFace<dim> &face);
 
-  Tensor<2, dim> stress(const Tensor<2, dim> &gradient) const;
   std::vector<Tensor<1, dim>> normals(const Cell &cell, unsigned int face,
                                       const ShapeTable<dim> &table) const;
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
@@ -54,7 +53,6 @@ private:
   const Solution<dim> &solution;
   const ShapeTables<dim> &tables;
   const Degrees &degrees;
-  const double lambda, mu;
   std::vector<std::vector<double>> coefficients; ///< of u_N, by active cell index
   std::vector<double> sizes;                     ///< h_K, the longest edge
   std::vector<CellMap<dim>> maps;
@@ -63,8 +61,7 @@ private:
 
 template <int dim>
 Residuals<dim>::Residuals(const Solution<dim> &solution, const ShapeTables<dim> &tables)
-    : solution(solution), tables(tables), degrees(solution.displacement_space.degrees()),
-      lambda(solution.scene.material.lambda(dim)), mu(solution.scene.material.mu())
+    : solution(solution), tables(tables), degrees(solution.displacement_space.degrees())
 {
   const unsigned int n_cells = degrees.size();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
@@ -84,16 +81,6 @@ double Residuals<dim>::weight(const unsigned int cell) const
   return sizes[cell] / degrees[cell];
 }
 
-template <int dim>
-Tensor<2, dim> Residuals<dim>::stress(const Tensor<2, dim> &gradient) const
-{
-  Tensor<2, dim> sigma = mu * (gradient + transpose(gradient));
-  const double pressure = lambda * trace(gradient);
-  for (unsigned int d = 0; d < dim; ++d)
-    sigma[d][d] += pressure;
-  return sigma;
-}
-
 /** d u_c / d x_j from reference derivatives of point q in @p derivatives (see evaluate()). */
 template <int dim>
 Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
@@ -109,13 +96,14 @@ Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
 }
 
 /**
- * -div sigma(u) - F at a point, with div sigma = (lambda + mu) grad div u + mu Laplace u; second
- * derivatives by the chain rule `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
+ * -div sigma(u) - F at a point; second derivatives by the chain rule
+ * `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
  */
 template <int dim>
 void Residuals<dim>::add_volume(const Cell &cell)
 {
   const unsigned int index = cell->active_cell_index(), p = degrees[index];
+  const Material &material = solution.scene.material_of(cell);
   const ShapeTable<dim> &table = tables.cell(p, p + 1);
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   const unsigned int n_rows = table.derivatives.m();
@@ -132,22 +120,20 @@ void Residuals<dim>::add_volume(const Cell &cell)
     }
     const unsigned int row = q * table.rows_per_point;
     const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, row, n_rows, inverse);
-    Tensor<1, dim> residual;
+    Tensor<3, dim> second;
     for (unsigned int c = 0; c < dim; ++c)
     {
-      Tensor<2, dim> second;
+      Tensor<2, dim> reference;
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int b = 0; b < dim; ++b)
         {
-          second[a][b] = derivatives[c * n_rows + row + dim + a * dim + b];
+          reference[a][b] = derivatives[c * n_rows + row + dim + a * dim + b];
           for (unsigned int k = 0; k < dim; ++k)
-            second[a][b] -= gradient[c][k] * H[k][a][b];
+            reference[a][b] -= gradient[c][k] * H[k][a][b];
         }
-      second = transpose(inverse) * second * inverse;
-      residual[c] -= mu * trace(second);
-      for (unsigned int d = 0; d < dim; ++d)
-        residual[d] -= (lambda + mu) * second[d][c];
+      second[c] = transpose(inverse) * reference * inverse;
     }
+    Tensor<1, dim> residual = -material.divergence_of_stress(second);
     if (solution.scene.has_body_force())
     {
       const Point<dim> x = maps[index].point(table.points[q]);
@@ -177,13 +163,14 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
                           const std::vector<Tensor<1, dim>> &normals) const
 {
   const unsigned int index = cell->active_cell_index();
+  const Material &material = solution.scene.material_of(cell);
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   std::vector<Tensor<1, dim>> result(table.points.size());
   for (unsigned int q = 0; q < result.size(); ++q)
-    result[q] =
-        stress(physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
-                                      invert(maps[index].jacobian(table.points[q])))) *
-        normals[q];
+    result[q] = material.traction(
+        physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
+                               invert(maps[index].jacobian(table.points[q]))),
+        normals[q]);
   return result;
 }
 

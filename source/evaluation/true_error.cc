@@ -89,24 +89,14 @@ struct LocalField
   }
 };
 
-/** `sigma(v) : eps(v) = lambda (tr eps)^2 + 2 mu eps : eps`. */
-template <int dim>
-double energy_density(const Material &material, const Tensor<2, dim> &gradient)
-{
-  const Tensor<2, dim> strain = 0.5 * (gradient + transpose(gradient));
-  const double divergence = trace(strain);
-  return material.lambda(dim) * divergence * divergence +
-         2 * material.mu() * scalar_product(strain, strain);
-}
-
 template <int dim>
 void add_squares(const Material &material, const Values<dim> &field, const Values<dim> &truth,
                  const double weight, Squares &sums)
 {
   const Values<dim> difference = truth - field;
-  sums.energy += weight * energy_density(material, difference.gradient);
+  sums.energy += weight * material.energy_product(difference.gradient);
   sums.l2 += weight * difference.u.norm_square();
-  sums.norm += weight * energy_density(material, truth.gradient);
+  sums.norm += weight * material.energy_product(truth.gradient);
 }
 
 /** Walks through two meshes that descend from one coarse mesh. */
@@ -116,9 +106,9 @@ class CommonRefinement
 public:
   using Cell = typename Triangulation<dim>::cell_iterator;
 
-  CommonRefinement(const Material &material, const StoredSolution<dim> &solution,
+  CommonRefinement(const Scene<dim> &scene, const StoredSolution<dim> &solution,
                    const StoredSolution<dim> &reference)
-      : material(material), solution(solution), reference(reference)
+      : scene(scene), solution(solution), reference(reference)
   {
   }
 
@@ -152,13 +142,13 @@ private:
     const auto field_values = field.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
     const double share = std::pow(in_a.size, dim);
     for (unsigned int q = 0; q < gauss.size(); ++q)
-      add_squares(material, field_values[q], truth_values[q],
+      add_squares(scene.material_of(a), field_values[q], truth_values[q],
                   gauss.weight(q) * share *
                       std::abs(determinant(field.map.jacobian(in_a.point(gauss.point(q))))),
                   sums);
   }
 
-  const Material &material;
+  const Scene<dim> &scene;
   const StoredSolution<dim> &solution, &reference;
   Squares sums;
 };
@@ -211,7 +201,7 @@ template <int dim>
 void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const
 {
   const StoredSolution<dim> field(solution, tables);
-  const Squares sums = CommonRefinement<dim>(scene.material, field, *reference).integrate();
+  const Squares sums = CommonRefinement<dim>(scene, field, *reference).integrate();
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
@@ -326,7 +316,8 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueError
       {
         const Point<dim> reference_point = box.point(gauss.point(q));
         const Point<dim> x = field.map.point(reference_point);
-        add_squares(scene.material, field_values[q], {exact.displacement(x), exact.gradient(x)},
+        add_squares(scene.material_of(cell), field_values[q],
+                    {exact.displacement(x), exact.gradient(x)},
                     gauss.weight(q) * std::pow(box.size, dim) *
                         std::abs(determinant(field.map.jacobian(reference_point))),
                     sums);

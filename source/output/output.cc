@@ -5,7 +5,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 #include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stress.h>
+#include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 
@@ -219,19 +219,20 @@ template <int dim>
 class StressFields : public DataPostprocessor<dim>
 {
 public:
-  explicit StressFields(const Material &material) : material(material)
+  explicit StressFields(const Scene<dim> &scene) : scene(scene)
   {
   }
 
   void evaluate_vector_field(const DataPostprocessorInputs::Vector<dim> &inputs,
                              std::vector<Vector<double>> &fields) const override
   {
+    const Material &material = scene.material_of(inputs.template get_cell<dim>());
     for (unsigned int q = 0; q < fields.size(); ++q)
     {
       Tensor<2, dim> gradient;
       for (unsigned int c = 0; c < dim; ++c)
         gradient[c] = inputs.solution_gradients[q][c];
-      const SymmetricTensor<2, dim> sigma = stress(material, gradient);
+      const SymmetricTensor<2, dim> sigma = material.stress(gradient);
       fields[q][0] = von_mises(material, sigma);
       for (unsigned int i = 0; i < sigma.n_independent_components; ++i)
         fields[q][1 + i] = sigma.access_raw_entry(i);
@@ -262,7 +263,7 @@ public:
   }
 
 private:
-  const Material material;
+  const Scene<dim> &scene;
 };
 
 // ---------------------------------------------------------------- the contact boundary
@@ -542,7 +543,7 @@ void Output<dim>::write_vtu(const Step<dim> &step, const std::string &name)
     degree[k] = space.degrees()[k];
     estimate[k] = step.estimate.indicator(k);
   }
-  const StressFields<dim> stress_fields(scene.material);
+  const StressFields<dim> stress_fields(scene);
   PreciseDataOut<dim> data_out;
   DataOutBase::VtkFlags flags;
   flags.time = step.number;

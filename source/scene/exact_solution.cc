@@ -151,9 +151,7 @@ ExactTraction<dim>::ExactTraction(std::shared_ptr<const ExactSolution<dim>> solu
 template <int dim>
 double ExactTraction<dim>::value(const Point<dim> &x, unsigned int) const
 {
-  const Tensor<2, dim> gradient = solution->gradient(x);
-  return material.lambda(dim) * trace(gradient) * normal[direction] +
-         material.mu() * ((gradient + transpose(gradient)) * normal)[direction];
+  return material.traction(solution->gradient(x), normal)[direction];
 }
 
 template class ExactSolution<2>;

@@ -5,17 +5,10 @@
 
 namespace hpvi
 {
-double Material::mu() const
-{
-  return young / (2 * (1 + poisson));
-}
-
-double Material::lambda(const int dim) const
-{
-  const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-  return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
-}
-
+/**
+ * The smallest eigenvalue of Hooke's law on symmetric tensors: 2 mu without, `2 mu + dim lambda`
+ * with change of volume, which is the smaller one where nu < 0.
+ */
 double Material::coercivity(const int dim) const
 {
   return 2 * mu() + std::min(dim * lambda(dim), 0.);

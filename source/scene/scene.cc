@@ -192,8 +192,8 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
   const double transition = parameters.number(section, "Transition");
   const double length = parameters.number(section, "Length");
   if (solution == "stick-slip")
-    return std::make_shared<StickSlip>(scene.material, friction_bound, transition, length);
-  return std::make_shared<Smooth>(scene.material, friction_bound, transition, length);
+    return std::make_shared<StickSlip>(scene.materials[0], friction_bound, transition, length);
+  return std::make_shared<Smooth>(scene.materials[0], friction_bound, transition, length);
 }
 
 // ---------------------------------------------------------------- boundary conditions
@@ -266,7 +266,7 @@ BoundaryCondition<dim> read_boundary(const Parameters &parameters,
   {
     return scene.exact_solution == nullptr
                ? nullptr
-               : std::make_shared<ExactTraction<dim>>(scene.exact_solution, scene.material,
+               : std::make_shared<ExactTraction<dim>>(scene.exact_solution, scene.materials[0],
                                                       edge.normal, c);
   };
 
@@ -397,6 +397,24 @@ bool BoundaryCondition<dim>::has_traction() const
 }
 
 template <int dim>
+double Scene<dim>::coercivity() const
+{
+  double least = std::numeric_limits<double>::max();
+  for (const Material &material : materials)
+    least = std::min(least, material.coercivity(dim));
+  return least;
+}
+
+template <int dim>
+double Scene<dim>::largest_mu() const
+{
+  double largest_mu = 0;
+  for (const Material &material : materials)
+    largest_mu = std::max(largest_mu, material.mu());
+  return largest_mu;
+}
+
+template <int dim>
 bool Scene<dim>::has_known_solution() const
 {
   return exact_solution || !reference_solution.empty();
@@ -443,8 +461,8 @@ Scene<dim> Scene<dim>::read(const std::string &file,
   scene.stress_unit = parameters.text("Units", "Stress");
 
   scene.geometry = read_geometry<dim>(parameters);
-  scene.material = read_material(parameters);
-  const ExpressionReader<dim> expressions(parameters, scene.material);
+  scene.materials = {read_material(parameters)};
+  const ExpressionReader<dim> expressions(parameters, scene.materials[0]);
   const std::vector<Point<dim>> inside = sample_body(scene.geometry);
   scene.body_force = expressions.template read<dim>("Body force", "Expression", "0", inside);
   check_magnitude<dim>(parameters, "Body force", "Expression", scene.body_force, inside);

@@ -167,13 +167,14 @@ public:
         section("Boundary " + boundary.name), edge(edges_of(scene.geometry)[id])
   {
     for (unsigned int d = 0; d < 2; ++d)
-      stress[d] =
-          std::make_unique<ExactTraction<2>>(scene.exact_solution, scene.material, edge.normal, d);
+      stress[d] = std::make_unique<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
+                                                     edge.normal, d);
     for (const Edge &any : edges_of(scene.geometry))
       for (const Point<2> &point : any.sample())
       {
         displacement_scale = std::max(displacement_scale, exact.displacement(point).norm());
-        stress_scale = std::max(stress_scale, scene.material.mu() * exact.gradient(point).norm());
+        stress_scale =
+            std::max(stress_scale, scene.materials[0].mu() * exact.gradient(point).norm());
       }
   }
 

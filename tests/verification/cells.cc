@@ -271,8 +271,8 @@ TEST_P(Stiffness, IsCondensedToTheBoundary)
   CondensedElements<2> stiffnesses(scene, tables);
   for (const unsigned int p : {1u, 2u, 4u, 7u})
   {
-    const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p);
-    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.material);
+    const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p, 0);
+    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.materials[0]);
     const unsigned int n_b = 8 * p, n_i = K.m() - n_b;
     FullMatrix<double> condensed(n_b, n_b), extension(n_i, n_b);
     condensed.fill(K);
@@ -314,9 +314,9 @@ TEST(CongruenceCache, SharesTheMatricesOfMovedAndScaledCells)
   CondensedElements<2> stiffnesses(scene, tables);
   for (const NamedCell &cell : cells)
   {
-    const auto element = stiffnesses.get(CellMap<2>(cell.vertices), 4);
+    const auto element = stiffnesses.get(CellMap<2>(cell.vertices), 4, 0);
     for (const double factor : {1e-6, 0.3, 1., 1024.})
-      EXPECT_EQ(stiffnesses.get(moved(cell.vertices, factor, factor * Point<2>(3.1, -7.3)), 4),
+      EXPECT_EQ(stiffnesses.get(moved(cell.vertices, factor, factor * Point<2>(3.1, -7.3)), 4, 0),
                 element)
           << cell.name << " times " << factor;
   }
@@ -331,7 +331,7 @@ TEST(CongruenceCache, TellsShapesAndDegreesApart)
   std::set<const CondensedElement *> different;
   const auto add = [&](const Vertices &vertices, const unsigned int degree)
   {
-    elements.push_back(stiffnesses.get(CellMap<2>(vertices), degree));
+    elements.push_back(stiffnesses.get(CellMap<2>(vertices), degree, 0));
     different.insert(elements.back().get());
   };
   for (const NamedCell &cell : cells)
@@ -351,7 +351,7 @@ TEST(CongruenceCache, ForgetsWhatNobodyUses)
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
   CondensedElements<2> stiffnesses(scene, tables);
-  std::weak_ptr<const CondensedElement> element = stiffnesses.get(CellMap<2>(square), 3);
+  std::weak_ptr<const CondensedElement> element = stiffnesses.get(CellMap<2>(square), 3, 0);
   EXPECT_TRUE(element.expired());
 }
 
@@ -361,7 +361,7 @@ TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
   const Scene<2> scene = elastic_scene(false);
   const ShapeTables<2> tables;
   CondensedElements<2> stiffnesses(scene, tables);
-  auto element = stiffnesses.get(CellMap<2>(square), 3);
+  auto element = stiffnesses.get(CellMap<2>(square), 3, 0);
   const unsigned int n = element->condensed.m(), n_targets = n + 2;
 
   // All but the last two unknowns are free; those depend on three others each.
@@ -385,7 +385,7 @@ TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
   other.back().weight = std::nextafter(other.back().weight, 10.);
   EXPECT_NE(stiffnesses.constrained(element, other, n_targets), matrix);
   EXPECT_NE(
-      stiffnesses.constrained(stiffnesses.get(CellMap<2>(cells[1].vertices), 3), T, n_targets),
+      stiffnesses.constrained(stiffnesses.get(CellMap<2>(cells[1].vertices), 3, 0), T, n_targets),
       matrix);
 
   const std::weak_ptr<const CondensedElement> unused = element;
@@ -434,12 +434,10 @@ private:
 
   const Solution<2> &solution;
   const unsigned int extra;
-  const double lambda, mu;
 };
 
 ResidualOracle::ResidualOracle(const Solution<2> &solution, const unsigned int extra)
-    : solution(solution), extra(extra), lambda(solution.scene.material.lambda(2)),
-      mu(solution.scene.material.mu())
+    : solution(solution), extra(extra)
 {
   const DoFHandler<2> &dofs = solution.displacement_space.dof_handler();
   const unsigned int n = dofs.get_triangulation().n_active_cells();
@@ -460,6 +458,8 @@ void ResidualOracle::add_volume(const Cell &cell)
   values.reinit(cell);
   std::vector<Tensor<3, 2>> second(values.n_quadrature_points);
   values[FEValuesExtractors::Vector(0)].get_function_hessians(solution.u, second);
+  const Material &material = solution.scene.materials[cell->material_id()];
+  const double lambda = material.lambda(2), mu = material.mu();
   double sum = 0;
   for (const unsigned int q : values.quadrature_point_indices())
   {
@@ -482,6 +482,8 @@ std::vector<Tensor<1, 2>> ResidualOracle::tractions(const FEValuesBase<2> &value
   std::vector<Tensor<2, 2>> gradients(normals.size());
   values[FEValuesExtractors::Vector(0)].get_function_gradients(solution.u, gradients);
   std::vector<Tensor<1, 2>> result(normals.size());
+  const Material &material = solution.scene.materials[values.get_cell()->material_id()];
+  const double lambda = material.lambda(2), mu = material.mu();
   for (unsigned int q = 0; q < normals.size(); ++q)
   {
     const SymmetricTensor<2, 2> strain = symmetrize(gradients[q]);
@@ -599,21 +601,23 @@ void expect_same(const std::string &part, const std::vector<double> &computed,
         << part << " of cell " << cell;
 }
 
-/** Every kind of condition on a body with these corners; friction of degree 2 along the edge. */
+/** Two materials, every kind of condition; friction of degree 2 along the edge. */
 Scene<2> loaded_scene(const std::string &corners)
 {
-  return scene_of({{"Geometry/Shape", "quadrilateral"},
-                   {"Geometry/Corners", corners},
-                   {"Geometry/Subdivisions", "3, 2"},
-                   {"Material/Young's modulus", "10"},
-                   {"Material/Plane", "stress"},
-                   {"Body force/Expression", "x*y; 1 - 2*x"},
-                   {"Boundary top/Displacement", "0; 0"},
-                   {"Boundary left/Traction", "0.5*y; 0"},
-                   {"Boundary left/Displacement", "free; 0"},
-                   {"Boundary right/Traction", "1 + y; -x"},
-                   {"Boundary bottom/Contact", "bilateral"},
-                   {"Boundary bottom/Friction bound", "1 + x^2"}});
+  Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                             {"Geometry/Corners", corners},
+                             {"Geometry/Subdivisions", "3, 2"},
+                             {"Material/Young's modulus", "10"},
+                             {"Material/Plane", "stress"},
+                             {"Body force/Expression", "x*y; 1 - 2*x"},
+                             {"Boundary top/Displacement", "0; 0"},
+                             {"Boundary left/Traction", "0.5*y; 0"},
+                             {"Boundary left/Displacement", "free; 0"},
+                             {"Boundary right/Traction", "1 + y; -x"},
+                             {"Boundary bottom/Contact", "bilateral"},
+                             {"Boundary bottom/Friction bound", "1 + x^2"}});
+  scene.materials.push_back({3., 0.1, PlaneModel::strain});
+  return scene;
 }
 
 void expect_right_indicator(const Scene<2> &scene, const unsigned int seed,

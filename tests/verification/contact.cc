@@ -6,7 +6,7 @@
 #include <deal.II/numerics/vector_tools_interpolate.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stress.h>
+#include <hpvi/evaluation/contact_traces.h>
 
 #include <algorithm>
 
@@ -278,10 +278,10 @@ TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
           });
   EXPECT_TRUE(mentions(warnings, "its place is not unique"));
   // found with a finer mesh
-  EXPECT_EQ(failure_of(free_strip(
-                bump, 0.7,
-                {{"Geometry/Graded towards", "2, 0"}, {"Geometry/Grading levels", "13"}})),
-            "");
+  EXPECT_EQ(
+      failure_of(free_strip(
+          bump, 0.7, {{"Geometry/Graded towards", "2, 0"}, {"Geometry/Grading levels", "13"}})),
+      "");
 }
 
 // ---------------------------------------------------------------- jumps inside an edge

@@ -189,8 +189,7 @@ TEST(Energies, ResolveTheSignChangesOfTheSlip)
     const Solution<2> field = discrete.random_field(random);
     const FrictionIntegrals sums = integrate_friction(field, 4000);
     const double friction = sums.friction, coupling = sums.coupling;
-    const double a = internal_forces(scene.material, discrete.displacement_space, discrete.tables,
-                                     field.u)
+    const double a = internal_forces(scene, discrete.displacement_space, discrete.tables, field.u)
                          .energy_product,
                  work = discrete.system.work(field.u);
     const Energies e = energies(field, discrete.system, discrete.tables, a);

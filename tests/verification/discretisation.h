@@ -74,7 +74,7 @@ inline Degrees random_degrees(const Triangulation<2> &mesh, const unsigned int l
   return degrees;
 }
 
-/** The mesh of a scene, refined at random, with random degrees. */
+/** The mesh of a scene, with its materials in turn, refined at random, with random degrees. */
 struct RandomMesh
 {
   Triangulation<2> mesh;
@@ -85,6 +85,8 @@ struct RandomMesh
   {
     std::mt19937 random(seed);
     make_mesh(scene, mesh);
+    for (const auto &cell : mesh.active_cell_iterators())
+      cell->set_material_id(cell->active_cell_index() % scene.materials.size());
     refine_at_random(mesh, levels, random);
     degrees = random_degrees(mesh, lowest, highest, random);
   }

@@ -71,8 +71,8 @@ struct Step
   const ErrorEstimate &estimate;
   /**
    * eta/c^{1/2}, in the unit of the energy norm. The residual bounds the error through
-   * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the material:
-   * Material::coercivity(), 2 mu unless nu < 0.
+   * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the materials:
+   * Scene::coercivity(), 2 mu of the softest unless nu < 0.
    */
   double scaled_estimate;
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator

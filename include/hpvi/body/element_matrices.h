@@ -30,17 +30,20 @@ public:
   ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables);
 
   /** `K_ij = a(phi_j, phi_i)` over the cell, in deal.II's local numbering of FESystem(FE_Q(p), dim). */
-  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree) const;
+  dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree,
+                                       dealii::types::material_id material) const;
 
   /** How many of the first rows of stiffness() belong to the boundary of the cell. */
   unsigned int n_boundary(unsigned int degree) const;
 
   /**
    * Elements of one class have the same matrix: in two dimensions a(.,.) does not change when a
-   * cell is moved or scaled, so an adaptive mesh has a handful of classes.
+   * cell is moved or scaled, so an adaptive mesh has a handful of classes
+   * for each material.
    */
-  using Class = std::array<long, 1 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
-  Class congruence_class(const CellMap<dim> &map, unsigned int degree) const;
+  using Class = std::array<long, 2 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
+  Class congruence_class(const CellMap<dim> &map, unsigned int degree,
+                         dealii::types::material_id material) const;
 
 private:
   const Scene<dim> &scene;

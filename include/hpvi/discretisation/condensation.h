@@ -57,7 +57,8 @@ public:
   /** Both must outlive this object. */
   CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables);
 
-  std::shared_ptr<const CondensedElement> get(const CellMap<dim> &map, unsigned int degree);
+  std::shared_ptr<const CondensedElement> get(const CellMap<dim> &map, unsigned int degree,
+                                              dealii::types::material_id material);
 
   /**
    * `T'KT`, n_targets x n_targets, with K the condensed matrix of @p element. Most cells keep their
@@ -68,7 +69,7 @@ public:
               const std::vector<ConstraintEntry> &T, unsigned int n_targets);
 
   /** K_ii of one cell, factored: what only a correction of round-off asks for is not kept. */
-  void interior(const CellMap<dim> &map, unsigned int degree,
+  void interior(const CellMap<dim> &map, unsigned int degree, dealii::types::material_id material,
                 dealii::LAPACKFullMatrix<double> &K_ii) const;
 
   /** Forget the constrained matrices that no system uses. */

@@ -22,7 +22,7 @@ struct InternalForces
  * stresses are in balance on every cell.
  */
 template <int dim>
-InternalForces internal_forces(const Material &material, const DisplacementSpace<dim> &space,
+InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                const ShapeTables<dim> &tables, const dealii::Vector<double> &u);
 } // namespace hpvi
 

@@ -2,6 +2,9 @@
 #ifndef hpvi_material_h
 #define hpvi_material_h
 
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
 namespace hpvi
 {
 /** Which plane problem Section 2.1.3 of the thesis reduces Hooke's law to. */
@@ -11,27 +14,75 @@ enum class PlaneModel
   strain
 };
 
-/** Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). */
+/**
+ * Isotropic linear elasticity: the one place of Hooke's law `sigma = lambda tr(eps) I + 2 mu eps`
+ * (thesis, Section 2.1). The entry (i,j) of a gradient is `d u_i / d x_j`.
+ */
 struct Material
 {
-  double young;     ///< Young's modulus E > 0, a stress
-  double poisson;   ///< Poisson's ratio nu in (-1, 1/2), dimensionless
-  PlaneModel plane; ///< used in two dimensions only
+  double young = 1.;                     ///< Young's modulus E > 0, a stress
+  double poisson = 0.3;                  ///< Poisson's ratio nu in (-1, 1/2), dimensionless
+  PlaneModel plane = PlaneModel::strain; ///< used in two dimensions only
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
-  double mu() const;
+  double mu() const
+  {
+    return young / (2 * (1 + poisson));
+  }
 
   /**
    * First Lame parameter `E nu/((1+nu)(1-2nu))`; plane stress replaces it by
    * `2 lambda mu/(lambda + 2 mu)`. @p dim selects whether the plane model applies.
    */
-  double lambda(int dim) const;
+  double lambda(const int dim) const
+  {
+    const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
+  }
 
-  /**
-   * The largest c with `c eps : eps <= sigma(eps) : eps`, the smallest eigenvalue of Hooke's law on
-   * symmetric tensors: 2 mu without, `2 mu + dim lambda` with change of volume, which is the
-   * smaller one where nu < 0.
-   */
+  /** sigma of a displacement gradient [stress]. */
+  template <int dim>
+  dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient) const
+  {
+    const dealii::SymmetricTensor<2, dim> strain = dealii::symmetrize(gradient);
+    return lambda(dim) * dealii::trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+           2 * mu() * strain;
+  }
+
+  /** `sigma n` [stress]. */
+  template <int dim>
+  dealii::Tensor<1, dim> traction(const dealii::Tensor<2, dim> &gradient,
+                                  const dealii::Tensor<1, dim> &normal) const
+  {
+    return stress(gradient) * normal;
+  }
+
+  /** `div sigma` [stress/length] of second derivatives: @p second[i][j][k] is d_j d_k u_i. */
+  template <int dim>
+  dealii::Tensor<1, dim> divergence_of_stress(const dealii::Tensor<3, dim> &second) const
+  {
+    const double shear = mu(), both = lambda(dim) + shear;
+    dealii::Tensor<1, dim> result;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      result[c] += shear * dealii::trace(second[c]);
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += both * second[c][d][c];
+    }
+    return result;
+  }
+
+  /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy. */
+  template <int dim>
+  double energy_product(const dealii::Tensor<2, dim> &gradient) const
+  {
+    const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
+    const double divergence = dealii::trace(strain);
+    return lambda(dim) * divergence * divergence +
+           2 * mu() * dealii::scalar_product(strain, strain);
+  }
+
+  /** The largest c [stress] with `c eps : eps <= sigma(eps) : eps`. */
   double coercivity(int dim) const;
 
   /**
@@ -39,6 +90,33 @@ struct Material
    * strain, (3 - nu)/(1 + nu) in plane stress.
    */
   double kolosov() const;
+};
+
+/** Both of Lame's parameters [stress], at hand where a formula is used for each pair of unknowns. */
+template <int dim>
+class StiffnessFormula
+{
+public:
+  explicit StiffnessFormula(const Material &material)
+      : lambda(material.lambda(dim)), mu(material.mu())
+  {
+  }
+
+  /**
+   * a(phi e_c, psi e_d) of scalar functions phi and psi, from the integrals @p P(a, b) of
+   * `d_a phi d_b psi` over a cell.
+   */
+  template <class Products>
+  double operator()(const Products &P, const unsigned int c, const unsigned int d) const
+  {
+    double sum = lambda * P(c, d) + mu * P(d, c);
+    for (unsigned int a = 0; c == d && a < dim; ++a)
+      sum += mu * P(a, a);
+    return sum;
+  }
+
+private:
+  const double lambda, mu;
 };
 } // namespace hpvi
 

@@ -7,6 +7,7 @@
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/function.h>
 
 #include <array>
@@ -128,7 +129,7 @@ struct Scene
   std::string stress_unit;
 
   Geometry<dim> geometry;
-  Material material;
+  std::vector<Material> materials;                ///< indexed by the material_id of a cell
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
   /** The unit vector of a translation that friction alone resists; most scenes have none. */
@@ -140,6 +141,20 @@ struct Scene
   OutputSettings output;
 
   std::string effective_parameters; ///< the text of scene.prm: every entry with its value
+
+  /** The material of @p cell, which its children inherit. */
+  template <class Cell>
+  const Material &material_of(const Cell &cell) const
+  {
+    AssertThrow(cell->material_id() < materials.size(),
+                dealii::ExcMessage("The scene has no material of the number that a cell carries."));
+    return materials[cell->material_id()];
+  }
+
+  /** `c |eps(v)|^2 <= a(v,v)` for every v: the least coercivity of all materials [stress]. */
+  double coercivity() const;
+
+  double largest_mu() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
   bool has_contact() const;

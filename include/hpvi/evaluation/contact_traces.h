@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_stress_h
-#define hpvi_stress_h
+#ifndef hpvi_contact_traces_h
+#define hpvi_contact_traces_h
 
-#include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/discretisation/solution.h>
 
 namespace hpvi
 {
-/** Hooke's law `sigma = lambda tr(eps) I + 2 mu eps`; row c of @p gradient belongs to u_c. */
-template <int dim>
-dealii::SymmetricTensor<2, dim> stress(const Material &material,
-                                       const dealii::Tensor<2, dim> &gradient)
-{
-  const dealii::SymmetricTensor<2, dim> strain = dealii::symmetrize(gradient);
-  return material.lambda(dim) * dealii::trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-         2 * material.mu() * strain;
-}
-
 /** u_N and sigma(u_N) at the points of one contact face. */
 template <int dim>
 class ContactTraces
@@ -24,7 +13,7 @@ class ContactTraces
 public:
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
                 const Solution<dim> &solution, const ShapeTables<dim> &tables)
-      : face(face), material(solution.scene.material), map(map_of<dim>(face.cell)),
+      : face(face), material(solution.scene.material_of(face.cell)), map(map_of<dim>(face.cell)),
         table(tables.face(face.degree, face.face_no, n_gauss))
   {
     const std::vector<double> coefficients =
@@ -47,7 +36,7 @@ public:
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    return stress(material, reference * dealii::invert(map.jacobian(table.points[q])));
+    return material.stress(reference * dealii::invert(map.jacobian(table.points[q])));
   }
 
   /** n . (sigma n - G): what the plane exerts, without an applied traction G; positive pulls. */
