@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/base/one_thread.h>
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
@@ -241,6 +242,7 @@ template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const std::function<void(const Progress &)> &about_to)
 {
+  const OneThread one_thread;
   stages->about_to = about_to;
   for (bool finished = false; !finished;)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/one_thread.h>
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/solver/quadratic_program.h>
@@ -146,6 +147,7 @@ template <int dim>
 InfSup measure_inf_sup(const Scene<dim> &scene, const Triangulation<dim> &triangulation,
                        const Degrees &degrees)
 {
+  const OneThread one_thread;
   const auto tables = std::make_shared<const ShapeTables<dim>>();
   const Laboratory<dim> own(scene, borrowed(triangulation), degrees, tables);
   const ContactSpace<dim> &contact_space = own.discretisation.spaces->contact_space;

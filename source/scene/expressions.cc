@@ -5,13 +5,16 @@
 #include <hpvi/base/text.h>
 
 #include <deal.II/base/function_parser.h>
+#include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <muParser.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 #include <regex>
 
 namespace hpvi
@@ -20,33 +23,38 @@ using namespace dealii;
 
 namespace
 {
-/** The parser's own words; the column that deal.II puts before them is an error code. */
-std::string parser_message(const std::exception &error)
+/**
+ * What muParser says about @p text, empty where it understands it: the same functions as in deal.II's
+ * FunctionParser, which would print five lines to stderr before it throws.
+ */
+template <int dim>
+std::string complaint(const std::string &text, const std::map<std::string, double> &constants)
 {
-  const std::string text = one_line(error), mark = "The parser said: ";
-  const std::size_t start = text.find(mark);
-  return start == std::string::npos ? text : text.substr(start + mark.size());
+  double zero = 0;
+  mu::Parser parser;
+  for (const auto &[name, value] : constants)
+    parser.DefineConst(name, value);
+  for (const std::string &name :
+       Utilities::split_string_list(FunctionParser<dim>::default_variable_names()))
+    parser.DefineVar(name, &zero);
+  for (const char *const name : {"int", "ceil", "cot", "csc", "floor", "sec", "log", "erfc"})
+    parser.DefineFun(name, internal::FunctionParser::mu_log);
+  parser.DefineFun("pow", internal::FunctionParser::mu_pow);
+  parser.DefineFun("if", internal::FunctionParser::mu_if);
+  parser.DefineOprt("|", internal::FunctionParser::mu_or, 1);
+  parser.DefineOprt("&", internal::FunctionParser::mu_and, 2);
+  try
+  {
+    // deal.II allows a space behind the name of a function.
+    parser.SetExpr(std::regex_replace(text, std::regex("\\s+\\("), "("));
+    parser.Eval();
+    return {};
+  }
+  catch (const mu::ParserError &error)
+  {
+    return printable(error.GetMsg());
+  }
 }
-
-/** deal.II's parser prints five lines to stderr before it throws; the message is one line. */
-class SilentStderr
-{
-public:
-  SilentStderr() : original(std::cerr.rdbuf(nullptr))
-  {
-  }
-
-  ~SilentStderr()
-  {
-    std::cerr.rdbuf(original); // also clears the error state of the muted stream
-  }
-
-  SilentStderr(const SilentStderr &) = delete;
-  SilentStderr &operator=(const SilentStderr &) = delete;
-
-private:
-  std::streambuf *const original;
-};
 
 bool is_number(const std::string &text, double &value)
 {
@@ -145,19 +153,13 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   if (is_number(text, value))
     return std::make_shared<Functions::ConstantFunction<dim>>(value);
   check_misreadings(section, name, text);
-  const auto function = std::make_shared<FunctionParser<dim>>(1);
-  try
-  {
-    const SilentStderr silence;
-    function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
-    function->value(points[0]); // only now does the parser look at the text
-  }
-  catch (const std::exception &error)
-  {
+  const std::string problem = complaint<dim>(text, constants);
+  if (!problem.empty())
     parameters.reject(section, name,
-                      "\"" + printable(text) + "\" is not an expression of x and y (" +
-                          parser_message(error) + "); mend it, constants are pi, E, nu, mu");
-  }
+                      "\"" + printable(text) + "\" is not an expression of x and y (" + problem +
+                          "); mend it, constants are pi, E, nu, mu");
+  const auto function = std::make_shared<FunctionParser<dim>>(1);
+  function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
   const Expression result = finite<dim>(function, parameters.place(section, name), text);
   for (const Point<dim> &point : points)
     result->value(point);

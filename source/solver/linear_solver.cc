@@ -2,33 +2,15 @@
 #include <cholmod.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/one_thread.h>
 #include <hpvi/solver/linear_solver.h>
 
 #include <algorithm>
 #include <string>
 
-// Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
-
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/**
- * One thread for dense algebra. CHOLMOD opens teams of four threads whatever the environment says,
- * which costs more than it brings for matrices of this size.
- */
-void use_one_thread()
-{
-  if (openblas_set_num_threads)
-    openblas_set_num_threads(1);
-  if (omp_set_max_active_levels)
-    omp_set_max_active_levels(0);
-}
-} // namespace
 
 /** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
 struct LinearSolver::Factor
@@ -151,6 +133,7 @@ LAPACKFullMatrix<double> LinearSolver::Factor::trailing_block(const unsigned int
 
 Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double> &right_hand_side)
 {
+  const OneThread one_thread;
   cholmod_dense dense{};
   dense.nrow = dense.nzmax = dense.d = right_hand_side.size();
   dense.ncol = 1;
@@ -199,7 +182,7 @@ LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned 
                            const double more_bytes, const Stabilisation &stabilisation)
     : factor(std::make_unique<Factor>())
 {
-  use_one_thread();
+  const OneThread one_thread;
   const unsigned int n = A.n(), n_kept = kept.size();
   if (n == 0)
     return;

@@ -24,7 +24,8 @@ public:
 
   /**
    * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
-   * may throw to give up the step. Throws NumericalFailure.
+   * may throw to give up the step. Until it returns, in the callbacks too, dense algebra has
+   * OneThread. Throws NumericalFailure.
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,
