@@ -222,8 +222,9 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 
 template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
-    : stages(std::make_unique<Stages>(scene))
 {
+  scene.check(); // it may have been built by code, or changed since it was read
+  stages = std::make_unique<Stages>(scene);
 }
 
 template <int dim>

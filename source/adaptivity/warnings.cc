@@ -240,7 +240,8 @@ std::string rich_multiplier(const Solution<dim> &solution)
 template <int dim>
 std::string whole_body_slips(const Solution<dim> &solution)
 {
-  if (!solution.scene.free_translation)
+  const auto translation = solution.scene.free_translation();
+  if (!translation)
     return {};
   const ContactSpace<dim> &contact = solution.contact_space;
   double used = 0;
@@ -248,12 +249,11 @@ std::string whole_body_slips(const Solution<dim> &solution)
     for (unsigned int q = 0; q < face.friction.points.size(); ++q)
       used += face.friction.weights[q] * face.length() * face.friction.values[q] *
               contact.value(face, solution.lambda, face.friction.points[q]) *
-              (face.tangent * *solution.scene.free_translation);
+              (face.tangent * *translation);
   if (std::abs(used) < (1 - 1e-8) * contact.friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
-              *solution.scene.free_translation,
-              ") and its place is not unique; lower the loads or add a support");
+              *translation, ") and its place is not unique; lower the loads or add a support");
 }
 
 template <int dim>

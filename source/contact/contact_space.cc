@@ -54,7 +54,7 @@ void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
 template <int dim>
 double ContactFace<dim>::friction_bound(const Point<dim> &x) const
 {
-  return condition->friction_bound ? condition->friction_bound->value(x) : 0.;
+  return condition->friction.bound ? condition->friction.bound->value(x) : 0.;
 }
 
 template <int dim>
@@ -88,7 +88,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
         if (cell->face(f)->at_boundary())
         {
           const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
-          if (condition.bilateral_contact)
+          if (condition.has_contact())
             contact_faces.push_back(
                 make_face(cell, f, displacement_space.degrees()[cell->active_cell_index()],
                           scene.solver.multiplier_offset, condition));

@@ -51,8 +51,8 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene,
   sum_up(contributions);
   stiffnesses.forget_unused();
   assemble_contact(tables);
-  if (scene.free_translation)
-    hold(*scene.free_translation);
+  if (scene.free_translation())
+    hold(*scene.free_translation());
 }
 
 template <int dim>

@@ -42,7 +42,7 @@ Vector<double> IterativeRefinement<dim>::solve(Reduction &reduction, AlgebraicEr
       reduction = solve_reduced_problem(scene, contact_space, system, schur_complement, defect,
                                         std::move(reduction));
     Vector<double> x = schur_complement.displacement(reduction.lambda);
-    if (scene.free_translation)
+    if (scene.free_translation())
       x.add(reduction.translation, system.translation);
     u = system.recover(x);
     error = improve(reduction.lambda, u);

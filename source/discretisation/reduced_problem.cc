@@ -71,8 +71,8 @@ void check_equilibrium(const Scene<dim> &scene, const ContactSpace<dim> &contact
     return;
   std::ostringstream line;
   line.precision(10); // the two may be close
-  line << "no equilibrium: the loads push the body along (" << *scene.free_translation << ") with "
-       << applied << ", friction can resist with " << available
+  line << "no equilibrium: the loads push the body along (" << *scene.free_translation()
+       << ") with " << applied << ", friction can resist with " << available
        << " at most; add a support, raise Friction bound or lower the loads";
   throw NumericalFailure(line.str());
 }
@@ -90,7 +90,7 @@ Reduction solve_reduced_problem(const Scene<dim> &scene, const ContactSpace<dim>
   qp.d += system.B_prescribed;
   qp.d += defect;
   const AugmentedLagrangian::Inner solve = solver_in_the_box(scene.solver);
-  if (scene.free_translation)
+  if (scene.free_translation())
   {
     const EqualityConstraint balance = balance_of_forces(system);
     check_equilibrium(scene, contact_space, balance);

@@ -91,7 +91,7 @@ template <int dim>
 bool has_one_contact_boundary(const Scene<dim> &scene)
 {
   return std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
-                       [](const auto &boundary) { return boundary.bilateral_contact; }) == 1;
+                       [](const auto &boundary) { return boundary.has_contact(); }) == 1;
 }
 } // namespace
 

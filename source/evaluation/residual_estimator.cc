@@ -247,7 +247,7 @@ ErrorEstimate Residuals<dim>::compute()
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
       {
-        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].bilateral_contact)
+        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].has_contact())
           add_boundary(cell, face);
       }
       else if (!cell->face(face)->has_children() &&
@@ -275,7 +275,7 @@ double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<di
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
   {
     boundary.traction = {};
-    boundary.friction_bound = nullptr;
+    boundary.friction.bound = nullptr;
   }
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ContactSpace<dim> contact_space(unloaded, space);

@@ -7,6 +7,7 @@
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
+#include <hpvi/scene/parameters.h>
 
 #include <zlib.h>
 
@@ -364,14 +365,16 @@ private:
 
 template <int dim>
 Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
-    : scene(scene), directory(path, [this](const std::string &name) { return writes(name); },
-                              {scene.file, scene.reference_solution})
+    : scene(scene),
+      directory(path, [this](const std::string &name) { return writes(name); },
+                {scene.parameters ? scene.parameters->file_name() : "", scene.reference_solution})
 {
   try
   {
     write_summary("running", ""); // names the files of earlier runs as long as there are any
     directory.remove_earlier();
-    write("scene.prm", scene.effective_parameters);
+    if (scene.parameters)
+      write("scene.prm", scene.parameters->print(false));
   }
   catch (const InputError &error)
   {

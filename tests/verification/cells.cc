@@ -498,7 +498,7 @@ void ResidualOracle::add_edge(const Cell &cell, const unsigned int face)
   if (cell->at_boundary(face))
   {
     const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
-    if (condition.bilateral_contact)
+    if (condition.has_contact())
       add_contact(cell, face);
     else
       add_neumann(cell, face);
@@ -579,7 +579,7 @@ void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
     const Tensor<1, 2> n = values.normal_vector(q), t = Point<2>(-n[1], n[0]);
     const double s = x.distance(cell->face(face)->vertex(0)) /
                      cell->face(face)->vertex(0).distance(cell->face(face)->vertex(1));
-    double residual = own[q] * t + contact->condition->friction_bound->value(x) *
+    double residual = own[q] * t + contact->condition->friction.bound->value(x) *
                                        solution.contact_space.value(*contact, solution.lambda, s);
     for (unsigned int c = 0; c < 2; ++c)
       if (contact->condition->traction[c])

@@ -191,7 +191,7 @@ void Oracle::assemble_contact(const Solution<2> &solution)
       const Tensor<1, 2> n = values.normal_vector(q);
       const double s = x.distance(edge->vertex(0)) / edge->vertex(1).distance(edge->vertex(0));
       const double g =
-          solution.scene.boundaries[edge->boundary_id()].friction_bound->value(x) * values.JxW(q);
+          solution.scene.boundaries[edge->boundary_id()].friction.bound->value(x) * values.JxW(q);
       for (unsigned int i = 0; i < indices.size(); ++i)
       {
         const double v_t = -n[1] * values.shape_value_component(i, q, 0) +
