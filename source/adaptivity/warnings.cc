@@ -195,6 +195,8 @@ std::string locking(const Solution<dim> &solution)
   const Material *locked = nullptr;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
   {
+    if (!cell->is_locally_owned())
+      continue;
     unsigned int degree = space.degrees()[cell->active_cell_index()];
     // hp meshes that began with low degrees are refined for what those could not resolve.
     if (adaptivity.method >= Method::hpa1)

@@ -19,9 +19,9 @@ class EdgeConstraints
   static_assert(dim == 2, "edges of cells in the plane");
 
 public:
-  EdgeConstraints(const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+  EdgeConstraints(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
                   AffineConstraints<double> &constraints)
-      : space(space), tables(tables), constraints(constraints)
+      : numbering(numbering), tables(tables), constraints(constraints)
   {
   }
 
@@ -40,13 +40,13 @@ public:
 private:
   unsigned int degree(const Cell &cell) const
   {
-    return space.degrees()[cell->active_cell_index()];
+    return numbering.degrees()[cell->active_cell_index()];
   }
 
   /** Unknowns of one edge, component by component, each in the direction of the edge. */
   Unknowns unknowns(const Cell &cell, const unsigned int face) const
   {
-    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    const auto dofs = numbering.cell_dofs(cell->active_cell_index());
     Unknowns result;
     for (const unsigned int i : tables.numbering(degree(cell)).edge[face])
       result.push_back(dofs[i]);
@@ -104,24 +104,24 @@ private:
                        [&](const unsigned int node) { return sources[first + node] == unknown; });
   }
 
-  const DisplacementSpace<dim> &space;
+  const DofNumbering<dim> &numbering;
   const ShapeTables<dim> &tables;
   AffineConstraints<double> &constraints;
 };
 } // namespace
 
 template <int dim>
-void constrain_hanging_nodes(const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+void constrain_hanging_nodes(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
                              AffineConstraints<double> &constraints)
 {
-  EdgeConstraints<dim> edges(space, tables, constraints);
-  for (const auto &cell : space.triangulation().active_cell_iterators())
+  EdgeConstraints<dim> edges(numbering, tables, constraints);
+  for (const auto &cell : numbering.dof_handler().get_triangulation().active_cell_iterators())
     if (!cell->is_artificial())
       for (const unsigned int face : cell->face_indices())
         if (!cell->at_boundary(face))
           edges.add(cell, face);
 }
 
-template void constrain_hanging_nodes(const DisplacementSpace<2> &, const ShapeTables<2> &,
+template void constrain_hanging_nodes(const DofNumbering<2> &, const ShapeTables<2> &,
                                       AffineConstraints<double> &);
 } // namespace hpvi

@@ -59,12 +59,12 @@ std::vector<NodeCondition<dim>> independent(const std::vector<NodeCondition<dim>
 
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
-                                                const DisplacementSpace<dim> &space,
+                                                const DofNumbering<dim> &numbering,
                                                 const ShapeTables<dim> &tables)
 {
   static_assert(dim == 2, "nodes along a straight edge");
   std::map<types::global_dof_index, SupportedNode<dim>> nodes;
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  for (const auto &cell : numbering.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
       for (const unsigned int f : cell->face_indices())
       {
@@ -75,8 +75,8 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
         if (!boundary.has_displacement() && boundary.contact != Contact::bilateral)
           continue;
         const CellMap<dim> map = map_of<dim>(cell);
-        const unsigned int p = space.degrees()[cell->active_cell_index()];
-        const auto dofs = space.cell_dofs(cell->active_cell_index());
+        const unsigned int p = numbering.degrees()[cell->active_cell_index()];
+        const auto dofs = numbering.cell_dofs(cell->active_cell_index());
         const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[f];
         const std::vector<double> &s = tables.gauss_lobatto(p + 1);
         for (unsigned int k = 0; k <= p; ++k)
@@ -159,8 +159,8 @@ std::vector<double> SupportedNode<dim>::split(const Tensor<1, dim> &force) const
 }
 
 template struct SupportedNode<2>;
-template std::vector<SupportedNode<2>>
-supported_nodes(const Scene<2> &, const DisplacementSpace<2> &, const ShapeTables<2> &);
+template std::vector<SupportedNode<2>> supported_nodes(const Scene<2> &, const DofNumbering<2> &,
+                                                       const ShapeTables<2> &);
 template void constrain_supports(const std::vector<SupportedNode<2>> &,
                                  AffineConstraints<double> &);
 } // namespace hpvi

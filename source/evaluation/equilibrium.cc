@@ -142,10 +142,10 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
     }
 
   AffineConstraints<double> hanging;
-  constrain_hanging_nodes(space, tables, hanging);
+  constrain_hanging_nodes(space.numbering(), tables, hanging);
   hanging.close();
   carry_to_masters(hanging, reactions);
-  for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space, tables))
+  for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space.numbering(), tables))
   {
     Tensor<1, dim> force;
     for (unsigned int c = 0; c < dim; ++c)

@@ -66,10 +66,11 @@ Residuals<dim>::Residuals(const Solution<dim> &solution)
   const unsigned int n_cells = degrees.size();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
+  coefficients.resize(n_cells);
   for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
-    const unsigned int index = cell->active_cell_index();
-    coefficients.push_back(solution.coefficients(index));
+    if (!cell->is_artificial())
+      coefficients[cell->active_cell_index()] = solution.coefficients(cell->active_cell_index());
     maps.push_back(map_of<dim>(cell));
     sizes.push_back(maps.back().longest_edge());
   }

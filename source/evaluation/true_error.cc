@@ -300,6 +300,8 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
   Squares sums;
   for (const auto &cell : stored.triangulation().active_cell_iterators())
   {
+    if (!cell->is_locally_owned())
+      continue;
     const unsigned int index = cell->active_cell_index();
     const LocalField<dim> field{stored.degree(index), stored.coefficients(index),
                                 map_of<dim>(cell)};
@@ -330,7 +332,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
   errors.reference_energy = 0.5 * sums.norm;
   for (const auto &cell : stored.triangulation().active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
-      if (cell->at_boundary(f))
+      if (cell->is_locally_owned() && cell->at_boundary(f))
         errors.reference_energy +=
             boundary_potential(scene.boundaries[cell->face(f)->boundary_id()],
                                cell->face(f)->vertex(0), cell->face(f)->vertex(1), exact);

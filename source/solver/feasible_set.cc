@@ -15,6 +15,9 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/** A direction that makes no larger angle with the rim goes along it, up to round-off. */
+constexpr double along_the_rim = 1e-8;
+
 /** What projection leaves between a point and the rim. */
 bool is_on_rim(const double norm, const double radius)
 {
@@ -84,13 +87,13 @@ double FeasibleSet::distance_to_wall(const Vector<double> &z, const Vector<doubl
       alpha = std::min(alpha, (z[i] - upper[i]) / p[i]);
   for (const Disc &disc : discs)
   {
-    // The larger root of |z - alpha p|^2 = radius^2.
+    // The larger root of |z - alpha p|^2 = radius^2; from the rim along it no step stays inside.
     const double zx = z[disc.first], zy = z[disc.first + 1], px = p[disc.first],
                  py = p[disc.first + 1];
     const double square = px * px + py * py, product = zx * px + zy * py, norm = std::hypot(zx, zy);
     if (square == 0.)
       continue;
-    if (is_on_rim(norm, disc.radius) && product <= 0.)
+    if (is_on_rim(norm, disc.radius) && product <= along_the_rim * norm * std::sqrt(square))
       alpha = 0.;
     else
       alpha = std::min(alpha, (product + std::sqrt(std::max(0., product * product +

@@ -260,7 +260,8 @@ bool Iteration::proportion()
   }
   else
   {
-    y.add(-fixed_length, beta);
+    // All of the gradient: what presses against the rim damps the step along it.
+    y.add(-fixed_length, r);
     qp.feasible_set.project(y);
     recompute_gradient();
   }

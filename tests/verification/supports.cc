@@ -15,7 +15,7 @@ double violation(const Laboratory &discrete, const Vector<double> &u)
 {
   double largest = 0;
   for (const SupportedNode<2> &node :
-       supported_nodes(discrete.scene, discrete.displacement_space, discrete.tables))
+       supported_nodes(discrete.scene, discrete.displacement_space.numbering(), discrete.tables))
     for (const NodeCondition<2> &condition : node.conditions)
       largest =
           std::max(largest, std::abs(condition.direction[0] * u[node.dofs[0]] +
@@ -44,7 +44,7 @@ TEST(Corners, ASupportDoesNotLiftTheContactBesideIt)
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   // The corner of wall and slope stays where it is; without u_n = 0 there it slides along the wall.
   for (const SupportedNode<2> &node :
-       supported_nodes(scene, discrete.displacement_space, discrete.tables))
+       supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
     if (node.x.norm() < 1e-12)
     {
       EXPECT_EQ(node.conditions.size(), 2u);
@@ -77,7 +77,7 @@ TEST(Corners, PrescribedValuesAreMetTogether)
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   for (const SupportedNode<2> &node :
-       supported_nodes(scene, discrete.displacement_space, discrete.tables))
+       supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
     if (node.x.norm() < 1e-12)
     {
       EXPECT_NEAR(solution.u[node.dofs[0]], 0.03, 1e-16);
@@ -98,7 +98,7 @@ TEST(Corners, PrescribedValuesAreMetBesideAnInclinedWall)
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
   for (const SupportedNode<2> &node :
-       supported_nodes(scene, discrete.displacement_space, discrete.tables))
+       supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
     if (node.x.norm() < 1e-12)
     {
       EXPECT_NEAR(solution.u[node.dofs[0]], 0.01, 1e-16); // one along, four up

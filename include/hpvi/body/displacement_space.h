@@ -2,11 +2,8 @@
 #ifndef hpvi_displacement_space_h
 #define hpvi_displacement_space_h
 
-#include <deal.II/base/array_view.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/body/dof_numbering.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi
@@ -27,6 +24,7 @@ public:
   DisplacementSpace(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
                     const Degrees &degrees, const ShapeTables<dim> &tables);
 
+  const DofNumbering<dim> &numbering() const;
   const dealii::Triangulation<dim> &triangulation() const;
   const dealii::DoFHandler<dim> &dof_handler() const;
   const dealii::AffineConstraints<double> &constraints() const;
@@ -35,21 +33,12 @@ public:
   unsigned int n_dofs() const;      ///< before constraints are eliminated (`dofs`)
   unsigned int n_free_dofs() const; ///< after (`dofs_free`, the N of every rate)
 
-  /**
-   * The unknowns of one cell in deal.II's local order: first those on its boundary, then those of
-   * its interior. deal.II's own look-up is slow for hp and several stages need it, so it is stored.
-   */
+  /** As in DofNumbering. */
   dealii::ArrayView<const dealii::types::global_dof_index> cell_dofs(unsigned int cell) const;
 
 private:
-  void make_constraints(const Scene<dim> &scene, const ShapeTables<dim> &tables);
-  void store_cell_dofs();
-
-  Degrees cell_degrees;
-  dealii::DoFHandler<dim> dofs;
-  dealii::AffineConstraints<double> affine_constraints;
-  std::vector<dealii::types::global_dof_index> stored_dofs; ///< of all cells, one after the other
-  std::vector<std::size_t> first_stored_dof;
+  const DofNumbering<dim> dof_numbering;
+  const dealii::AffineConstraints<double> affine_constraints;
 };
 } // namespace hpvi
 

@@ -3,12 +3,12 @@
 #define hpvi_edge_constraints_h
 
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/displacement_space.h>
+#include <hpvi/body/dof_numbering.h>
 
 namespace hpvi
 {
 /**
- * Make @p space continuous across edges on which degree or cell size change: on each edge the
+ * Make the space of @p numbering continuous across edges on which degree or cell size change: on each edge the
  * displacement is a polynomial of the lowest degree that a cell on either side has there (the
  * minimum rule of (3.57)).
  *
@@ -18,7 +18,7 @@ namespace hpvi
  * multiply round-off (1e-9 of the solution was lost). Here the weights stay near 1.
  */
 template <int dim>
-void constrain_hanging_nodes(const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+void constrain_hanging_nodes(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
                              dealii::AffineConstraints<double> &constraints);
 } // namespace hpvi
 

@@ -3,7 +3,7 @@
 #define hpvi_supports_h
 
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/displacement_space.h>
+#include <hpvi/body/dof_numbering.h>
 
 #include <array>
 #include <vector>
@@ -40,7 +40,7 @@ struct SupportedNode
  */
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
-                                                const DisplacementSpace<dim> &space,
+                                                const DofNumbering<dim> &numbering,
                                                 const ShapeTables<dim> &tables);
 
 /**
