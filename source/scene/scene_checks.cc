@@ -206,29 +206,53 @@ namespace
 {
 // ---------------------------------------------------------------- functions
 
-/** Loads and displacements enter energies as squares. */
-void check_magnitude(const Scene<2> &scene, const std::string &section, const std::string &name,
-                     const std::array<Expression<2>, 2> &components,
-                     const std::vector<Point<2>> &points)
+/** The functions of one entry, and where they are tried. */
+struct EntryFunctions
 {
-  for (const auto &component : components)
+  std::string section, name;
+  std::array<Expression<2>, 2> components;
+  std::vector<Point<2>> points;
+};
+
+std::vector<EntryFunctions> functions_of(const Scene<2> &scene)
+{
+  std::vector<EntryFunctions> result{
+      {"Body force", "Expression", scene.body_force, sample_body(scene.geometry)}};
+  const std::vector<Edge> edges = edges_of(scene.geometry);
+  for (unsigned int b = 0; b < edges.size(); ++b)
+  {
+    const BoundaryCondition<2> &boundary = scene.boundaries[b];
+    const std::string section = "Boundary " + boundary.name;
+    result.push_back({section, "Displacement", boundary.displacement, edges[b].sample()});
+    result.push_back({section, "Traction", boundary.traction, edges[b].sample()});
+  }
+  return result;
+}
+
+/** Loads and displacements enter energies as squares. */
+void check_magnitude(const Scene<2> &scene, const EntryFunctions &functions)
+{
+  for (const auto &component : functions.components)
   {
     double magnitude = 0;
-    for (const Point<2> &point : points)
-      if (component)
-      {
-        const double value = component->value(point);
-        if (!std::isfinite(value))
-          reject(scene, section, name,
-                 "is not finite at " + to_string(point) +
-                     "; give a function that is finite everywhere it applies");
+    for (const Point<2> &point : functions.points)
+      if (const double value = component ? component->value(point) : 0.; std::isfinite(value))
         magnitude = std::max(magnitude, std::abs(value));
-      }
     if (magnitude > largest || (magnitude > 0 && magnitude < smallest))
-      reject(scene, section, name,
+      reject(scene, functions.section, functions.name,
              "has a component of magnitude " + to_string(magnitude) +
                  ", outside 1e-100 to 1e100; choose other units or write 0");
   }
+}
+
+void check_finite(const Scene<2> &scene, const EntryFunctions &functions)
+{
+  for (const auto &component : functions.components)
+    for (const Point<2> &point : functions.points)
+      if (component && !std::isfinite(component->value(point)))
+        reject(scene, functions.section, functions.name,
+               "is not finite at " + to_string(point) +
+                   "; give a function that is finite everywhere it applies");
 }
 
 void check_friction(const Scene<2> &scene, const std::string &section,
@@ -248,16 +272,13 @@ void check_friction(const Scene<2> &scene, const std::string &section,
 void check_boundary(const Scene<2> &scene, const BoundaryCondition<2> &boundary, const Edge &edge)
 {
   const std::string section = "Boundary " + boundary.name;
-  const std::vector<Point<2>> points = edge.sample();
-  check_magnitude(scene, section, "Displacement", boundary.displacement, points);
-  check_magnitude(scene, section, "Traction", boundary.traction, points);
   for (unsigned int d = 0; d < 2; ++d)
     if (boundary.traction[d] != nullptr && boundary.displacement[d] != nullptr)
       reject(scene, section, "Traction",
              std::string("acts on the component ") + "xyz"[d] +
                  " that Displacement prescribes; make that component 0 here or free "
                  "there");
-  check_friction(scene, section, boundary, points);
+  check_friction(scene, section, boundary, edge.sample());
   if (boundary.has_contact() && boundary.has_displacement())
     reject(scene, section, "Displacement",
            "stands beside Contact = bilateral; keep only one of the two");
@@ -275,7 +296,11 @@ void check_boundaries(const Scene<2> &scene)
       fail(printable(scene.origin()), "Boundary " + scene.boundaries[b].name,
            "has the id " + std::to_string(scene.boundaries[b].id) + " and stands at " +
                std::to_string(b) + "; leave ids and order as they are in a new scene");
-  check_magnitude(scene, "Body force", "Expression", scene.body_force, sample_body(scene.geometry));
+  const std::vector<EntryFunctions> all = functions_of(scene);
+  for (const EntryFunctions &functions : all)
+    check_magnitude(scene, functions);
+  for (const EntryFunctions &functions : all) // after what is huge, which explains it
+    check_finite(scene, functions);
   for (unsigned int b = 0; b < edges.size(); ++b)
     check_boundary(scene, scene.boundaries[b], edges[b]);
 }

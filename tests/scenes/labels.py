@@ -38,6 +38,16 @@ class Labels(RunTest):
             self.assertEqual(self.summary()["title"].rstrip(), shown.rstrip())
             read_vtu(self.out / "solution-01.vtu")
 
+    def test_a_title_from_the_name_of_a_file_survives_scene_prm(self):
+        for name, title in (("a#b", "a_b"), ("ends\\", "ends_"), ("two\nlines", "two_lines")):
+            scene = self.home / f"{name}.prm"
+            scene.write_text(BAR)
+            self.run_scene(scene=scene)
+            self.assertEqual(self.summary()["title"], title)
+            again = self.home / "again"
+            self.run_scene(scene=self.out / "scene.prm", output=again)
+            self.assertEqual((again / "scene.prm").read_text(), (self.out / "scene.prm").read_text())
+
     def test_units_of_any_bytes(self):
         drawn = self.run_text(b"subsection Units\nset Length = \xb5\x02m\nset Stress = <\xb5&\"\nend\n")[1]
         self.assertIn("x [µ m]", drawn)
