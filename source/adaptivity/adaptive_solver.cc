@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/timer.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/base/text.h>
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <sstream>
+#include <utility>
 
 namespace hpvi
 {
@@ -22,46 +20,6 @@ using namespace dealii;
 
 namespace
 {
-/** Adds the wall time of its own life to a stage. */
-class StageTimer
-{
-public:
-  explicit StageTimer(double &seconds) : seconds(seconds)
-  {
-  }
-  ~StageTimer()
-  {
-    seconds += timer.wall_time();
-  }
-
-private:
-  Timer timer;
-  double &seconds;
-};
-
-/** What overflows must not pass for a result. */
-void check_finite(const char *const name, const double value)
-{
-  if (!std::isfinite(value))
-    throw NumericalFailure(std::string(name) + " is not finite: numbers overflow or elements are "
-                                               "degenerate; choose units in which loads, Friction "
-                                               "bound and Young's modulus are moderate");
-}
-
-/** Nor what underflows: energies are squares, of which a small solution would leave zero. */
-template <int dim>
-void check_underflow(const Solution<dim> &solution)
-{
-  const double largest = solution.u.linfty_norm();
-  const double negligible =
-      std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-  for (const Material &material : solution.scene.materials) // the softest part may hold it all
-    if (largest > 0 && material.young * largest * largest < negligible)
-      throw NumericalFailure("the energy underflows: Young's modulus " + to_string(material.young) +
-                             " and displacements up to " + to_string(largest) +
-                             "; choose units in which loads are moderate");
-}
-
 /** Part of a whole that may be zero, which has no parts. */
 double ratio(const double part, const double whole)
 {
@@ -75,8 +33,7 @@ struct AdaptiveSolver<dim>::Stages
   const Scene<dim> &scene;
   std::shared_ptr<const Triangulation<dim>> mesh;
   Degrees degrees;
-  const std::shared_ptr<const ShapeTables<dim>> shared_tables;
-  const ShapeTables<dim> &tables;
+  const std::shared_ptr<const ShapeTables<dim>> tables;
   CondensedElements<dim> elements;
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
@@ -85,14 +42,12 @@ struct AdaptiveSolver<dim>::Stages
   double translation = 0;        ///< likewise
   AlgebraicError algebraic;      ///< of the current step
   StageTimes times;              ///< of the current step
-  double seconds = 0;
-  unsigned int number = 0; ///< of the last finished step
+  History history;               ///< of the finished steps
   std::function<void(const Progress &)> about_to;
 
   explicit Stages(const Scene<dim> &scene)
-      : scene(scene), shared_tables(std::make_shared<const ShapeTables<dim>>()),
-        tables(*shared_tables), elements(scene, tables), smoothness(scene.adaptivity.reading),
-        true_error(scene, tables)
+      : scene(scene), tables(std::make_shared<const ShapeTables<dim>>()), elements(scene, *tables),
+        smoothness(scene.adaptivity.reading), true_error(scene)
   {
     prepare_blas();
     const auto coarse = std::make_shared<Triangulation<dim>>();
@@ -106,16 +61,18 @@ struct AdaptiveSolver<dim>::Stages
   void discretise();
   Solution<dim> solve(ReducedSolution &reduced);
   ErrorEstimate estimate(const Solution<dim> &solution);
-  Refinement decide(const Solution<dim> &solution, const ErrorEstimate &estimate);
-  Step<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
-                   const ReducedSolution &reduction);
+  Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate);
+  StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
+                         const ReducedSolution &reduced);
+  std::string end_of_run(const Solution<dim> &solution, const Refinement &refinement) const;
+  void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
 };
 
 template <int dim>
 void AdaptiveSolver<dim>::Stages::begin(const std::string &stage, const std::string &note) const
 {
-  about_to({number + 1, stage, note});
+  about_to({static_cast<unsigned int>(history.size()) + 1, stage, note});
 }
 
 /** Of the step whose system is assembled. */
@@ -133,7 +90,7 @@ void AdaptiveSolver<dim>::Stages::discretise()
   std::shared_ptr<const Spaces<dim>> spaces;
   {
     StageTimer timer(times.setup);
-    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, degrees, shared_tables);
+    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, degrees, tables);
   }
   begin("assembling " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.assemble);
@@ -160,7 +117,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
             ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
                   " multipliers"
             : "finding the displacement");
-  reduced.z = previous.values(contact_space, tables);
+  reduced.z = previous.values(contact_space, *tables);
   reduced.translation = translation;
   const Timer timer;
   Vector<double> u = IterativeRefinement<dim>(*discretisation, elements, *solver, *schur_complement)
@@ -180,20 +137,20 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 {
   begin("estimating the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.estimate);
-  ErrorEstimate result = estimate_error(solution, tables);
+  ErrorEstimate result = estimate_error(solution);
   check_finite("the error indicator", result.total());
   return result;
 }
 
 template <int dim>
-Refinement AdaptiveSolver<dim>::Stages::decide(const Solution<dim> &solution,
-                                               const ErrorEstimate &estimate)
+Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
+                                             const ErrorEstimate &estimate)
 {
   begin("deciding on h and p");
   StageTimer timer(times.decide);
   Refinement refinement =
-      mark(scene.adaptivity, degrees, estimate,
-           [&](const unsigned int cell) { return smoothness.decay_rate(solution, tables, cell); });
+      hpvi::mark(scene.adaptivity, degrees, estimate,
+                 [&](const unsigned int cell) { return smoothness.decay_rate(solution, cell); });
   if (scene.adaptivity.method != Method::pu)
   {
     for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps())
@@ -217,6 +174,62 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 }
 
 template <int dim>
+StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
+                                                    const ErrorEstimate &estimate,
+                                                    const ReducedSolution &reduced)
+{
+  Energies step_energies;
+  std::vector<ContactState<dim>> contact;
+  {
+    StageTimer timer(times.recover);
+    step_energies = energies(solution, discretisation->system, algebraic.energy_product);
+    check_numbers(solution, step_energies, algebraic);
+    contact = contact_states(solution);
+  }
+  const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
+  history.push_back(
+      {estimate.total(), ratio(scaled_estimate, step_energies.norm),
+       (history.empty() ? 0. : history.back().seconds) + times.total(),
+       !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled)});
+  return {static_cast<unsigned int>(history.size()),
+          solution,
+          estimate,
+          scaled_estimate,
+          history.back().relative_estimate,
+          step_energies,
+          contact,
+          true_error.measure(solution, contact),
+          algebraic,
+          reduced.qp,
+          reduced.condition_raw,
+          reduced.condition_scaled,
+          std::exchange(times, {}),
+          history.back().seconds,
+          {},
+          {},
+          {}};
+}
+
+/** What makes the last step the last of all; else empty. */
+template <int dim>
+std::string AdaptiveSolver<dim>::Stages::end_of_run(const Solution<dim> &solution,
+                                                    const Refinement &refinement) const
+{
+  const std::string limit = reached_limit(solution, history);
+  return limit.empty() && refinement.is_empty(degrees) ? nothing_marked(scene.adaptivity) : limit;
+}
+
+/** The rest of the report of a step after which none comes. */
+template <int dim>
+void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
+{
+  step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
+  if (!dense_note().empty())
+    step.warnings.push_back(dense_note());
+  step.equilibrium = equilibrium(step.solution, discretisation->system);
+}
+
+template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
     : stages(std::make_unique<Stages>(scene))
 {
@@ -226,132 +239,24 @@ template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 
 template <int dim>
-Step<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
-                                              const ErrorEstimate &estimate,
-                                              const ReducedSolution &reduction)
-{
-  Energies step_energies;
-  {
-    StageTimer timer(times.recover);
-    step_energies = energies(solution, discretisation->system, tables, algebraic.energy_product);
-    check_finite("the energy", step_energies.energy);
-    check_finite("the Lagrangian", step_energies.lagrangian);
-    check_finite("the energy norm", step_energies.norm);
-    check_underflow(solution);
-  }
-  const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
-  seconds += times.total();
-  return {++number,
-          solution,
-          estimate,
-          scaled_estimate,
-          ratio(scaled_estimate, step_energies.norm),
-          step_energies,
-          true_error.measure(solution),
-          algebraic,
-          reduction.qp,
-          reduction.condition_raw,
-          reduction.condition_scaled,
-          times,
-          seconds,
-          {},
-          {},
-          {}};
-}
-
-namespace
-{
-/**
- * Is the indicator no more than that of round-off in u_N? Where it is, refinement goes on for nothing.
- * Asked only where it is small, because it costs an indicator.
- */
-template <int dim>
-bool is_exact_to_round_off(const Step<dim> &step, const ShapeTables<dim> &tables)
-{
-  const Solution<dim> &solution = step.solution;
-  const double small = 1e-7 * solution.scene.largest_mu() * solution.u.linfty_norm();
-  return step.estimate.total() <= small &&
-         step.estimate.total() <= 4 * round_off_of_estimate(solution, tables);
-}
-
-/** Which limit of the scene does this step reach, or that of numbers? Empty: none. */
-template <int dim>
-std::string reached_limit(const Adaptivity &limits, const Step<dim> &step,
-                          const ShapeTables<dim> &tables)
-{
-  if (is_exact_to_round_off(step, tables))
-    return "round-off";
-  if (step.relative_estimate < limits.tolerance)
-    return "Tolerance";
-  if (step.number >= limits.maximum_steps)
-    return "Maximum steps";
-  if (step.solution.displacement_space.n_free_dofs() >= limits.maximum_unknowns)
-    return "Maximum unknowns";
-  if (limits.maximum_seconds > 0 && step.seconds >= limits.maximum_seconds)
-    return "Maximum seconds";
-  return {};
-}
-
-void check_algebraic_error(const AlgebraicError &error)
-{
-  if (error.total() <= AlgebraicError::useless)
-    return;
-  std::ostringstream line;
-  line
-      << "round-off spoils the solution: its relative error is about " << error.total() << " after "
-      << error.corrections
-      << " corrections; the body is too slender or its supports are too weak for double precision: "
-         "support it better, or choose fewer Geometry/Subdivisions and a higher degree";
-  throw NumericalFailure(line.str());
-}
-
-/** Empty fields of the table are explained once. */
-std::string no_condition_number(const std::vector<unsigned int> &steps)
-{
-  std::string list;
-  for (const unsigned int step : steps)
-    list += (list.empty() ? "" : ", ") + std::to_string(step);
-  return "S is singular up to round-off in step " + list +
-         ": there the table has no condition number; Friction bound may differ too much from point "
-         "to point, or a multiplier act nowhere";
-}
-} // namespace
-
-template <int dim>
-void AdaptiveSolver<dim>::run(const std::function<void(const Step<dim> &)> &finished_step,
+void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const std::function<void(const Progress &)> &about_to)
 {
   const OneThread one_thread;
   stages->about_to = about_to;
-  std::vector<double> estimates;
-  std::vector<unsigned int> singular; ///< steps whose S has no condition number
   for (bool finished = false; !finished;)
   {
     stages->discretise();
-    ReducedSolution reduction;
-    const Solution<dim> solution = stages->solve(reduction);
+    ReducedSolution reduced;
+    const Solution<dim> solution = stages->solve(reduced);
     const ErrorEstimate estimate = stages->estimate(solution);
-    const Refinement refinement = stages->decide(solution, estimate);
-    Step<dim> step = stages->report(solution, estimate, reduction);
-    check_algebraic_error(step.algebraic);
-    step.stopped_by = reached_limit(stages->scene.adaptivity, step, stages->tables);
-    if (step.stopped_by.empty() && refinement.is_empty(stages->degrees))
-      step.stopped_by = nothing_marked(stages->scene.adaptivity);
-    estimates.push_back(estimate.total());
+    const Refinement refinement = stages->mark(solution, estimate);
+    StepReport<dim> step = stages->report(solution, estimate, reduced);
+    step.stopped_by = stages->end_of_run(solution, refinement);
     finished = !step.stopped_by.empty();
-    if (!std::isfinite(step.condition_raw) || !std::isfinite(step.condition_scaled))
-      singular.push_back(step.number);
     if (finished)
-    {
-      step.warnings = warnings(solution, stages->tables, estimates, step.algebraic);
-      if (!singular.empty())
-        step.warnings.push_back(no_condition_number(singular));
-      if (!stages->dense_note().empty())
-        step.warnings.push_back(stages->dense_note());
-      step.equilibrium = equilibrium(solution, stages->discretisation->system, stages->tables);
-    }
+      stages->conclude(step);
     finished_step(step);
-    stages->times = StageTimes();
     if (!finished)
       stages->refine(refinement);
   }

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/quadrature_lib.h>
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/contact_traces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace hpvi
@@ -35,38 +31,29 @@ std::string labelled(const double value, const std::string &unit)
 
 /** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
 template <int dim>
-std::string tensile_contact(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+std::string tensile_contact(const Solution<dim> &solution,
+                            const std::vector<ContactState<dim>> &contact)
 {
-  const Geometry<dim> &geometry = solution.scene.geometry;
-  const double diameter = geometry.corners[0].distance(geometry.corners[3]);
-  double tension = 0, all = 0, highest = 0, round_off = 0;
-  Point<dim> where;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  double tension = 0, all = 0;
+  const ContactState<dim> *worst = nullptr;
+  for (const ContactState<dim> &state : contact)
   {
-    const unsigned int n = face.degree + 1;
-    const ContactTraces<dim> traces(face, n, solution, tables);
-    for (unsigned int q = 0; q < n; ++q)
-    {
-      const double weight = tables.gauss(n).weight(q) * face.length;
-      const double traction = traces.normal_traction(q);
-      all += weight * std::abs(traction);
-      tension += weight * std::max(traction, 0.);
-      if (traction > highest)
-      {
-        highest = traction;
-        where = face.point(tables.gauss(n).point(q)[0]);
-        // A stress that the last bits of u alone make is none.
-        round_off = 1e-12 * solution.scene.material_of(face.cell).mu() * solution.u.linfty_norm() /
-                    diameter;
-      }
-    }
+    tension += state.tension;
+    all += 2 * state.tension - state.normal_resultant;
+    if (!worst || state.highest_tension > worst->highest_tension)
+      worst = &state;
   }
-  if (!(tension > 0.01 * all && highest > round_off))
+  // A stress that the last bits of u alone make is none.
+  const Geometry<dim> &geometry = solution.scene.geometry;
+  const double diameter = geometry.corners[0].distance(geometry.corners[3]),
+               round_off =
+                   1e-12 * solution.scene.largest_mu() * solution.u.linfty_norm() / diameter;
+  if (!worst || !(tension > 0.01 * all && worst->highest_tension > round_off))
     return {};
   return line("bilateral contact pulls: ", 100 * tension / all,
               " % of the normal traction is tensile, up to ",
-              labelled(highest, solution.scene.stress_unit), " at (", where,
-              "); a body that may lift off needs unilateral contact");
+              labelled(worst->highest_tension, solution.scene.stress_unit), " at (",
+              worst->highest_tension_point, "); a body that may lift off needs unilateral contact");
 }
 
 /** Gauss points obey |z_i| <= g(x_i), the polynomial through them need not. */
@@ -95,22 +82,21 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
 }
 
 template <int dim>
-std::string coarse_transition(const Solution<dim> &solution)
+std::string coarse_transition(const Solution<dim> &solution,
+                              const std::vector<ContactState<dim>> &contact)
 {
-  std::map<types::boundary_id, double> whole;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    whole[face.condition->id] += face.length;
   std::string list;
-  for (const Point<dim> &x : transitions(solution))
-    for (const ContactFace<dim> &face : solution.contact_space.faces())
-    {
-      const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
-      const double s = (x - face.point(0.)) * edge / edge.norm_square();
-      if (s >= 0 && s < 1 && (x - face.point(s)).norm() < 1e-6 * face.length &&
-          face.length > 0.01 * whole[face.condition->id])
-        list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
-                     labelled(face.length, solution.scene.length_unit));
-    }
+  for (const ContactState<dim> &state : contact)
+    for (const Point<dim> &x : state.transitions)
+      for (const ContactFace<dim> &face : solution.contact_space.faces())
+      {
+        const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
+        const double s = (x - face.point(0.)) * edge / edge.norm_square();
+        if (face.condition->id == state.boundary && s >= 0 && s < 1 &&
+            (x - face.point(s)).norm() < 1e-6 * face.length && face.length > 0.01 * state.length)
+          list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
+                       labelled(face.length, solution.scene.length_unit));
+      }
   if (list.empty())
     return {};
   return "stick and slip meet at " + list +
@@ -118,28 +104,29 @@ std::string coarse_transition(const Solution<dim> &solution)
 }
 
 /** Three steps in a row that bring less than a tenth each. */
-std::string stagnating_estimate(const std::vector<double> &estimates)
+std::string stagnating_estimate(const History &history)
 {
-  const unsigned int n = estimates.size(), steps = 3;
+  const unsigned int n = history.size(), steps = 3;
   if (n <= steps)
     return {};
   for (unsigned int k = n - steps; k < n; ++k)
-    if (!(estimates[k] > 0.9 * estimates[k - 1]))
+    if (!(history[k].estimate > 0.9 * history[k - 1].estimate))
       return {};
-  return line("the error indicator stagnates: ", estimates[n - 1 - steps], " three steps ago, ",
-              estimates[n - 1], " now; the data may hold what no refinement resolves");
+  return line("the error indicator stagnates: ", history[n - 1 - steps].estimate,
+              " three steps ago, ", history[n - 1].estimate,
+              " now; the data may hold what no refinement resolves");
 }
 
 /** Refinement lowers the indicator of any load with finite energy; a factor 4 upwards is none. */
-std::string rising_estimate(const std::vector<double> &estimates)
+std::string rising_estimate(const History &history)
 {
-  for (unsigned int k = 1, least = 0; k < estimates.size(); ++k)
+  for (unsigned int k = 1, least = 0; k < history.size(); ++k)
   {
-    if (estimates[k] > 4 * estimates[least])
-      return line("the error indicator rose from ", estimates[least], " in step ", least + 1,
-                  " to ", estimates[k], " in step ", k + 1,
+    if (history[k].estimate > 4 * history[least].estimate)
+      return line("the error indicator rose from ", history[least].estimate, " in step ", least + 1,
+                  " to ", history[k].estimate, " in step ", k + 1,
                   ": a load or a prescribed displacement may be unbounded; look for poles");
-    if (estimates[k] < estimates[least])
+    if (history[k].estimate < history[least].estimate)
       least = k;
   }
   return {};
@@ -238,21 +225,16 @@ std::string rich_multiplier(const Solution<dim> &solution)
 
 /** Friction gives all it has, `|sum w_i z_i t| = sum w_i g(x_i)`: both edges of a strip may be in contact. */
 template <int dim>
-std::string whole_body_slips(const Solution<dim> &solution)
+std::string whole_body_slips(const Solution<dim> &solution,
+                             const std::vector<ContactState<dim>> &contact)
 {
   if (!solution.scene.free_translation)
     return {};
-  const ContactSpace<dim> &contact = solution.contact_space;
-  double used = 0;
-  for (const ContactFace<dim> &face : contact.faces())
-    for (unsigned int i = 0; i < face.n_multipliers; ++i)
-    {
-      const unsigned int k = face.first_multiplier + i;
-      const double s = solution.tables.gauss(face.n_points).point(i)[0];
-      used += contact.weights()[k] * solution.z[k] *
-              (face.frame(s).tangent * *solution.scene.free_translation);
-    }
-  if (std::abs(used) < (1 - 1e-8) * contact.discrete_friction_limit())
+  Tensor<1, dim> friction;
+  for (const ContactState<dim> &state : contact)
+    friction += state.friction_force;
+  if (std::abs(friction * *solution.scene.free_translation) <
+      (1 - slip_tolerance) * solution.contact_space.discrete_friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
               *solution.scene.free_translation,
@@ -295,25 +277,41 @@ std::string unresolved_jump(const Solution<dim> &solution)
               ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
+
+/** Empty fields of the table are explained once. */
+std::string no_condition_number(const History &history)
+{
+  std::string list;
+  for (unsigned int k = 0; k < history.size(); ++k)
+    if (history[k].lacks_condition)
+      list += (list.empty() ? "" : ", ") + std::to_string(k + 1);
+  if (list.empty())
+    return {};
+  return "S is singular up to round-off in step " + list +
+         ": there the table has no condition number; Friction bound may differ too much from point "
+         "to point, or a multiplier act nowhere";
+}
 } // namespace
 
 template <int dim>
-std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                  const std::vector<double> &estimates,
-                                  const AlgebraicError &algebraic)
+std::vector<std::string> warnings(const Solution<dim> &solution,
+                                  const std::vector<ContactState<dim>> &contact,
+                                  const History &history, const AlgebraicError &algebraic)
 {
   std::vector<std::string> result;
   for (const std::string &warning :
-       {tensile_contact(solution, tables), overshooting_multiplier(solution),
-        coarse_transition(solution), stagnating_estimate(estimates), rising_estimate(estimates),
-        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution),
-        coarse_bound(solution), unresolved_jump(solution)})
+       {tensile_contact(solution, contact), overshooting_multiplier(solution),
+        coarse_transition(solution, contact), stagnating_estimate(history),
+        rising_estimate(history), round_off(algebraic), elongated_elements(solution),
+        sharp_corners(solution.scene.geometry), locking(solution), rich_multiplier(solution),
+        whole_body_slips(solution, contact), coarse_bound(solution), unresolved_jump(solution),
+        no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
 }
 
-template std::vector<std::string> warnings(const Solution<2> &, const ShapeTables<2> &,
-                                           const std::vector<double> &, const AlgebraicError &);
+template std::vector<std::string> warnings(const Solution<2> &,
+                                           const std::vector<ContactState<2>> &, const History &,
+                                           const AlgebraicError &);
 } // namespace hpvi

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace hpvi
@@ -26,27 +28,6 @@ std::string text(const unsigned int value)
 
 namespace
 {
-/** The character that starts at @p i, which moves behind it; what is no UTF-8 is taken as Latin-1. */
-char32_t next_character(const std::string &content, std::size_t &i)
-{
-  const auto byte = [&content](const std::size_t k) -> unsigned char
-  { return k < content.size() ? content[k] : 0; };
-  const unsigned char first = byte(i++);
-  const unsigned int n_more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-  char32_t c = n_more == 0 ? first : first & (0x3f >> n_more);
-  for (unsigned int k = 0; k < n_more; ++k)
-  {
-    if ((byte(i + k) & 0xc0) != 0x80)
-      return first;
-    c = c << 6 | (byte(i + k) & 0x3f);
-  }
-  const char32_t lowest[] = {0, 0x80, 0x800, 0x10000}; // of this length
-  if (first >= 0xf8 || c < lowest[n_more] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
-    return first;
-  i += n_more;
-  return c;
-}
-
 void append_utf8(std::string &result, const char32_t c)
 {
   const unsigned int n_more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
@@ -62,7 +43,10 @@ std::string legible(const std::string &content)
   std::string result;
   for (std::size_t i = 0; i < content.size();)
   {
-    const char32_t c = next_character(content, i);
+    const Character character = character_at(content, i);
+    const char32_t c =
+        character.length > 0 ? character.code : static_cast<unsigned char>(content[i]);
+    i += std::max<std::size_t>(character.length, 1);
     const bool control = c < 0x20 || (c >= 0x7f && c < 0xa0);
     const bool no_character = c == 0xfffe || c == 0xffff;
     append_utf8(result, control ? U' ' : no_character ? U'\xfffd' : c);

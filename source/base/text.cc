@@ -13,15 +13,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-/** A character and the number of bytes that it takes; none where they are no UTF-8. */
-struct Character
-{
-  char32_t code;
-  std::size_t length;
-};
-
 Character character_at(const std::string &text, const std::size_t start)
 {
   const unsigned char first = text[start];
@@ -29,7 +20,8 @@ Character character_at(const std::string &text, const std::size_t start)
                              : first < 0xC0 ? 0
                              : first < 0xE0 ? 2
                              : first < 0xF0 ? 3
-                                            : 4;
+                             : first < 0xF8 ? 4
+                                            : 0;
   char32_t code = length < 2 ? first : first & (0x7F >> length);
   for (std::size_t i = start + 1; i < start + length; ++i)
   {
@@ -43,6 +35,8 @@ Character character_at(const std::string &text, const std::size_t start)
                                                                  : Character{code, length};
 }
 
+namespace
+{
 bool is_control(const char32_t code)
 {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x2028 && code <= 0x202E) ||

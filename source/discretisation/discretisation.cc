@@ -25,10 +25,11 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
       unknowns(spaces->displacement_space, spaces->contact_operator, *spaces->tables),
       contact_rows(unknowns.contact_rows()), condensation(spaces->displacement_space, elements),
       system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables, elements),
-      free_motion(scene.free_translation ? std::make_optional(make_translation(
-                                               *scene.free_translation, spaces->displacement_space,
-                                               unknowns, contact_rows, system))
-                                         : std::nullopt)
+      free_motion(scene.free_translation
+                      ? std::make_optional(make_translation(
+                            *scene.free_translation, spaces->displacement_space, unknowns,
+                            contact_rows, spaces->contact_space.weights(), system))
+                      : std::nullopt)
 {
 }
 

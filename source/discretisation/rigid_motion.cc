@@ -36,23 +36,34 @@ double diagonal(const SymmetricMatrix &A, const unsigned int unknown)
 }
 
 /**
- * Soft beside the body: for the quadratic program it is a penalty, and a strong one converges fast. It
- * costs as many digits of u along R alone.
+ * Soft beside the body, a hundredth of the mean stiffness of @p kept: for the quadratic program it is a
+ * penalty, and a strong one converges fast. It costs as many digits of u along R alone.
  */
 Stabilisation stabilise(const SymmetricMatrix &A, const Vector<double> &R,
-                        const std::vector<unsigned int> &where)
+                        const std::vector<unsigned int> &kept, const Vector<double> &P)
 {
   Stabilisation result;
-  double stiffness = 0, square = 0;
-  for (const unsigned int unknown : where)
-    if (R[unknown] != 0.)
+  double stiffness = 0, product = 0;
+  for (unsigned int k = 0; k < kept.size(); ++k)
+    if (P[k] != 0.)
     {
-      result.P.emplace_back(unknown, R[unknown]);
-      stiffness += diagonal(A, unknown) * R[unknown] * R[unknown];
-      square += R[unknown] * R[unknown];
+      result.P.emplace_back(kept[k], P[k]);
+      stiffness += diagonal(A, kept[k]) * R[kept[k]] * R[kept[k]];
+      product += P[k] * R[kept[k]];
     }
-  result.stiffness = 1e-2 * stiffness / result.P.size() / (square * square);
+  result.stiffness = 1e-2 * stiffness / result.P.size() / (product * product);
   return result;
+}
+
+/** B'(G/w), the mean of the displacement along R over the contact, as it is on every mesh. */
+Vector<double> mean_along(const ConditionRows &rows, const Vector<double> &G,
+                          const std::vector<double> &weights)
+{
+  Vector<double> P(rows.kept.size());
+  for (unsigned int i = 0; i < rows.n_rows(); ++i)
+    for (const auto &[place, weight] : rows.B[i])
+      P[place] += weight * G[i] / weights[i];
+  return P;
 }
 } // namespace
 
@@ -72,10 +83,10 @@ double RigidMotion<dim>::penalty() const
 }
 
 template <int dim>
-RigidMotion<dim> make_translation(const Tensor<1, dim> &direction,
-                                  const DisplacementSpace<dim> &space,
-                                  const Unknowns<dim> &unknowns, const ConditionRows &rows,
-                                  const ElasticSystem<dim> &system)
+RigidMotion<dim>
+make_translation(const Tensor<1, dim> &direction, const DisplacementSpace<dim> &space,
+                 const Unknowns<dim> &unknowns, const ConditionRows &rows,
+                 const std::vector<double> &weights, const ElasticSystem<dim> &system)
 {
   Vector<double> u(space.n_dofs());
   for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -95,7 +106,8 @@ RigidMotion<dim> make_translation(const Tensor<1, dim> &direction,
   result.load = along(system.f);
   if (result.is_seen())
   {
-    result.stabilisation = stabilise(system.A, result.R, rows.kept);
+    result.stabilisation =
+        stabilise(system.A, result.R, rows.kept, mean_along(rows, result.G, weights));
     return result;
   }
   double absolute = 0;
@@ -107,12 +119,14 @@ RigidMotion<dim> make_translation(const Tensor<1, dim> &direction,
       std::max_element(result.R.begin(), result.R.end(),
                        [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
       result.R.begin();
-  result.stabilisation = stabilise(system.A, result.R, {held});
+  const std::vector<double> R_held = {result.R[held]};
+  result.stabilisation =
+      stabilise(system.A, result.R, {held}, Vector<double>(R_held.begin(), R_held.end()));
   return result;
 }
 
 template struct RigidMotion<2>;
 template RigidMotion<2> make_translation(const Tensor<1, 2> &, const DisplacementSpace<2> &,
                                          const Unknowns<2> &, const ConditionRows &,
-                                         const ElasticSystem<2> &);
+                                         const std::vector<double> &, const ElasticSystem<2> &);
 } // namespace hpvi

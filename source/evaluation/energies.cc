@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -44,13 +43,13 @@ template <int dim>
 class TangentialDisplacement
 {
 public:
-  TangentialDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution,
-                         const ShapeTables<dim> &tables)
-      : basis(tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
+  TangentialDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution)
+      : basis(solution.tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
   {
-    const std::vector<double> values = evaluate(
-        tables.face(face.degree, face.face_no, face.degree + 1).values,
-        solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree)));
+    const ShapeTables<dim> &tables = solution.tables;
+    const std::vector<double> values =
+        evaluate(tables.face(face.degree, face.face_no, face.degree + 1).values,
+                 solution.coefficients(face.cell->active_cell_index()));
     for (unsigned int k = 0; k < nodal.size(); ++k)
     {
       const Tensor<1, dim> tangent = face.frame(tables.gauss(nodal.size()).point(k)[0]).tangent;
@@ -89,38 +88,24 @@ double friction_work(const ContactFace<dim> &face, const TangentialDisplacement<
     }
   return face.length * sum;
 }
-
-/** The friction force along t has one direction where there is one contact boundary alone. */
-template <int dim>
-bool has_one_contact_boundary(const Scene<dim> &scene)
-{
-  return std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
-                       [](const auto &boundary) { return boundary.bilateral_contact; }) == 1;
-}
 } // namespace
 
 template <int dim>
-Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                  const ShapeTables<dim> &tables, const double a)
+Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system, const double a)
 {
   double friction = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
-      friction += friction_work(face, TangentialDisplacement<dim>(face, solution, tables),
-                                tables.gauss(face.degree + 2));
+      friction += friction_work(face, TangentialDisplacement<dim>(face, solution),
+                                solution.tables.gauss(face.degree + 2));
   const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
-  const std::vector<double> &weights = solution.contact_space.weights();
   const double coupling =
       std::inner_product(solution.z.begin(), solution.z.end(), moments.begin(), 0.);
-  double resultant = -std::inner_product(solution.z.begin(), solution.z.end(), weights.begin(), 0.);
-  if (!has_one_contact_boundary(solution.scene))
-    resultant = std::numeric_limits<double>::quiet_NaN();
   const double potential = 0.5 * a - system.work(solution.u);
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
-  return {potential + coupling, potential + friction, norm, resultant, friction - coupling};
+  return {potential + coupling, potential + friction, norm, friction - coupling};
 }
 
-template Energies energies(const Solution<2> &, const ElasticSystem<2> &, const ShapeTables<2> &,
-                           double);
+template Energies energies(const Solution<2> &, const ElasticSystem<2> &, double);
 } // namespace hpvi

@@ -114,10 +114,10 @@ void carry_to_masters(const AffineConstraints<double> &hanging, Vector<double> &
 } // namespace
 
 template <int dim>
-Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                             const ShapeTables<dim> &tables)
+Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system)
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
+  const ShapeTables<dim> &tables = solution.tables;
   const Nodes<dim> nodes(space);
   Resultants<dim> resultants(solution);
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
@@ -159,6 +159,5 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
 }
 
 template struct Equilibrium<2>;
-template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &,
-                                    const ShapeTables<2> &);
+template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &);
 } // namespace hpvi

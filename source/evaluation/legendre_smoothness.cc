@@ -154,11 +154,10 @@ double LegendreSmoothness<dim>::decay_rate(const std::vector<double> &coefficien
 
 template <int dim>
 double LegendreSmoothness<dim>::decay_rate(const Solution<dim> &solution,
-                                           const ShapeTables<dim> &tables,
                                            const unsigned int cell) const
 {
   const unsigned int degree = solution.displacement_space.degrees()[cell];
-  return decay_rate(solution.coefficients(cell, tables.numbering(degree)), degree);
+  return decay_rate(solution.coefficients(cell), degree);
 }
 
 template class LegendreSmoothness<2>;

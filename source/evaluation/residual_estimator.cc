@@ -35,7 +35,7 @@ class Residuals
 public:
   using Cell = typename DoFHandler<dim>::active_cell_iterator;
 
-  Residuals(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+  Residuals(const Solution<dim> &solution);
   ErrorEstimate compute();
 
 private:
@@ -60,8 +60,8 @@ private:
 };
 
 template <int dim>
-Residuals<dim>::Residuals(const Solution<dim> &solution, const ShapeTables<dim> &tables)
-    : solution(solution), tables(tables), degrees(solution.displacement_space.degrees())
+Residuals<dim>::Residuals(const Solution<dim> &solution)
+    : solution(solution), tables(solution.tables), degrees(solution.displacement_space.degrees())
 {
   const unsigned int n_cells = degrees.size();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
@@ -69,7 +69,7 @@ Residuals<dim>::Residuals(const Solution<dim> &solution, const ShapeTables<dim> 
   for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
     const unsigned int index = cell->active_cell_index();
-    coefficients.push_back(solution.coefficients(index, tables.numbering(degrees[index])));
+    coefficients.push_back(solution.coefficients(index));
     maps.push_back(map_of<dim>(cell));
     sizes.push_back(maps.back().longest_edge());
   }
@@ -271,13 +271,13 @@ ErrorEstimate Residuals<dim>::compute()
 } // namespace
 
 template <int dim>
-ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+ErrorEstimate estimate_error(const Solution<dim> &solution)
 {
-  return Residuals<dim>(solution, tables).compute();
+  return Residuals<dim>(solution).compute();
 }
 
 template <int dim>
-double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables)
+double round_off_of_estimate(const Solution<dim> &solution)
 {
   Scene<dim> unloaded = solution.scene;
   unloaded.body_force = {};
@@ -295,11 +295,10 @@ double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<di
     for (const auto dof : space.cell_dofs(cell))
       u[dof] = std::numeric_limits<double>::epsilon() * largest * uniform(random);
   }
-  return estimate_error<dim>({unloaded, solution.spaces, u, Vector<double>(solution.z.size())},
-                             tables)
+  return estimate_error<dim>({unloaded, solution.spaces, u, Vector<double>(solution.z.size())})
       .total();
 }
 
-template ErrorEstimate estimate_error(const Solution<2> &, const ShapeTables<2> &);
-template double round_off_of_estimate(const Solution<2> &, const ShapeTables<2> &);
+template ErrorEstimate estimate_error(const Solution<2> &);
+template double round_off_of_estimate(const Solution<2> &);
 } // namespace hpvi

@@ -162,14 +162,13 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
 } // namespace
 
 template <int dim>
-StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                    const double energy)
+StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const double energy)
     : mesh(&solution.displacement_space.triangulation()),
       problem(problem_of(solution.scene.effective_parameters)), energy_value(energy),
       degrees(solution.displacement_space.degrees())
 {
   for (unsigned int cell = 0; cell < degrees.size(); ++cell)
-    cell_coefficients.push_back(solution.coefficients(cell, tables.numbering(degrees[cell])));
+    cell_coefficients.push_back(solution.coefficients(cell));
 }
 
 template <int dim>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/true_error.h>
 
 #include <algorithm>
@@ -176,8 +175,7 @@ void add_graded_boxes(const CellMap<dim> &map, const Box<dim> &box,
 } // namespace
 
 template <int dim>
-TrueError<dim>::TrueError(const Scene<dim> &scene, const ShapeTables<dim> &tables)
-    : scene(scene), tables(tables)
+TrueError<dim>::TrueError(const Scene<dim> &scene) : scene(scene)
 {
   if (!scene.exact_solution && !scene.reference_solution.empty())
     reference = std::make_unique<const StoredSolution<dim>>(scene, scene.reference_solution);
@@ -187,11 +185,12 @@ template <int dim>
 TrueError<dim>::~TrueError() = default;
 
 template <int dim>
-TrueErrors TrueError<dim>::measure(const Solution<dim> &solution) const
+TrueErrors TrueError<dim>::measure(const Solution<dim> &solution,
+                                   const std::vector<ContactState<dim>> &contact) const
 {
   TrueErrors errors;
   if (scene.exact_solution)
-    compare_with_exact(solution, errors);
+    compare_with_exact(solution, contact, errors);
   else if (reference)
     compare_with_reference(solution, errors);
   return errors;
@@ -200,7 +199,7 @@ TrueErrors TrueError<dim>::measure(const Solution<dim> &solution) const
 template <int dim>
 void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const
 {
-  const StoredSolution<dim> field(solution, tables);
+  const StoredSolution<dim> field(solution);
   const Squares sums = CommonRefinement<dim>(scene, field, *reference).integrate();
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
@@ -274,9 +273,8 @@ double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<di
 
 /** Largest distance of an exact transition to the nearest one of u_N; NaN where there is none. */
 template <int dim>
-double transition_error(const Solution<dim> &solution, const ExactSolution<dim> &exact)
+double transition_error(const std::vector<Point<dim>> &found, const ExactSolution<dim> &exact)
 {
-  const std::vector<Point<dim>> found = transitions(solution);
   const std::vector<Point<dim>> sought = exact.transitions();
   if (found.empty() || sought.empty())
     return TrueErrors::unknown;
@@ -293,10 +291,12 @@ double transition_error(const Solution<dim> &solution, const ExactSolution<dim> 
 } // namespace
 
 template <int dim>
-void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueErrors &errors) const
+void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
+                                        const std::vector<ContactState<dim>> &contact,
+                                        TrueErrors &errors) const
 {
   const ExactSolution<dim> &exact = *scene.exact_solution;
-  const StoredSolution<dim> stored(solution, tables);
+  const StoredSolution<dim> stored(solution);
   Squares sums;
   for (const auto &cell : stored.triangulation().active_cell_iterators())
   {
@@ -340,7 +340,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution, TrueError
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     square += multiplier_square(solution, face, exact);
   errors.multiplier_l2 = std::sqrt(square);
-  errors.transition = transition_error(solution, exact);
+  errors.transition = transition_error(transitions(contact), exact);
 }
 
 template class TrueError<2>;

@@ -67,7 +67,7 @@ std::string axis_label(const std::string &coordinate, const double offset, const
 class MeshPicture
 {
 public:
-  MeshPicture(const Step<2> &step);
+  MeshPicture(const StepReport<2> &step);
   std::string svg();
 
 private:
@@ -83,7 +83,7 @@ private:
   void draw_axes();
   void draw_legend();
 
-  const Step<2> &step;
+  const StepReport<2> &step;
   const DisplacementSpace<2> &space;
   const BoundingBox<2> box;
   const double scale; ///< pixels per length
@@ -95,7 +95,7 @@ private:
   static constexpr double swatch = 30.;
 };
 
-MeshPicture::MeshPicture(const Step<2> &step)
+MeshPicture::MeshPicture(const StepReport<2> &step)
     : step(step), space(step.solution.displacement_space),
       box(GridTools::compute_bounding_box(space.triangulation())),
       scale(longest / std::max(box.side_length(0), box.side_length(1))),
@@ -248,7 +248,7 @@ std::string MeshPicture::svg()
 }
 } // namespace
 
-std::string mesh_picture(const Step<2> &step)
+std::string mesh_picture(const StepReport<2> &step)
 {
   return MeshPicture(step).svg();
 }

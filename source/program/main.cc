@@ -84,7 +84,7 @@ void print_table_head(const bool with_error)
             << std::endl;
 }
 
-void print_row(const Step<dim> &step)
+void print_row(const StepReport<dim> &step)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
@@ -170,7 +170,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   try
   {
     solver.run(
-        [&](const Step<dim> &step)
+        [&](const StepReport<dim> &step)
         {
           progress.erase();
           print_row(step);
@@ -212,7 +212,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
 
-void print_inf_sup_row(const Step<dim> &step, const InfSup &inf_sup)
+void print_inf_sup_row(const StepReport<dim> &step, const InfSup &inf_sup)
 {
   const DisplacementSpace<dim> &space = step.solution.displacement_space;
   std::cout << std::setw(4) << step.number << std::setw(10) << space.degrees().size()
@@ -259,7 +259,7 @@ void print_inf_sup(const Scene<dim> &scene)
             << std::endl;
   ProgressLine progress;
   solver.run(
-      [&](const Step<dim> &step)
+      [&](const StepReport<dim> &step)
       {
         progress.show({step.number, "measuring the inf-sup constant", ""});
         const DisplacementSpace<dim> &space = step.solution.displacement_space;

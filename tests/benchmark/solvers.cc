@@ -318,7 +318,7 @@ void run(const std::string &file)
   double next_size = 1000;
   print_head();
   solver.run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const unsigned int n_free_dofs = step.solution.displacement_space.n_free_dofs();
         if (n_free_dofs < next_size && step.stopped_by.empty())

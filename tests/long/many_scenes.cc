@@ -90,7 +90,7 @@ std::string result(const unsigned int number)
   {
     const Scene<2> own = scene(number);
     AdaptiveSolver<2>(own).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           ++n_steps;
           digest.add(step.solution.u.begin(), step.solution.u.end());

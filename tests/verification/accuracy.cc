@@ -21,7 +21,7 @@ std::vector<Row> run(const Scene<2> &scene)
 {
   std::vector<Row> rows;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         rows.push_back({step.solution.displacement_space.n_free_dofs(), step.relative_estimate,
                         step.scaled_estimate, step.seconds, step.energies.energy, step.errors,
@@ -78,7 +78,7 @@ TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
       square += 2 * gauss.weight(i) * gauss.weight(j) *
                 scene.exact_solution->displacement(x).norm_square();
     }
-  const TrueErrors errors = TrueError<2>(scene, discrete.tables).measure(nothing);
+  const TrueErrors errors = TrueError<2>(scene).measure(nothing, contact_states(nothing));
   EXPECT_NEAR(errors.energy, std::sqrt(0.37710185557), 1e-9);
   EXPECT_NEAR(errors.l2, std::sqrt(square), 1e-8);
   EXPECT_NEAR(errors.multiplier_l2, std::sqrt(7. / 6), 1e-9);
@@ -98,7 +98,8 @@ TEST(TrueError, OfTheTransitionIsADistance)
     z[i] = discrete.contact_space.largest_bound();
   const Solution<2> solution{scene, discrete.spaces,
                              Vector<double>(discrete.displacement_space.n_dofs()), z};
-  EXPECT_NEAR(TrueError<2>(scene, discrete.tables).measure(solution).transition, 0.1, 1e-14);
+  EXPECT_NEAR(TrueError<2>(scene).measure(solution, contact_states(solution)).transition, 0.1,
+              1e-14);
 }
 
 TEST(TrueError, PureDegreeConvergesExponentiallyOnASmoothField)
@@ -142,7 +143,7 @@ TEST(TrueError, EnergyDifferenceObeysItsIdentity)
 {
   AdaptiveSolver<2>(shipped_scene("stick-slip", adaptivity("hpa3", 14)))
       .run(
-          [](const Step<2> &step)
+          [](const StepReport<2> &step)
           {
             const double half_square = 0.5 * std::pow(step.errors.energy, 2);
             const double expected = half_square + step.energies.slack;
@@ -156,7 +157,7 @@ TEST(TrueError, EnergyTendsToThatOfTheExactSolution)
 {
   AdaptiveSolver<2>(shipped_scene("smooth", {{"Adaptivity/Maximum steps", "9"}}))
       .run(
-          [](const Step<2> &step)
+          [](const StepReport<2> &step)
           {
             const double bound = 1e-9 + step.errors.energy * step.errors.energy_norm;
             EXPECT_NEAR(step.energies.energy, step.errors.reference_energy, bound) << step.number;
@@ -198,12 +199,12 @@ public:
   {
     const ShapeTables<2> tables;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           if (step.stopped_by.empty())
             return;
           std::ofstream file(path);
-          StoredSolution<2>(step.solution, tables, step.energies.energy).write(file);
+          StoredSolution<2>(step.solution, step.energies.energy).write(file);
         });
   }
   ~ReferenceFile()
@@ -260,7 +261,7 @@ TEST(StoredSolution, ObeysPythagoras)
     overrides.emplace_back("Error/Reference solution", file.path);
     AdaptiveSolver<2>(shipped_scene("han-6-12", overrides))
         .run(
-            [&](const Step<2> &step)
+            [&](const StepReport<2> &step)
             {
               const double norm = step.errors.energy_norm, own = step.energies.norm;
               const double expected = norm * norm - own * own;
@@ -334,7 +335,7 @@ TEST(Limits, SecondsAreThoseOfAllStepsSoFar)
   double sum = 0;
   AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "4"}}))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             sum += step.times.total();
             EXPECT_GT(step.times.total(), 0.);

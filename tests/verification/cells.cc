@@ -628,7 +628,7 @@ void expect_right_indicator(const Scene<2> &scene, const unsigned int seed,
   const Laboratory discrete(scene, mesh);
   std::mt19937 random(seed);
   const Solution<2> field = discrete.random_field(random);
-  const ErrorEstimate computed = estimate_error(field, discrete.tables);
+  const ErrorEstimate computed = estimate_error(field);
   const ErrorEstimate expected = ResidualOracle(field, extra).result;
   expect_same("volume", computed.volume, expected.volume);
   expect_same("jumps", computed.jumps, expected.jumps);
@@ -669,7 +669,7 @@ TEST(ResidualIndicator, IsScaledByTheCoercivityOfTheMaterial)
                                                  {"Material/Plane", plane},
                                                  {"Adaptivity/Maximum steps", "2"}}))
         .run(
-            [](const Step<2> &step)
+            [](const StepReport<2> &step)
             {
               const double eta = step.estimate.total();
               EXPECT_NEAR(step.scaled_estimate, eta / std::sqrt(9.6), 1e-12 * eta);

@@ -142,7 +142,7 @@ TEST_P(AnyBound, IsIntegratedInTheEnergies)
 {
   AdaptiveSolver<2>(pushed_with(GetParam().g))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             SCOPED_TRACE("step " + std::to_string(step.number));
             const Energies &e = step.energies;
@@ -150,7 +150,7 @@ TEST_P(AnyBound, IsIntegratedInTheEnergies)
             EXPECT_NEAR(step.solution.contact_space.friction_limit(), GetParam().integral, 1e-11);
             EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
             const FrictionIntegrals sums = integrate_friction(step.solution, 4096);
-            EXPECT_NEAR(e.resultant, sums.resultant, 1e-6 * sums.bound);
+            EXPECT_NEAR(step.contact.at(0).friction_resultant, sums.resultant, 1e-6 * sums.bound);
             EXPECT_NEAR(e.slack, sums.friction - sums.coupling, 1e-5 * sums.friction);
             expect_slack_of_overshoot_alone(step.solution, e.slack);
           });
@@ -191,8 +191,7 @@ TEST(Contact, SeesASignChangeOnASample)
     const VectorFunctionFromScalarFunctionObject<2> slip(
         [](const Point<2> &x) { return x[0] - 0.5; }, 0, 2);
     VectorTools::interpolate(discrete.displacement_space.dof_handler(), slip, u);
-    const Energies e =
-        energies<2>({scene, discrete.spaces, u, lambda}, discrete.system, discrete.tables, 0.);
+    const Energies e = energies<2>({scene, discrete.spaces, u, lambda}, discrete.system, 0.);
     EXPECT_NEAR(e.slack, 3 * 0.25, 1e-14) << "p = " << p;
   }
 }
@@ -218,7 +217,7 @@ std::string failure_of(const Scene<2> &scene)
   try
   {
     AdaptiveSolver<2>(scene).run(
-        [](const Step<2> &step)
+        [](const StepReport<2> &step)
         {
           EXPECT_TRUE(std::isfinite(step.energies.energy));
           EXPECT_TRUE(std::isfinite(step.solution.u.l2_norm()));
@@ -255,7 +254,7 @@ TEST(FreeBody, BalancesItsLoadsByABump)
     double resultant = 0;
     AdaptiveSolver<2>(free_strip("if(abs(x - " + text(a) + ") < 0.05, 10, 0)", 0.7,
                                  {{"Geometry/Subdivisions", "80, 10"}}))
-        .run([&](const Step<2> &step) { resultant = step.energies.resultant; });
+        .run([&](const StepReport<2> &step) { resultant = step.contact.at(0).friction_resultant; });
     EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
   }
 }
@@ -271,7 +270,7 @@ TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
   std::vector<std::string> warnings;
   AdaptiveSolver<2>(free_strip(bump, 0, {{"Boundary top/Traction", "0; -1"}}))
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
             warnings = step.warnings;
             EXPECT_NEAR(step.energies.norm, std::sqrt(4. * (1 - 0.09)), 1e-10);
@@ -301,7 +300,7 @@ TEST(Jump, IsBisectedInEveryStepByMethodsThatBisect)
     double expected = 1;
     AdaptiveSolver<2>(pushed_with("if(x < 1.3, 0.2, 0.3)", {{"Adaptivity/Method", method}}))
         .run(
-            [&](const Step<2> &step)
+            [&](const StepReport<2> &step)
             {
               EXPECT_LE(edge_with_the_jump(step.solution, 1.3), expected)
                   << method << ", step " << step.number;
@@ -317,7 +316,7 @@ TEST(Jump, IsWarnedOfUnlessAVertexLiesThere)
     std::vector<std::string> result;
     AdaptiveSolver<2>(
         pushed_with(bound, {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "2"}}))
-        .run([&](const Step<2> &step) { result = step.warnings; });
+        .run([&](const StepReport<2> &step) { result = step.warnings; });
     return result;
   };
   const std::string words = "Friction bound jumps inside 1 edge, by up to 0.1";
@@ -351,7 +350,7 @@ public:
         const Point<2> x = face.point(QGauss<1>(face.n_multipliers).point(i)[0]);
         lambda[face.first_multiplier + i] = value(x) * face.friction_bound(x);
       }
-    return transitions<2>({discrete.scene, discrete.spaces, u, lambda});
+    return transitions(contact_states<2>({discrete.scene, discrete.spaces, u, lambda}));
   }
 
 private:
@@ -471,10 +470,10 @@ TEST(TwoContactBoundaries, HaveNoTransitionInsideTheBodyAndNoCommonResultant)
   unsigned int n_transitions = 0;
   AdaptiveSolver<2>(block_in_a_corner())
       .run(
-          [&](const Step<2> &step)
+          [&](const StepReport<2> &step)
           {
-            EXPECT_TRUE(std::isnan(step.energies.resultant));
-            for (const Point<2> &x : transitions(step.solution))
+            EXPECT_EQ(step.contact.size(), 2U);
+            for (const Point<2> &x : transitions(step.contact))
             {
               EXPECT_TRUE(x[0] == 0. || x[1] == 0.) << x;
               ++n_transitions;
@@ -490,21 +489,83 @@ TEST(TwoContactBoundaries, TablesRunAlongTheTangentOfEach)
   const Laboratory discrete(scene, mesh);
   std::mt19937 random(5);
   const Solution<2> field = discrete.random_field(random);
-  for (const unsigned int boundary : {0U, 2U})
+  const std::vector<ContactState<2>> states = contact_states(field);
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_EQ(states[0].boundary, 0U);
+  EXPECT_EQ(states[1].boundary, 2U);
+  for (const ContactState<2> &state : states)
   {
     double last = -2;
+    auto point = state.points.begin();
     for (const ContactFace<2> &face : discrete.contact_space.faces())
-      if (face.condition->id == boundary)
-        for (const ContactPoint<2> &point : contact_points(face, field))
-        {
-          EXPECT_NEAR(point.lambda * point.friction_bound,
-                      discrete.contact_space.value(face, field.z,
-                                                   point.x.distance(face.point(0.)) / face.length),
-                      1e-10);
-          const double place = face.frame(0.5).tangent * point.x;
-          EXPECT_GT(place, last);
-          last = place;
-        }
+      for (unsigned int q = 0; q < face.n_points && face.condition->id == state.boundary; ++q)
+      {
+        ASSERT_NE(point, state.points.end());
+        EXPECT_NEAR(point->lambda * point->friction_bound,
+                    discrete.contact_space.value(face, field.z,
+                                                 point->x.distance(face.point(0.)) / face.length),
+                    1e-10);
+        const double place = face.frame(0.5).tangent * point->x;
+        EXPECT_GT(place, last);
+        last = place;
+        ++point;
+      }
+    EXPECT_EQ(point, state.points.end());
+  }
+}
+
+/** A displacement with sigma_yy = x - 1 on the bottom of a block of length 4: it pulls beyond x = 1. */
+TEST(ContactState, ResultantsAreIntegrals)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "4, 1"},
+                                   {"Geometry/Subdivisions", "8, 1"},
+                                   {"Material/Young's modulus", "1"},
+                                   {"Material/Poisson's ratio", "0"},
+                                   {"Boundary top/Displacement", "0; 0"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "if(x < 3, 0.5, 0)"}});
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Laboratory discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
+  Vector<double> u(discrete.displacement_space.n_dofs()),
+      lambda(discrete.contact_space.n_multipliers());
+  const VectorFunctionFromScalarFunctionObject<2> rising(
+      [](const Point<2> &x) { return (x[0] - 1) * x[1]; }, 1, 2);
+  VectorTools::interpolate(discrete.displacement_space.dof_handler(), rising, u);
+  lambda = 0.3;
+  const std::vector<ContactState<2>> states =
+      contact_states<2>({scene, discrete.spaces, u, lambda});
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_NEAR(states[0].length, 4, 1e-14);
+  EXPECT_NEAR(states[0].normal_resultant, 4, 1e-12);
+  EXPECT_NEAR(states[0].tension, 4.5, 1e-12);
+  EXPECT_NEAR(states[0].highest_tension_point.distance(Point<2>(4, 0)), 0, 0.1);
+  EXPECT_NEAR(states[0].highest_tension, states[0].highest_tension_point[0] - 1, 1e-12);
+  EXPECT_NEAR(states[0].friction_resultant, -0.9, 1e-12);
+  EXPECT_NEAR((states[0].friction_force - Tensor<1, 2>({-0.9, 0})).norm(), 0, 1e-12);
+  for (const ContactPoint<2> &point : states[0].points)
+  {
+    EXPECT_NEAR(point.normal_traction, point.x[0] - 1, 1e-12);
+    EXPECT_EQ(point.tangential_traction, point.x[0] < 3 ? -0.3 : 0.);
+    EXPECT_EQ(point.slips, point.x[0] > 3);
+  }
+}
+
+TEST(ContactState, SlipsWhereLambdaIsOneUpToTheTolerance)
+{
+  const Scene<2> scene = strip();
+  Multipliers multipliers(scene, 3);
+  for (const double sign : {-1., 1.})
+  {
+    const auto at_the_edge = [&](const double distance)
+    {
+      return multipliers
+          .transitions_of([=](const Point<2> &x)
+                          { return x[0] < 3 ? 0. : sign * (1 - distance * slip_tolerance); })
+          .size();
+    };
+    EXPECT_EQ(at_the_edge(0.9), 1U);
+    EXPECT_EQ(at_the_edge(1.1), 0U);
   }
 }
 
@@ -540,7 +601,7 @@ struct LoadedFoot
 void expect_uniform(const LoadedFoot &foot, const Scene<2> &scene, const double traction)
 {
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const ShapeTables<2> tables;
         EXPECT_LE(step.estimate.total(), 1e-12);
@@ -548,7 +609,7 @@ void expect_uniform(const LoadedFoot &foot, const Scene<2> &scene, const double 
           EXPECT_NEAR(z, traction, 1e-10);
         for (const ContactFace<2> &face : step.solution.contact_space.faces())
         {
-          const ContactTraces<2> traces(face, 3, step.solution, tables);
+          const ContactTraces<2> traces(face, 3, step.solution);
           for (unsigned int q = 0; q < 3; ++q)
             EXPECT_NEAR(traces.normal_traction(q), -foot.pressure + foot.up, 1e-12);
         }

@@ -96,7 +96,7 @@ public:
   {
     History history;
     AdaptiveSolver<2>(*scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           history.unknowns.push_back(std::log(step.solution.displacement_space.n_free_dofs()));
           history.error.push_back(std::log(energy_error(step.solution)));
@@ -192,7 +192,7 @@ TEST(Energies, ResolveTheSignChangesOfTheSlip)
     const double a = internal_forces(scene, discrete.displacement_space, discrete.tables, field.u)
                          .energy_product,
                  work = discrete.system.work(field.u);
-    const Energies e = energies(field, discrete.system, discrete.tables, a);
+    const Energies e = energies(field, discrete.system, a);
     EXPECT_NEAR(e.norm * e.norm, a, 1e-12 * a);
     EXPECT_NEAR(e.slack, friction - coupling, 1e-6 * friction);
     EXPECT_NEAR(e.energy - (0.5 * a - work), friction, 1e-6 * friction);
@@ -207,7 +207,7 @@ TEST(Energies, SlackIsNegativeByTheOvershootOfTheMultiplierAtMost)
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "12"}});
     double first = 0, last = 0;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           SCOPED_TRACE(name + ", step " + std::to_string(step.number));
           expect_slack_of_overshoot_alone(step.solution, step.energies.slack);
@@ -231,7 +231,7 @@ History run(const std::string &example, const Overrides &overrides)
   History history;
   const Scene<2> scene = shipped_scene(example, overrides);
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         history.unknowns.push_back(step.solution.displacement_space.n_free_dofs());
         history.indicator.push_back(step.estimate.total());

@@ -164,7 +164,8 @@ TEST(InfSup, OffsetsThatCannotWorkAreRefused)
   EXPECT_THROW(scene_with("0"), InputError);
   EXPECT_THROW(scene_with("-9"), InputError); // a negative degree
   std::vector<std::string> warnings;
-  AdaptiveSolver<2>(scene_with("-1")).run([&](const Step<2> &step) { warnings = step.warnings; });
+  AdaptiveSolver<2>(scene_with("-1"))
+      .run([&](const StepReport<2> &step) { warnings = step.warnings; });
   EXPECT_NE(std::find_if(warnings.begin(), warnings.end(),
                          [](const std::string &w)
                          { return w.find("inf-sup") != std::string::npos; }),

@@ -135,18 +135,18 @@ Distance distance(Bar &bar)
   result.energy = std::abs(product / bar.energy_product - 1);
 
   bar.scene.exact_solution = bar.exact;
-  const TrueErrors errors = TrueError<2>(bar.scene, discrete.tables).measure(solution);
+  const TrueErrors errors = TrueError<2>(bar.scene).measure(solution, contact_states(solution));
   bar.scene.exact_solution = nullptr;
   result.displacement = errors.l2 / solution.u.linfty_norm();
   result.true_error = errors.energy / std::sqrt(bar.energy_product);
   result.true_norm = std::abs(errors.energy_norm * errors.energy_norm / bar.energy_product - 1);
-  result.indicator = estimate_error(solution, discrete.tables).total() /
-                     std::sqrt(bar.energy_product * bar.scene.coercivity());
+  result.indicator =
+      estimate_error(solution).total() / std::sqrt(bar.energy_product * bar.scene.coercivity());
   for (const ContactFace<2> &face : discrete.contact_space.faces())
   {
     const Material &material = bar.scene.materials[face.cell->center()[bar.across] < 1 ? 0 : 1];
     const double expected = material.stress(bar.exact->gradient(face.cell->center()))[1][1];
-    const ContactTraces<2> traces(face, 2, solution, discrete.tables);
+    const ContactTraces<2> traces(face, 2, solution);
     for (unsigned int q = 0; q < 2; ++q)
       result.normal_traction =
           std::max(result.normal_traction, std::abs(traces.normal_traction(q) - expected));

@@ -82,7 +82,7 @@ std::vector<double> numbers(const std::string &name, const Overrides &overrides)
   std::vector<double> result;
   const Scene<2> scene = shipped_scene(name, overrides);
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         result.insert(result.end(), step.solution.u.begin(), step.solution.u.end());
         for (const double value : {step.scaled_estimate, step.energies.energy,
@@ -109,11 +109,13 @@ TEST(Process, IsAsItWasAfterARun)
     AdaptiveSolver<2> solver(scene);
     Output<2> output(scene, directory.string());
     solver.run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           output.write_step(step);
           if (openblas_get_num_threads)
+          {
             EXPECT_EQ(openblas_get_num_threads(), 1);
+          }
         });
     output.finish();
   }
@@ -131,7 +133,7 @@ TEST(Process, IsAsItWasAfterFailures)
   const std::string before = process_state();
   EXPECT_THROW(shipped_scene("han-6-12", {{"Body force/Expression", "0; 2*q"}}), InputError);
   const Scene<2> scene = shipped_scene("han-6-12");
-  EXPECT_THROW(AdaptiveSolver<2>(scene).run([](const Step<2> &)
+  EXPECT_THROW(AdaptiveSolver<2>(scene).run([](const StepReport<2> &)
                                             { throw NumericalFailure("the user has enough"); }),
                NumericalFailure);
   EXPECT_EQ(process_state(), before);
@@ -168,9 +170,13 @@ TEST(Process, HearsOfUnknownFunctionsByExceptions)
         n_known += known;
         const CaughtStderr caught;
         if (known)
+        {
           EXPECT_NO_THROW(shipped_scene("han-6-12", overrides)) << expression;
+        }
         else
+        {
           EXPECT_THROW(shipped_scene("han-6-12", overrides), InputError) << expression;
+        }
       }
   EXPECT_GT(n_known, 50U);
 }

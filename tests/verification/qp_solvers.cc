@@ -21,7 +21,7 @@ Outcome run(const std::string &scene, const Overrides &overrides)
   Outcome result;
   const Scene<2> shipped = shipped_scene(scene, overrides);
   AdaptiveSolver<2>(shipped).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         result.lagrangians.push_back(step.energies.lagrangian);
         result.lambda.assign(step.solution.z.begin(), step.solution.z.end());

@@ -122,7 +122,7 @@ TEST(SlenderCantilever, IsThatOfQuadruplePrecision)
     const double expected = QuadrupleCantilever(length, 1e-6).energy_product();
     const Scene<2> scene = scene_of(cantilever(length));
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           const double tip = -2 * step.energies.energy; // J = a/2 - L = -L/2
           EXPECT_NEAR(tip, expected, tolerance * expected) << length;
@@ -148,7 +148,7 @@ TEST(SlenderCantilever, IsHeldAtItsEnd)
     const Scene<2> scene = scene_of(entries);
     double largest = 0;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           const Solution<2> &u = step.solution;
           largest = u.spaces->contact_operator.moments(u.u).linfty_norm();
@@ -163,7 +163,8 @@ TEST(SlenderCantilever, BeyondAllPrecisionIsRefused)
 {
   Overrides entries = cantilever(1000);
   entries[0].second = "1e7, 1";
-  EXPECT_THROW(AdaptiveSolver<2>(scene_of(entries)).run([](const Step<2> &) {}), NumericalFailure);
+  EXPECT_THROW(AdaptiveSolver<2>(scene_of(entries)).run([](const StepReport<2> &) {}),
+               NumericalFailure);
 }
 
 /** Corrections are for those who need them. */
@@ -171,7 +172,7 @@ TEST(IterativeRefinement, LeavesOrdinaryBodiesAlone)
 {
   for (const std::string name : {"han-6-12", "han-6-13", "stick-slip"})
     AdaptiveSolver<2>(shipped_scene(name))
-        .run([&](const Step<2> &step) { EXPECT_EQ(step.algebraic.corrections, 0u) << name; });
+        .run([&](const StepReport<2> &step) { EXPECT_EQ(step.algebraic.corrections, 0u) << name; });
 }
 
 /** A displacement spoilt at random comes back, whatever data the scene has. */
@@ -212,7 +213,7 @@ TEST(SlenderCantilever, IsABeam)
                                    {"Boundary right/Traction", "0; 1e-6"}});
   double last = 0;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         EXPECT_LE(step.energies.energy, last * (1 - 1e-12)) << step.number;
         last = step.energies.energy;
@@ -234,7 +235,7 @@ TEST(SlenderCantilever, RubsAgainstItsEnd)
   entries.emplace_back("Adaptivity/Method", "hup3");
   const Scene<2> scene = scene_of(entries);
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const Solution<2> &u = step.solution;
         const Vector<double> moments = u.spaces->contact_operator.moments(u.u);
@@ -261,7 +262,7 @@ TEST(FarDisplacement, DoesNotDrownTheEnergy)
                                      {"Boundary top/Traction", "0; 0.37"}});
     unsigned int steps = 0;
     AdaptiveSolver<2>(scene).run(
-        [&](const Step<2> &step)
+        [&](const StepReport<2> &step)
         {
           const double a = 0.37 * 0.37 * 0.91;
           EXPECT_NEAR(step.energies.norm * step.energies.norm, a, 1e-8 * a) << shift;
@@ -280,7 +281,7 @@ TEST(Floor, NoWarningsAboutNothing)
                                    {"Boundary bottom/Contact", "bilateral"},
                                    {"Boundary right/Traction", "0.37; 0"}});
   AdaptiveSolver<2>(scene).run(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         EXPECT_EQ(step.stopped_by, "round-off");
         EXPECT_TRUE(step.warnings.empty()) << step.warnings.front();
@@ -293,7 +294,7 @@ TEST(Floor, AnExactSolutionStopsTheRun)
                                    {"Boundary bottom/Displacement", "free; 0"},
                                    {"Boundary top/Traction", "0; 0.37"}});
   AdaptiveSolver<2>(scene).run(
-      [](const Step<2> &step)
+      [](const StepReport<2> &step)
       {
         EXPECT_EQ(step.number, 1u);
         EXPECT_EQ(step.stopped_by, "round-off");
@@ -309,7 +310,7 @@ TEST(Floor, IsWhereTheTrueErrorFallsNoFurther)
   std::vector<double> errors;
   std::string stopped_by;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         errors.push_back(step.errors.energy / step.errors.energy_norm);
         stopped_by = step.stopped_by;

@@ -19,11 +19,11 @@ LastStep run(const Scene<2> &scene)
 {
   LastStep last;
   AdaptiveSolver<2>(scene).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const Solution<2> &solution = step.solution;
         expect_slack_of_overshoot_alone(solution, step.energies.slack);
-        last = {step.energies.resultant,
+        last = {step.contact.at(0).friction_resultant,
                 step.energies.slack,
                 solution.u.linfty_norm(),
                 step.energies.norm,

@@ -32,7 +32,7 @@ void run(const Scene<2> &scene, const fs::path &directory)
   Output<2> output(scene, directory.string());
   std::string last;
   solver.run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         output.write_step(step);
         last = (step.number < 10 ? "-0" : "-") + std::to_string(step.number);

@@ -26,7 +26,7 @@ std::vector<Row> run(const std::string &scene, const Overrides &overrides)
   std::vector<Row> rows;
   const Scene<2> shipped = shipped_scene(scene, overrides);
   AdaptiveSolver<2>(shipped).run(
-      [&](const Step<2> &step)
+      [&](const StepReport<2> &step)
       {
         const Solution<2> &solution = step.solution;
         const Degrees &degrees = solution.displacement_space.degrees();
@@ -216,7 +216,7 @@ TEST(Conditioning, DoesNotDependOnTheBound)
                                                  {"Solver/Condition number", "true"},
                                                  {"Boundary bottom/Friction bound", bound}}))
         .run(
-            [&](const Step<2> &step) {
+            [&](const StepReport<2> &step) {
               result = {step.condition_raw, step.condition_scaled};
             });
     return result;

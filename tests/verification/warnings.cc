@@ -13,7 +13,7 @@ using namespace verification;
 std::vector<std::string> warnings_of(const Scene<2> &scene)
 {
   std::vector<std::string> result;
-  AdaptiveSolver<2>(scene).run([&](const Step<2> &step) { result = step.warnings; });
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = step.warnings; });
   return result;
 }
 
@@ -81,7 +81,11 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
   const Scene<2> scene = shipped_scene("han-6-12");
   const RandomMesh mesh(scene, 1, 1);
   const Laboratory discrete(scene, mesh);
-  for (const std::string &line : warnings(discrete.solve(), discrete.tables, estimates, error))
+  History history;
+  for (const double estimate : estimates)
+    history.push_back({estimate, 0., 0.});
+  const Solution<2> solution = discrete.solve();
+  for (const std::string &line : warnings(solution, contact_states(solution), history, error))
     if (line.find(words) != std::string::npos)
       return line;
   return {};

@@ -2,8 +2,10 @@
 #ifndef hpvi_warnings_h
 #define hpvi_warnings_h
 
+#include <hpvi/adaptivity/history.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/contact_state.h>
 
 #include <string>
 #include <vector>
@@ -13,15 +15,14 @@ namespace hpvi
 /**
  * What in a result asks for care, one line each with its numbers and a remedy: tensile normal
  * traction of bilateral contact, |lambda_N| above 1 between Gauss points, transitions that are not
- * resolved, round-off that reaches the digits shown, an indicator that stagnates or rises (@p estimates of all
- * steps so far), elongated elements, corners near 0 or 180 degrees, low degree where Poisson's ratio
+ * resolved, round-off that reaches the digits shown, an indicator that stagnates or rises, elongated elements, corners near 0 or 180 degrees, low degree where Poisson's ratio
  * is near 1/2, a multiplier that is too rich, a body that slips as a whole, a friction bound that jumps
- * inside an edge.
+ * inside an edge, steps of @p history whose table lacks a condition number.
  */
 template <int dim>
-std::vector<std::string> warnings(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                                  const std::vector<double> &estimates,
-                                  const AlgebraicError &algebraic);
+std::vector<std::string> warnings(const Solution<dim> &solution,
+                                  const std::vector<ContactState<dim>> &contact,
+                                  const History &history, const AlgebraicError &algebraic);
 } // namespace hpvi
 
 #endif

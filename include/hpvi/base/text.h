@@ -11,6 +11,16 @@
 
 namespace hpvi
 {
+/** A character of a text in UTF-8 and the number of its bytes, 0 where there is none. */
+struct Character
+{
+  char32_t code;
+  std::size_t length;
+};
+
+/** The character that begins at byte @p start. */
+Character character_at(const std::string &text, std::size_t start);
+
 /**
  * @p text fit for one line of a message: white space is a blank; what is no UTF-8, control
  * characters and those that break or turn lines are '?'; no more than @p limit bytes.

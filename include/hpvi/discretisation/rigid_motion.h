@@ -9,7 +9,7 @@ namespace hpvi
 /**
  * A motion R that strains nothing and that no support resists. Contact that sees it, B R != 0, holds
  * the body by forces in balance with the loads, `R'(f - B' z) = 0`; then A is stabilised by
- * `c P P'` with P = R on the kept unknowns. A motion that no contact sees is an unknown of its own: A is
+ * `c P P'`, where P'u is the mean displacement along R over the contact. A motion that no contact sees is an unknown of its own: A is
  * stabilised by a spring at one unknown, which carries no force, and u is not unique.
  */
 template <int dim>
@@ -31,14 +31,14 @@ struct RigidMotion
 };
 
 /**
- * The translation along @p direction. Throws NumericalFailure where the loads push the body along it
+ * The translation along @p direction; @p weights are those of the multipliers. Throws NumericalFailure where the loads push the body along it
  * and no contact sees it.
  */
 template <int dim>
-RigidMotion<dim> make_translation(const dealii::Tensor<1, dim> &direction,
-                                  const DisplacementSpace<dim> &space,
-                                  const Unknowns<dim> &unknowns, const ConditionRows &rows,
-                                  const ElasticSystem<dim> &system);
+RigidMotion<dim>
+make_translation(const dealii::Tensor<1, dim> &direction, const DisplacementSpace<dim> &space,
+                 const Unknowns<dim> &unknowns, const ConditionRows &rows,
+                 const std::vector<double> &weights, const ElasticSystem<dim> &system);
 } // namespace hpvi
 
 #endif

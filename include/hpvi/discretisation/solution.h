@@ -34,8 +34,9 @@ struct Solution
    * Coefficients of u_N on one cell in the scalar FE_Q(p_K), component by component: entry
    * [c * n_shapes + i] belongs to component c and scalar shape function i.
    */
-  std::vector<double> coefficients(unsigned int cell, const LocalNumbering &numbering) const
+  std::vector<double> coefficients(const unsigned int cell) const
   {
+    const LocalNumbering &numbering = tables.numbering(displacement_space.degrees()[cell]);
     const auto dofs = displacement_space.cell_dofs(cell);
     const unsigned int n_shapes = dofs.size() / dim;
     std::vector<double> local(dofs.size());

@@ -8,28 +8,51 @@
 
 namespace hpvi
 {
-/** What u_N, z_N do at one Gauss point of the contact boundary. */
+/** How near to 1 |lambda| counts as slip: solvers put what slips on the wall up to round-off. */
+constexpr double slip_tolerance = 1e-8;
+
+/** What u_N, z_N do at one Gauss point of the contact boundary. Tractions are the contact's alone. */
 template <int dim>
 struct ContactPoint
 {
-  unsigned int q; ///< its number on the face, in the order of the face's reference coordinate
   dealii::Point<dim> x;
+  double face_length;    ///< of the face that it lies on
   double friction_bound; ///< g [stress], 0 on a face without multipliers
-  double lambda;         ///< z_N/g, 0 where g is
+  double lambda;         ///< z_N/g, 0 where g is, dimensionless
   bool slips;            ///< |lambda| = 1 or g = 0
+  double normal_displacement, tangential_displacement; ///< u_n, u_t [length]
+  double normal_traction;     ///< T_n = n.(sigma(u_N) n - G) [stress], positive where it pulls
+  double tangential_traction; ///< T_t = -z_N [stress]
 };
 
-/** The Gauss points of a face's multiplier (one point where that has none), along the tangent. */
+/** What happens on one contact boundary. */
 template <int dim>
-std::vector<ContactPoint<dim>> contact_points(const ContactFace<dim> &face,
-                                              const Solution<dim> &solution);
+struct ContactState
+{
+  dealii::types::boundary_id boundary = 0;
+  double length = 0;
+  /** Face by face along the tangent; a face without multipliers has one. */
+  std::vector<ContactPoint<dim>> points;
+  /**
+   * Where u_N changes between stick and slip or turns its slip around: halfway between neighbouring
+   * points whose states differ, along the tangent.
+   */
+  std::vector<dealii::Point<dim>> transitions;
+  double normal_resultant = 0;           ///< int T_n [stress length^(dim-1)]
+  double friction_resultant = 0;         ///< int T_t = -int z_N, likewise
+  dealii::Tensor<1, dim> friction_force; ///< int T_t t, likewise
+  double tension = 0;                    ///< int max(T_n, 0), likewise
+  double highest_tension = 0;            ///< max(T_n, 0) [stress]
+  dealii::Point<dim> highest_tension_point;
+};
 
-/**
- * Where u_N changes between stick and slip or turns its slip around: halfway between neighbouring
- * Gauss points of one contact boundary whose states differ. Boundary by boundary, along the tangent.
- */
+/** Of each contact boundary, by id. */
 template <int dim>
-std::vector<dealii::Point<dim>> transitions(const Solution<dim> &solution);
+std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution);
+
+/** Those of all boundaries, one after the other. */
+template <int dim>
+std::vector<dealii::Point<dim>> transitions(const std::vector<ContactState<dim>> &states);
 } // namespace hpvi
 
 #endif

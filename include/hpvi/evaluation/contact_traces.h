@@ -12,12 +12,11 @@ class ContactTraces
 {
 public:
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
-                const Solution<dim> &solution, const ShapeTables<dim> &tables)
+                const Solution<dim> &solution)
       : face(face), material(solution.scene.material_of(face.cell)), map(map_of<dim>(face.cell)),
-        table(tables.face(face.degree, face.face_no, n_gauss))
+        table(solution.tables.face(face.degree, face.face_no, n_gauss))
   {
-    const std::vector<double> coefficients =
-        solution.coefficients(face.cell->active_cell_index(), tables.numbering(face.degree));
+    const std::vector<double> coefficients = solution.coefficients(face.cell->active_cell_index());
     values = evaluate(table.values, coefficients);
     derivatives = evaluate(table.derivatives, coefficients);
   }

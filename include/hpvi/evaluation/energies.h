@@ -13,16 +13,12 @@ struct Energies
   double lagrangian = 0; ///< 1/2 a(u_N,u_N) - L(u_N) + b(u_N, lambda_N)
   double energy = 0;     ///< J(u_N) = 1/2 a(u_N,u_N) - L(u_N) + int g |u_Nt|
   double norm = 0;       ///< |u_N|_a = a(u_N,u_N)^{1/2}
-  /** -int g lambda_N, the friction force along t [stress length^(dim-1)]; NaN unless there is
-   *  exactly one contact boundary: two have two tangents */
-  double resultant = 0;
-  double slack = 0; ///< int (g |u_Nt| - g lambda_N u_Nt), >= 0 up to overshoot of lambda_N
+  double slack = 0;      ///< int (g |u_Nt| - g lambda_N u_Nt), >= 0 up to overshoot of lambda_N
 };
 
 /** The integral of g |u_Nt| cuts each edge where g jumps or u_Nt changes sign. */
 template <int dim>
-Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                  const ShapeTables<dim> &tables, double a);
+Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system, double a);
 } // namespace hpvi
 
 #endif

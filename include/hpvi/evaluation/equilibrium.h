@@ -37,8 +37,7 @@ struct Equilibrium
 
 /** The forces of @p solution, whose loads and friction @p system holds. */
 template <int dim>
-Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                             const ShapeTables<dim> &tables);
+Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system);
 } // namespace hpvi
 
 #endif

@@ -31,8 +31,7 @@ public:
   explicit LegendreSmoothness(SmoothnessReading reading);
 
   /** Decay rate b of the cell @p cell of @p solution. */
-  double decay_rate(const Solution<dim> &solution, const ShapeTables<dim> &tables,
-                    unsigned int cell) const;
+  double decay_rate(const Solution<dim> &solution, unsigned int cell) const;
 
   /**
    * Decay rate of vector-valued nodal coefficients, component by component in deal.II's numbering

@@ -28,14 +28,14 @@ struct ErrorEstimate
  * cell weigh its own residuals; an edge with a hanging node counts as its two halves.
  */
 template <int dim>
-ErrorEstimate estimate_error(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+ErrorEstimate estimate_error(const Solution<dim> &solution);
 
 /**
  * eta of round-off alone: of a displacement that is random and as large as the last bit of u_N on
  * each cell, without loads. No mesh brings the indicator below it.
  */
 template <int dim>
-double round_off_of_estimate(const Solution<dim> &solution, const ShapeTables<dim> &tables);
+double round_off_of_estimate(const Solution<dim> &solution);
 } // namespace hpvi
 
 #endif

@@ -19,7 +19,7 @@ class StoredSolution
 {
 public:
   /** Copy of a solution's displacement; the mesh is referred to, not copied. */
-  StoredSolution(const Solution<dim> &solution, const ShapeTables<dim> &tables, double energy = 0);
+  StoredSolution(const Solution<dim> &solution, double energy = 0);
 
   /**
    * Read a file made by write(). Throws InputError if it is not whole, or belongs to another problem

@@ -2,6 +2,7 @@
 #ifndef hpvi_true_error_h
 #define hpvi_true_error_h
 
+#include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/scene/exact_solution.h>
 
@@ -33,17 +34,19 @@ class TrueError
 {
 public:
   /** Takes what the scene names: its exact solution, else its reference solution. */
-  TrueError(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  explicit TrueError(const Scene<dim> &scene);
   ~TrueError();
 
-  TrueErrors measure(const Solution<dim> &solution) const;
+  /** Of @p solution, on whose contact boundaries @p contact happens. */
+  TrueErrors measure(const Solution<dim> &solution,
+                     const std::vector<ContactState<dim>> &contact) const;
 
 private:
-  void compare_with_exact(const Solution<dim> &solution, TrueErrors &errors) const;
+  void compare_with_exact(const Solution<dim> &solution,
+                          const std::vector<ContactState<dim>> &contact, TrueErrors &errors) const;
   void compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const;
 
   const Scene<dim> &scene;
-  const ShapeTables<dim> &tables;
   std::unique_ptr<const StoredSolution<dim>> reference;
 };
 } // namespace hpvi

@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_picture_h
 #define hpvi_mesh_picture_h
 
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/step_report.h>
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace hpvi
  * The mesh of a step as scalable vector graphics: degrees as colours and as digits, axes in the
  * scene's unit of length, the contact boundary as a thick line.
  */
-std::string mesh_picture(const Step<2> &step);
+std::string mesh_picture(const StepReport<2> &step);
 } // namespace hpvi
 
 #endif

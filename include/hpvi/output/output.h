@@ -2,8 +2,10 @@
 #ifndef hpvi_output_h
 #define hpvi_output_h
 
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/step_report.h>
 #include <hpvi/output/result_directory.h>
+#include <hpvi/output/summary.h>
+#include <hpvi/output/tables.h>
 
 #include <stdexcept>
 #include <string>
@@ -23,7 +25,7 @@ public:
 };
 
 /**
- * Writes everything that a run leaves behind, and is the only one that writes files. Each file is
+ * Says which files a run leaves behind, and with ResultDirectory is the only one that writes files. Each file is
  * renamed into place whole; the tables and `summary.json` are brought up to date after every step,
  * so that a run which ends early keeps its finished steps. `summary.json` names a file before it is
  * written, so that a run which is killed leaves nothing that a later one would not know.
@@ -56,7 +58,7 @@ public:
   Output(const Scene<dim> &scene, const std::string &path);
 
   /** Write the files of one finished step and bring the tables up to date. Throws OutputFailure. */
-  void write_step(const Step<dim> &step);
+  void write_step(const StepReport<dim> &step);
 
   /** Write that the run is done. Throws OutputFailure. */
   void finish();
@@ -71,29 +73,18 @@ public:
   std::string safe_steps() const;
 
 private:
-  /** Column names and values of one row; an empty value is an empty field. */
-  using Record = std::vector<std::pair<std::string, std::string>>;
-
   /** Is this the name of a file that this run may write? */
   bool writes(const std::string &name) const;
   void write(const std::string &name, const std::string &content);
   void replace(const std::string &name, const std::string &content) const;
-  void add_rows(const Step<dim> &step);
-  void write_tables();
-  void write_summary(const std::string &status, const std::string &message) const;
-  void write_vtu(const Step<dim> &step, const std::string &name);
+  void write_summary() const;
 
   const Scene<dim> &scene;
   ResultDirectory directory;
   bool is_usable = false; ///< proved by writing `scene.prm`
-  const ShapeTables<dim> tables;
-  std::vector<Record> convergence;                ///< a record per step
-  std::vector<std::vector<unsigned int>> degrees; ///< elements by step and degree
-  unsigned int finished_steps = 0;                ///< those whose files are all there
-  StageTimes times;                               ///< sums over the steps
-  std::string stopped_by;                         ///< the limit that ended the run
-  std::vector<std::string> warnings;
-  Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
+  const ShapeTables<dim> shape_tables;
+  Tables<dim> tables;
+  Summary<dim> summary;
   std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
 };
 } // namespace hpvi

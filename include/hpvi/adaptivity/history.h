@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_history_h
+#define hpvi_history_h
+
+#include <vector>
+
+namespace hpvi
+{
+/** What limits and warnings ask of a step when it is over. */
+struct PastStep
+{
+  double estimate;              ///< eta, stress length^(dim/2)
+  double relative_estimate;     ///< as StepReport has it
+  double seconds;               ///< from the start of the run to the end of the step
+  bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
+};
+
+/** All finished steps of a run, the first one first. */
+using History = std::vector<PastStep>;
+} // namespace hpvi
+
+#endif

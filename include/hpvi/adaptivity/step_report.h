@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_step_report_h
+#define hpvi_step_report_h
+
+#include <hpvi/adaptivity/stage_times.h>
+#include <hpvi/discretisation/iterative_refinement.h>
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/evaluation/energies.h>
+#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/evaluation/true_error.h>
+#include <hpvi/solver/mprgp.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** Everything known after one SOLVE, ESTIMATE; references live until the next step begins. */
+template <int dim>
+struct StepReport
+{
+  unsigned int number; ///< from 1
+  const Solution<dim> &solution;
+  const ErrorEstimate &estimate;
+  /**
+   * eta/c^{1/2}, in the unit of the energy norm. The residual bounds the error through
+   * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the materials:
+   * Scene::coercivity(), 2 mu of the softest unless nu < 0.
+   */
+  double scaled_estimate;
+  double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
+  Energies energies;
+  std::vector<ContactState<dim>> contact; ///< of each contact boundary, by id
+  TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with
+  AlgebraicError algebraic;               ///< what round-off leaves in u_N
+  QpReport qp;                            ///< all zero without multipliers
+  double condition_raw = 0;               ///< cond(S), 0 unless the scene asks for it
+  double condition_scaled = 0;            ///< cond(D^-1/2 S D^-1/2), likewise
+  StageTimes times;
+  double seconds = 0;                ///< since the start of the run, without output and true errors
+  std::string stopped_by;            ///< empty, or the limit that makes this the last step
+  std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
+  Equilibrium<dim> equilibrium;      ///< likewise of the last step alone
+};
+
+} // namespace hpvi
+
+#endif

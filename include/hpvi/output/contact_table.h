@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_contact_table_h
+#define hpvi_contact_table_h
+
+#include <hpvi/evaluation/contact_state.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** `contact-NN.csv`: the points of each contact boundary, along its tangent. */
+template <int dim>
+std::string contact_table(const std::vector<ContactState<dim>> &contact);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_summary_h
+#define hpvi_summary_h
+
+#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/output/record.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** How a run stands: what `summary.json` says beside the scene. */
+template <int dim>
+struct Summary
+{
+  std::string status = "running"; ///< later "done", "failed", "interrupted"
+  std::string message;            ///< why it failed or was interrupted
+  unsigned int steps = 0;         ///< finished ones
+  Record last_row;                ///< of the last of them in convergence.csv
+  StageTimes times;               ///< sums over them
+  std::string stopped_by;         ///< the limit that ended the run
+  std::vector<std::string> warnings;
+  Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
+
+  /** Count a finished step, whose row is @p row. */
+  void add(const StepReport<dim> &step, const Record &row);
+
+  /** With the names of the program's own @p files. */
+  std::string json(const Scene<dim> &scene, const std::set<std::string> &files) const;
+};
+} // namespace hpvi
+
+#endif

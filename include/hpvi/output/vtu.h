@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_vtu_h
+#define hpvi_vtu_h
+
+#include <hpvi/adaptivity/step_report.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * `solution-NN.vtu`: displacement, stress, degree and eta_K on linear cells, subdivided as finely as
+ * the highest degree asks for, up to a readable file.
+ */
+template <int dim>
+std::string vtu(const StepReport<dim> &step);
+
+/** `solution.pvd`: pairs of step and file name in order, to be opened at once. */
+std::string pvd(const std::vector<std::pair<double, std::string>> &files);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/version.h>
+#include <hpvi/output/summary.h>
+#include <hpvi/output/tables.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+std::string json_point(const Tensor<1, dim> &x)
+{
+  std::string list;
+  for (unsigned int d = 0; d < dim; ++d)
+    list += (d > 0 ? ", " : "") + text(x[d]);
+  return "[" + list + "]";
+}
+
+template <int dim>
+std::string json_force(const BoundaryForce<dim> &force)
+{
+  return json_string(force.boundary) + ": {\"force\": " + json_point(force.force) +
+         ", \"moment\": " + text(force.moment) + "}";
+}
+
+/** Two members of summary.json: forces by boundary, and how well they balance. */
+template <int dim>
+std::string json_equilibrium(const Equilibrium<dim> &equilibrium)
+{
+  std::string forces = "\n    " + json_force(equilibrium.loads);
+  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
+    forces += ",\n    " + json_force(reaction);
+  return "  \"forces\": {" + forces +
+         "\n  },\n  \"balance\": {\n    \"force\": " + text(equilibrium.force_imbalance) +
+         ",\n    \"moment\": " + text(equilibrium.moment_imbalance) +
+         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
+}
+
+/** The items of an array, each on a line of its own. */
+template <class Lines>
+std::string json_lines(const Lines &lines)
+{
+  std::string list;
+  for (const std::string &line : lines)
+    list += (list.empty() ? "\n    " : ",\n    ") + json_string(line);
+  return list.empty() ? "" : list + "\n  ";
+}
+} // namespace
+
+template <int dim>
+void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
+{
+  ++steps;
+  last_row = row;
+  times += step.times;
+  stopped_by = step.stopped_by;
+  warnings = step.warnings;
+  equilibrium = step.equilibrium;
+}
+
+template <int dim>
+std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::string> &files) const
+{
+  std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
+  if (!stopped_by.empty())
+    json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
+  if (!message.empty())
+    json += "  \"message\": " + json_string(message) + ",\n";
+  return json + "  \"scene\": " + json_string(scene.name) +
+         ",\n  \"title\": " + json_string(scene.title) +
+         ",\n  \"program\": " + json_string("hpvi " + version()) +
+         ",\n  \"build\": " + json_string(build_type()) +
+         ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
+         ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
+         ",\n    \"stress\": " + json_string(scene.stress_unit) +
+         "\n  },\n  \"steps\": " + std::to_string(steps) +
+         ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
+         (stopped_by.empty() ? "" : json_equilibrium(equilibrium)) +
+         "  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
+         json_lines(warnings) + "],\n  \"files\": [" + json_lines(files) + "]\n}\n";
+}
+
+template struct Summary<2>;
+} // namespace hpvi

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/output/tables.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+Record stage_record(const StageTimes &times)
+{
+  Record record;
+  for (const auto &[name, seconds] : times.named())
+    record.emplace_back(name, text(seconds, 6));
+  return record;
+}
+
+namespace
+{
+/** Square root of the sum of one of the squared contributions to the estimate. */
+std::string root_of_sum(const std::vector<double> &squares)
+{
+  return text(std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.)));
+}
+/** Where stick meets slip: points separated by blanks, coordinates by slashes. */
+template <int dim>
+std::string transition_list(const std::vector<Point<dim>> &points)
+{
+  std::string list;
+  for (const Point<dim> &x : points)
+  {
+    list += list.empty() ? "" : " ";
+    for (unsigned int d = 0; d < dim; ++d)
+      list += (d > 0 ? "/" : "") + text(x[d], 10);
+  }
+  return list;
+}
+
+/** One direction has the friction force where there is one contact boundary alone; else empty. */
+template <int dim>
+std::string friction_resultant(const std::vector<ContactState<dim>> &contact)
+{
+  return contact.size() == 1 ? text(contact.front().friction_resultant) : "";
+}
+
+/** The row of convergence.csv. */
+template <int dim>
+Record convergence_record(const StepReport<dim> &step)
+{
+  const DisplacementSpace<dim> &space = step.solution.displacement_space;
+  const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
+  const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
+  const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
+  Record record{{"step", text(step.number)},
+                {"elements", text(space.triangulation().n_active_cells())},
+                {"dofs", text(space.n_dofs())},
+                {"dofs_free", text(space.n_free_dofs())},
+                {"multipliers", text(step.solution.contact_space.n_multipliers())},
+                {"p_min", text(*p_min)},
+                {"p_max", text(*p_max)},
+                {"estimate", text(step.estimate.total())},
+                {"lagrangian", text(step.energies.lagrangian)},
+                {"energy", text(step.energies.energy)},
+                {"slack", text(step.energies.slack)},
+                {"qp_multiplications", text(step.qp.multiplications)},
+                {"seconds", text(step.seconds, 6)},
+                {"estimate_volume", root_of_sum(step.estimate.volume)},
+                {"estimate_jumps", root_of_sum(step.estimate.jumps)},
+                {"estimate_neumann", root_of_sum(step.estimate.neumann)},
+                {"estimate_contact", root_of_sum(step.estimate.contact)},
+                {"qp_cg", text(step.qp.cg_steps)},
+                {"qp_expansion", text(step.qp.expansion_steps)},
+                {"qp_proportioning", text(step.qp.proportioning_steps)},
+                {"qp_dense_solves", text(step.qp.dense_solves)},
+                {"qp_fell_back", text(static_cast<unsigned int>(step.qp.fell_back))},
+                {"qp_projected_gradient", text(step.qp.projected_gradient)},
+                {"condition_raw", condition(step.condition_raw)},
+                {"condition_scaled", condition(step.condition_scaled)},
+                {"estimate_scaled", text(step.scaled_estimate)},
+                {"estimate_relative", known(step.relative_estimate)},
+                {"energy_norm", text(step.energies.norm)},
+                {"friction_resultant", friction_resultant(step.contact)},
+                {"error_energy", known(step.errors.energy)},
+                {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
+                {"error_l2", known(step.errors.l2)},
+                {"error_multiplier", known(step.errors.multiplier_l2)},
+                {"error_transition", known(step.errors.transition)},
+                {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
+                {"effectivity", known(step.scaled_estimate / step.errors.energy)},
+                {"transitions", transition_list(transitions(step.contact))}};
+  for (const auto &[stage, seconds] : stage_record(step.times))
+    record.emplace_back("seconds_" + stage, seconds);
+  return record;
+}
+
+/** Number of elements by degree; entry 0 stays empty. */
+template <int dim>
+std::vector<unsigned int> count_degrees(const DisplacementSpace<dim> &space)
+{
+  std::vector<unsigned int> count(1);
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int degree = space.degrees()[cell->active_cell_index()];
+      count.resize(std::max<std::size_t>(count.size(), degree + 1));
+      ++count[degree];
+    }
+  return count;
+}
+} // namespace
+
+template <int dim>
+void Tables<dim>::add(const StepReport<dim> &step)
+{
+  rows.push_back(convergence_record(step));
+  elements.push_back(count_degrees(step.solution.displacement_space));
+}
+
+template <int dim>
+const Record &Tables<dim>::last_row() const
+{
+  return rows.back();
+}
+
+template <int dim>
+std::string Tables<dim>::convergence() const
+{
+  return csv(rows);
+}
+
+template <int dim>
+std::string Tables<dim>::degrees() const
+{
+  std::size_t n_columns = 0;
+  for (const auto &count : elements)
+    n_columns = std::max(n_columns, count.size());
+  std::vector<Record> records;
+  for (const auto &count : elements)
+  {
+    Record record{{"step", text(static_cast<unsigned int>(records.size() + 1))},
+                  {"elements", text(std::accumulate(count.begin(), count.end(), 0U))}};
+    for (unsigned int p = 1; p < n_columns; ++p)
+      record.emplace_back("p" + text(p), text(p < count.size() ? count[p] : 0U));
+    records.push_back(record);
+  }
+  return csv(records);
+}
+
+template class Tables<2>;
+} // namespace hpvi
