@@ -231,8 +231,9 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 
 template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
-    : stages(std::make_unique<Stages>(scene))
 {
+  scene.check(); // it may have been built by code, or changed since it was read
+  stages = std::make_unique<Stages>(scene);
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <hpvi/base/text.h>
 #include <hpvi/body/mesh.h>
 
 #include <algorithm>
@@ -17,14 +18,20 @@ std::vector<unsigned int> repetitions(const Geometry<dim> &geometry)
   return {geometry.subdivisions.begin(), geometry.subdivisions.end()};
 }
 
-/** The d-linear image of @p reference in [0,1]^dim. */
+/** deal.II colours the cells of a box by octants; a scene says itself what they are made of. */
 template <int dim>
-Point<dim> map_to_body(const Geometry<dim> &geometry, const Point<dim> &reference)
+void set_materials(const Scene<dim> &scene, Triangulation<dim> &triangulation)
 {
-  Point<dim> x;
-  for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
-    x += GeometryInfo<dim>::d_linear_shape_function(reference, v) * geometry.corners[v];
-  return x;
+  for (const auto &cell : triangulation.active_cell_iterators())
+  {
+    const types::material_id id = scene.material_at ? scene.material_at(cell->center()) : 0;
+    if (id >= scene.materials.size())
+      throw InputError(scene.origin() + ": material_at gives " + std::to_string(id) + " at " +
+                       to_string(cell->center()) + ", but there are " +
+                       std::to_string(scene.materials.size()) +
+                       " materials; number them from 0, or add one");
+    cell->set_material_id(id);
+  }
 }
 
 template <int dim>
@@ -61,14 +68,12 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
       one[d] = 1.;
     GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry), Point<dim>(),
                                               one, /*colorize=*/true);
-    GridTools::transform([&](const Point<dim> &x) { return map_to_body(geometry, x); },
-                         triangulation);
+    GridTools::transform([&](const Point<dim> &x) { return geometry.point(x); }, triangulation);
   }
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.
   AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
               ExcMessage("The scene has no boundary of the number that a face carries."));
-  for (const auto &cell : triangulation.active_cell_iterators())
-    cell->set_material_id(0); // deal.II colours the cells of a box by octants
+  set_materials(scene, triangulation);
   grade_towards_points(geometry, triangulation);
 }
 

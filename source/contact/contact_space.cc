@@ -50,7 +50,7 @@ Point<dim> ContactFace<dim>::point(const double s) const
 template <int dim>
 double ContactFace<dim>::friction_bound(const Point<dim> &x) const
 {
-  return condition->friction_bound ? condition->friction_bound->value(x) : 0.;
+  return condition->friction.bound ? condition->friction.bound->value(x) : 0.;
 }
 
 template <int dim>
@@ -65,7 +65,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
         if (cell->face(f)->at_boundary())
         {
           const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
-          if (condition.bilateral_contact)
+          if (condition.has_contact())
             contact_faces.push_back(
                 make_face(cell, f, displacement_space.degrees()[cell->active_cell_index()],
                           scene.solver.multiplier_offset, condition));

@@ -17,6 +17,21 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
 {
 }
 
+namespace
+{
+template <int dim>
+std::optional<RigidMotion<dim>> motion_of(const std::optional<Tensor<1, dim>> &translation,
+                                          const Spaces<dim> &spaces, const Unknowns<dim> &unknowns,
+                                          const ConditionRows &rows,
+                                          const ElasticSystem<dim> &system)
+{
+  if (!translation)
+    return std::nullopt;
+  return make_translation(*translation, spaces.displacement_space, unknowns, rows,
+                          spaces.contact_space.weights(), system);
+}
+} // namespace
+
 template <int dim>
 Discretisation<dim>::Discretisation(const Scene<dim> &scene,
                                     std::shared_ptr<const Spaces<dim>> all_spaces,
@@ -25,11 +40,7 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
       unknowns(spaces->displacement_space, spaces->contact_operator, *spaces->tables),
       contact_rows(unknowns.contact_rows()), condensation(spaces->displacement_space, elements),
       system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables, elements),
-      free_motion(scene.free_translation
-                      ? std::make_optional(make_translation(
-                            *scene.free_translation, spaces->displacement_space, unknowns,
-                            contact_rows, spaces->contact_space.weights(), system))
-                      : std::nullopt)
+      free_motion(motion_of(scene.free_translation(), *spaces, unknowns, contact_rows, system))
 {
 }
 

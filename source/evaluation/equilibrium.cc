@@ -61,7 +61,7 @@ public:
       const BoundaryForce<dim> &reaction = result.reactions[boundary.id];
       force += reaction.force;
       moment += reaction.moment;
-      if (boundary.has_displacement() || boundary.bilateral_contact)
+      if (boundary.has_displacement() || boundary.has_contact())
         supporting.push_back(reaction);
     }
     result.reactions = supporting;
@@ -127,7 +127,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
   Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
   reactions -= system.loads();
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
-    if (boundary.bilateral_contact && solution.z.size() > 0)
+    if (boundary.has_contact() && solution.z.size() > 0)
     {
       const Vector<double> friction =
           solution.spaces->contact_operator.forces(solution.z, boundary.id);

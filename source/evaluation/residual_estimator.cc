@@ -256,7 +256,7 @@ ErrorEstimate Residuals<dim>::compute()
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
       {
-        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].bilateral_contact)
+        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].has_contact())
           add_boundary(cell, face);
       }
       else if (!cell->face(face)->has_children() &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/scene/parameters.h>
 
 #include <boost/crc.hpp>
 
@@ -35,11 +36,12 @@ bool belongs_to_problem(const std::string &section, const std::string &entry)
          (section == "Geometry" && entry != "Graded towards" && entry != "Grading levels");
 }
 
-/** The entries of the problem as "Section/Entry = value", from the text of scene.prm. */
-std::vector<std::string> problem_of(const std::string &effective_parameters)
+/** The entries of the problem as "Section/Entry = value", as in scene.prm; none without a file. */
+template <int dim>
+std::vector<std::string> problem_of(const Scene<dim> &scene)
 {
   std::vector<std::string> result;
-  std::istringstream lines(effective_parameters);
+  std::istringstream lines(scene.parameters ? scene.parameters->print(false) : "");
   std::string section;
   for (std::string line; std::getline(lines, line);)
   {
@@ -163,9 +165,8 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
 
 template <int dim>
 StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const double energy)
-    : mesh(&solution.displacement_space.triangulation()),
-      problem(problem_of(solution.scene.effective_parameters)), energy_value(energy),
-      degrees(solution.displacement_space.degrees())
+    : mesh(&solution.displacement_space.triangulation()), problem(problem_of(solution.scene)),
+      energy_value(energy), degrees(solution.displacement_space.degrees())
 {
   for (unsigned int cell = 0; cell < degrees.size(); ++cell)
     cell_coefficients.push_back(solution.coefficients(cell));
@@ -178,7 +179,7 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
   static_assert(dim == 2, "the number of coefficients of a cell");
   std::istringstream content = read_content(file);
   problem = read_problem(content, file, energy_value);
-  check_problem(file, problem, problem_of(scene.effective_parameters));
+  check_problem(file, problem, problem_of(scene));
   const std::map<std::string, CellRecord> records = read_records(content, file, dim);
   make_mesh(scene, own_mesh);
   // Bisect every cell that is not in the file until all active cells are.

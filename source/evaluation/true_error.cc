@@ -255,7 +255,7 @@ double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<di
                           const Point<dim> &b, const ExactSolution<dim> &exact)
 {
   const Tensor<1, dim> tangent = (b - a) / a.distance(b);
-  if (!boundary.has_traction() && !boundary.friction_bound)
+  if (!boundary.has_traction() && !boundary.friction.bound)
     return 0.;
   return integrate_along(a, b, exact, 12,
                          [&](double, const Point<dim> &x)
@@ -265,8 +265,8 @@ double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<di
                            for (unsigned int c = 0; c < dim; ++c)
                              if (boundary.traction[c])
                                density -= boundary.traction[c]->value(x) * u[c];
-                           if (boundary.friction_bound)
-                             density += boundary.friction_bound->value(x) * std::abs(u * tangent);
+                           if (boundary.friction.bound)
+                             density += boundary.friction.bound->value(x) * std::abs(u * tangent);
                            return density;
                          });
 }

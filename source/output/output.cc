@@ -4,6 +4,7 @@
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/vtu.h>
+#include <hpvi/scene/parameters.h>
 
 #include <regex>
 #include <sstream>
@@ -21,14 +22,16 @@ std::string numbered(const std::string &name, const unsigned int step, const std
 
 template <int dim>
 Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
-    : scene(scene), directory(path, [this](const std::string &name) { return writes(name); },
-                              {scene.file, scene.reference_solution})
+    : scene(scene),
+      directory(path, [this](const std::string &name) { return writes(name); },
+                {scene.parameters ? scene.parameters->file_name() : "", scene.reference_solution})
 {
   try
   {
     write_summary(); // names the files of earlier runs as long as there are any
     directory.remove_earlier();
-    write("scene.prm", scene.effective_parameters);
+    if (scene.parameters)
+      write("scene.prm", scene.parameters->print(false));
   }
   catch (const InputError &error)
   {

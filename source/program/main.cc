@@ -8,6 +8,8 @@
 #include <hpvi/output/output.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/interruption.h>
+#include <hpvi/scene/parameters.h>
+#include <hpvi/scene/scene_reader.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -244,9 +246,10 @@ std::string multiplier_degree(const int offset)
 void print_inf_sup(const Scene<dim> &scene)
 {
   if (!scene.has_friction())
-    throw InputError(scene.file + ": Boundary left, right, bottom, top/Friction bound: no boundary "
-                                  "names one, so there is no multiplier to measure the inf-sup "
-                                  "constant of; name a contact with a bound or remove --inf-sup");
+    throw InputError(scene.origin() +
+                     ": Boundary left, right, bottom, top/Friction bound: no boundary "
+                     "names one, so there is no multiplier to measure the inf-sup "
+                     "constant of; name a contact with a bound or remove --inf-sup");
   const Scene<dim> refining = refining_scene(scene);
   AdaptiveSolver<dim> solver(refining);
   note_interruptions();
@@ -281,15 +284,15 @@ void obey(const CommandLine &command_line)
   else if (command_line.version)
     std::cout << version_line() << std::endl;
   else if (command_line.scene_file.empty())
-    std::cout << Scene<dim>::default_parameters();
+    std::cout << default_parameters();
   else
   {
-    const auto scene = Scene<dim>::read(command_line.scene_file, command_line.overrides,
-                                        command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
+    const auto scene = read_scene<dim>(command_line.scene_file, command_line.overrides,
+                                       command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
     if (command_line.print_parameters)
-      std::cout << scene.effective_parameters;
+      std::cout << scene.parameters->print(false);
     else if (command_line.validate)
-      std::cout << scene.file << ": valid: " << legible(scene.title) << std::endl;
+      std::cout << scene.origin() << ": valid: " << legible(scene.title) << std::endl;
     else if (command_line.inf_sup)
       print_inf_sup(scene);
     else

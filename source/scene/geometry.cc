@@ -9,6 +9,40 @@ namespace hpvi
 {
 using namespace dealii;
 
+template <int dim>
+Corners<dim> box_corners(const Point<dim> &lower, const Point<dim> &upper)
+{
+  Corners<dim> corners;
+  for (unsigned int v = 0; v < corners.size(); ++v)
+    for (unsigned int d = 0; d < dim; ++d)
+      corners[v][d] = ((v >> d) & 1u) ? upper[d] : lower[d];
+  return corners;
+}
+
+Corners<2> quadrilateral_corners(const std::array<Point<2>, 4> &around)
+{
+  return {{around[0], around[1], around[3], around[2]}};
+}
+
+template <int dim>
+Geometry<dim>::Geometry()
+{
+  Point<dim> upper;
+  for (unsigned int d = 0; d < dim; ++d)
+    upper[d] = 1.;
+  corners = box_corners(Point<dim>(), upper);
+  subdivisions.fill(1);
+}
+
+template <int dim>
+Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
+{
+  Point<dim> x;
+  for (unsigned int v = 0; v < corners.size(); ++v)
+    x += GeometryInfo<dim>::d_linear_shape_function(unit, v) * corners[v];
+  return x;
+}
+
 std::vector<Point<2>> Edge::sample() const
 {
   const unsigned int n = 32;
@@ -67,13 +101,10 @@ std::vector<Point<2>> sample_body(const Geometry<2> &geometry)
   std::vector<Point<2>> points;
   for (unsigned int i = 0; i <= n; ++i)
     for (unsigned int j = 0; j <= n; ++j)
-    {
-      const Point<2> unit(double(i) / n, double(j) / n);
-      Point<2> x;
-      for (unsigned int v = 0; v < 4; ++v)
-        x += geometry.corners[v] * GeometryInfo<2>::d_linear_shape_function(unit, v);
-      points.push_back(x);
-    }
+      points.push_back(geometry.point({double(i) / n, double(j) / n}));
   return points;
 }
+
+template Corners<2> box_corners(const Point<2> &, const Point<2> &);
+template struct Geometry<2>;
 } // namespace hpvi

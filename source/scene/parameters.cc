@@ -19,6 +19,21 @@ std::string Entry::path() const
   return section.empty() ? name : section + "/" + name;
 }
 
+std::string Entry::objection(const std::string &value) const
+{
+  return pattern->match(value) ? "" : "is not accepted here; give " + wanted;
+}
+
+std::string storable(std::string text)
+{
+  std::replace_if(
+      text.begin(), text.end(), [](const char c) { return c == '#' || c == '\n' || c == '\r'; },
+      '_');
+  if (!text.empty() && text.back() == '\\')
+    text.back() = '_';
+  return text;
+}
+
 template <typename Action>
 void Parameters::in_section(const std::string &section, const Action &action)
 {
@@ -56,9 +71,8 @@ void Parameters::assign(const Assignment &assignment)
   std::string value = assignment.value;
   std::replace_if( // deal.II's lists trim nothing but blanks
       value.begin(), value.end(), [](const unsigned char c) { return std::isspace(c); }, ' ');
-  if (!entry->pattern->match(value))
-    fail(assignment.where, entry->path() + " = " + value,
-         "is not accepted here; give " + entry->wanted);
+  if (const std::string objection = entry->objection(value); !objection.empty())
+    fail(assignment.where, entry->path() + " = " + value, objection);
   origins[entry->path()] = assignment.where;
   set(entry->section, entry->name, value);
 }
@@ -69,8 +83,7 @@ void Parameters::assign(const std::pair<std::string, std::string> &override)
   const std::string value = Utilities::trim(override.second);
   const std::size_t slash = override.first.rfind('/');
   const bool top = slash == std::string::npos;
-  // The value must survive a round trip through a parameter file.
-  if (value.find_first_of("#\n\r") != std::string::npos || (!value.empty() && value.back() == '\\'))
+  if (value != storable(value)) // it must survive a round trip through a parameter file
     fail(where, override.first + " = " + value,
          "holds a character that no parameter file can; remove '#', '\\' and line breaks");
   const std::string name = single_spaced(top ? override.first : override.first.substr(slash + 1));
@@ -82,6 +95,11 @@ void Parameters::assign(const std::pair<std::string, std::string> &override)
 void Parameters::set(const std::string &section, const std::string &name, const std::string &value)
 {
   in_section(section, [&]() { prm.set(name, value); });
+}
+
+const std::string &Parameters::file_name() const
+{
+  return file;
 }
 
 std::string Parameters::text(const std::string &section, const std::string &name) const

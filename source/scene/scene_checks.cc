@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/scene_checks.h>
 
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/scene/parameters.h>
+#include <hpvi/scene/scene_entries.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <memory>
 
 namespace hpvi
@@ -14,6 +19,269 @@ using namespace dealii;
 
 namespace
 {
+/** Squares of lengths, stresses and displacements, and their products, must not over- or underflow. */
+constexpr double smallest = 1e-100, largest = 1e100;
+
+// ---------------------------------------------------------------- words
+
+/** "Section/Entry = value": as the file wrote it, else @p value, which functions do not have. */
+std::string mention(const Scene<2> &scene, const std::string &section, const std::string &name,
+                    const std::string &value = "")
+{
+  const std::string shown = scene.parameters ? scene.parameters->text(section, name) : value;
+  return section + "/" + name + (scene.parameters || !shown.empty() ? " = " + shown : "");
+}
+
+[[noreturn]] void reject(const Scene<2> &scene, const std::string &section, const std::string &name,
+                         const std::string &problem_and_remedy, const std::string &value = "")
+{
+  if (scene.parameters)
+    scene.parameters->reject(section, name, problem_and_remedy);
+  fail(printable(scene.name), mention(scene, section, name, value), problem_and_remedy);
+}
+
+/** Compares what code may have set with what a file may say. */
+class CheckValue
+{
+public:
+  explicit CheckValue(const Scene<2> &scene) : scene(scene), entries(scene_entries(2))
+  {
+  }
+
+  void operator()(const std::string &, const std::string &, const bool) const
+  {
+  }
+
+  template <class Number>
+  void operator()(const std::string &section, const std::string &name, const Number value) const
+  {
+    const std::string shown = written(value);
+    for (const Entry &entry : entries)
+      if (entry.section == section && entry.name == name)
+        if (const std::string objection = entry.objection(shown); !objection.empty())
+          reject(scene, section, name, objection, shown);
+  }
+
+private:
+  static std::string written(const double value)
+  {
+    return text(value);
+  }
+
+  template <class Integer>
+  static std::string written(const Integer value)
+  {
+    return std::to_string(value);
+  }
+
+  const Scene<2> &scene;
+  const std::vector<Entry> entries;
+};
+
+// ---------------------------------------------------------------- geometry
+
+/** Without squares, which over- and underflow. */
+double length(const Tensor<1, 2> &edge)
+{
+  return std::hypot(edge[0], edge[1]);
+}
+
+void check_box(const Scene<2> &scene)
+{
+  const Corners<2> &corners = scene.geometry.corners;
+  for (unsigned int d = 0; d < 2; ++d)
+    if (!(corners.front()[d] < corners.back()[d]))
+      reject(scene, "Geometry", "Upper corner",
+             "is not above and right of the lower corner " + to_string(corners.front()) +
+                 "; enlarge every coordinate beyond it",
+             to_string(corners.back()));
+  if (corners != box_corners(corners.front(), corners.back()))
+    reject(scene, "Geometry", "Shape",
+           "has corners that are not those of a box; take box_corners() or shape = quadrilateral",
+           "box");
+}
+
+/** Each corner must turn left. */
+void check_quadrilateral(const Scene<2> &scene)
+{
+  const Corners<2> &corners = scene.geometry.corners;
+  const std::array<Point<2>, 4> around = {{corners[0], corners[1], corners[3], corners[2]}};
+  for (unsigned int c = 0; c < 4; ++c)
+  {
+    const Tensor<1, 2> in = around[c] - around[(c + 3) % 4], out = around[(c + 1) % 4] - around[c];
+    const double sine =
+        in[0] / length(in) * (out[1] / length(out)) - in[1] / length(in) * (out[0] / length(out));
+    if (!(sine > 1e-12)) // no more than round-off
+      reject(scene, "Geometry", "Corners",
+             "is degenerate, clockwise or not convex at " + to_string(around[c]) +
+                 "; give the corners of a convex quadrilateral counterclockwise from "
+                 "the bottom left");
+  }
+}
+
+/** Lengths that can be squared, edges that are more than round-off, corners that are corners. */
+void check_shape(const Scene<2> &scene)
+{
+  const Geometry<2> &geometry = scene.geometry;
+  const std::string entry = geometry.shape == Shape::box ? "Upper corner" : "Corners";
+  double farthest = 0, shortest = std::numeric_limits<double>::max();
+  for (const Point<2> &corner : geometry.corners)
+    farthest = std::max({farthest, std::abs(corner[0]), std::abs(corner[1])});
+  for (const Edge &edge : edges_of(geometry))
+    shortest = std::min(shortest, length(edge.ends[1] - edge.ends[0]));
+  if (!(farthest <= largest) || !(shortest >= smallest))
+    reject(scene, "Geometry", entry,
+           "has lengths from " + to_string(shortest) + " to " + to_string(farthest) +
+               " and they must lie between 1e-100 and 1e100; choose another unit");
+  if (shortest < 1e-10 * farthest)
+    reject(scene, "Geometry", entry,
+           "has an edge of length " + to_string(shortest) + " and coordinates up to " +
+               to_string(farthest) +
+               ", which round-off blurs; move the body towards "
+               "the origin");
+  const std::array<double, 4> angles = corner_angles(geometry);
+  for (unsigned int c = 0; c < angles.size(); ++c)
+    if (angles[c] < 0.1 || angles[c] > 179.9)
+      reject(scene, "Geometry", entry,
+             "has an angle of " + to_string(angles[c]) + " degrees at " +
+                 to_string(geometry.corners[c]) +
+                 "; give a quadrilateral with angles between 0.1 and 179.9 degrees");
+}
+
+void check_grading(const Scene<2> &scene)
+{
+  const Geometry<2> &geometry = scene.geometry;
+  if (geometry.grading_levels > 0 && geometry.graded_towards.empty())
+    reject(scene, "Geometry", "Grading levels",
+           "has no point to grade to; set Graded towards = x, y or remove it");
+  const double diameter = std::max(geometry.corners[0].distance(geometry.corners[3]),
+                                   geometry.corners[1].distance(geometry.corners[2]));
+  for (const Point<2> &point : geometry.graded_towards)
+    for (const Edge &edge : edges_of(geometry))
+      if (!(edge.normal * (point - edge.ends[0]) <= 1e-10 * diameter))
+        reject(scene, "Geometry", "Graded towards",
+               "has the point " + to_string(point) + " outside the body; name points of the body");
+}
+
+} // namespace
+
+void check_geometry(const Scene<2> &scene)
+{
+  scene.geometry.shape == Shape::box ? check_box(scene) : check_quadrilateral(scene);
+  check_shape(scene);
+  double cells = 1;
+  std::string shown;
+  for (const unsigned int n : scene.geometry.subdivisions)
+  {
+    cells *= n;
+    shown += (shown.empty() ? "" : ", ") + std::to_string(n);
+  }
+  if (cells == 0)
+    reject(scene, "Geometry", "Subdivisions", "makes no cells; give two positive integers", shown);
+  if (cells > 1e6)
+    reject(scene, "Geometry", "Subdivisions",
+           "makes more than a million cells; start coarse and let the mesh adapt", shown);
+  check_grading(scene);
+}
+
+void check_materials(const Scene<2> &scene)
+{
+  const CheckValue check_value(scene);
+  const std::string number = std::to_string(scene.materials.size());
+  if (scene.materials.empty())
+    fail(printable(scene.origin()), "Material", "is missing; give at least one");
+  if (scene.materials.size() > 1 && !scene.material_at)
+    fail(printable(scene.origin()), "Material",
+         "says nowhere which of " + number + " is where; set material_at or keep one");
+  for (const Material &material : scene.materials)
+  {
+    check_value("Material", "Young's modulus", material.young);
+    if (!(material.poisson > -1 && material.poisson < 0.5))
+      reject(scene, "Material", "Poisson's ratio",
+             "is outside (-1, 1/2); an elastic material has -1 < nu < 1/2", text(material.poisson));
+  }
+}
+
+namespace
+{
+// ---------------------------------------------------------------- functions
+
+/** Loads and displacements enter energies as squares. */
+void check_magnitude(const Scene<2> &scene, const std::string &section, const std::string &name,
+                     const std::array<Expression<2>, 2> &components,
+                     const std::vector<Point<2>> &points)
+{
+  for (const auto &component : components)
+  {
+    double magnitude = 0;
+    for (const Point<2> &point : points)
+      if (component)
+      {
+        const double value = component->value(point);
+        if (!std::isfinite(value))
+          reject(scene, section, name,
+                 "is not finite at " + to_string(point) +
+                     "; give a function that is finite everywhere it applies");
+        magnitude = std::max(magnitude, std::abs(value));
+      }
+    if (magnitude > largest || (magnitude > 0 && magnitude < smallest))
+      reject(scene, section, name,
+             "has a component of magnitude " + to_string(magnitude) +
+                 ", outside 1e-100 to 1e100; choose other units or write 0");
+  }
+}
+
+void check_friction(const Scene<2> &scene, const std::string &section,
+                    const BoundaryCondition<2> &boundary, const std::vector<Point<2>> &points)
+{
+  if (boundary.friction.bound == nullptr)
+    return;
+  if (!boundary.has_contact())
+    reject(scene, section, "Friction bound", friction_needs_contact);
+  for (const Point<2> &point : points)
+    if (const double g = boundary.friction.bound->value(point); !(g >= 0 && std::isfinite(g)))
+      reject(scene, section, "Friction bound",
+             "is " + to_string(g) + " at " + to_string(point) + "; Tresca's bound needs g >= 0");
+}
+
+/** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
+void check_boundary(const Scene<2> &scene, const BoundaryCondition<2> &boundary, const Edge &edge)
+{
+  const std::string section = "Boundary " + boundary.name;
+  const std::vector<Point<2>> points = edge.sample();
+  check_magnitude(scene, section, "Displacement", boundary.displacement, points);
+  check_magnitude(scene, section, "Traction", boundary.traction, points);
+  for (unsigned int d = 0; d < 2; ++d)
+    if (boundary.traction[d] != nullptr && boundary.displacement[d] != nullptr)
+      reject(scene, section, "Traction",
+             std::string("acts on the component ") + "xyz"[d] +
+                 " that Displacement prescribes; make that component 0 here or free "
+                 "there");
+  check_friction(scene, section, boundary, points);
+  if (boundary.has_contact() && boundary.has_displacement())
+    reject(scene, section, "Displacement",
+           "stands beside Contact = bilateral; keep only one of the two");
+}
+
+void check_boundaries(const Scene<2> &scene)
+{
+  const std::vector<Edge> edges = edges_of(scene.geometry);
+  if (scene.boundaries.size() != edges.size())
+    fail(printable(scene.origin()), "Boundary",
+         "has " + std::to_string(scene.boundaries.size()) + " instead of " +
+             std::to_string(edges.size()) + "; change those of a new scene, add and remove none");
+  for (unsigned int b = 0; b < edges.size(); ++b)
+    if (scene.boundaries[b].id != b)
+      fail(printable(scene.origin()), "Boundary " + scene.boundaries[b].name,
+           "has the id " + std::to_string(scene.boundaries[b].id) + " and stands at " +
+               std::to_string(b) + "; leave ids and order as they are in a new scene");
+  check_magnitude(scene, "Body force", "Expression", scene.body_force, sample_body(scene.geometry));
+  for (unsigned int b = 0; b < edges.size(); ++b)
+    check_boundary(scene, scene.boundaries[b], edges[b]);
+}
+
+// ---------------------------------------------------------------- supports
+
 /** `direction . u = value` at one point, said by one boundary. */
 struct PointCondition
 {
@@ -33,7 +301,7 @@ std::vector<PointCondition> conditions_at(const BoundaryCondition<2> &boundary, 
       direction[d] = 1.;
       conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
     }
-  if (boundary.bilateral_contact)
+  if (boundary.contact == Contact::bilateral)
     conditions.push_back({edge.normal, 0., boundary.id});
   return conditions;
 }
@@ -41,22 +309,20 @@ std::vector<PointCondition> conditions_at(const BoundaryCondition<2> &boundary, 
 /** The entry that says what happens to the displacement of a boundary. */
 std::string support_entry(const BoundaryCondition<2> &boundary)
 {
-  return boundary.bilateral_contact ? "Contact" : "Displacement";
+  return boundary.contact == Contact::bilateral ? "Contact" : "Displacement";
 }
 
-[[noreturn]] void reject_corner(const Parameters &parameters, const BoundaryCondition<2> &one,
+[[noreturn]] void reject_corner(const Scene<2> &scene, const BoundaryCondition<2> &one,
                                 const BoundaryCondition<2> &two, const Point<2> &corner,
                                 const double contradiction)
 {
   // The message stands at the boundary whose value can be changed.
-  const BoundaryCondition<2> &changeable = one.bilateral_contact ? two : one;
-  const BoundaryCondition<2> &other = one.bilateral_contact ? one : two;
-  const std::string section = "Boundary " + other.name;
-  parameters.reject("Boundary " + changeable.name, support_entry(changeable),
-                    "contradicts " + section + "/" + support_entry(other) + " = " +
-                        parameters.text(section, support_entry(other)) + " at their corner " +
-                        to_string(corner) + " by " + to_string(std::abs(contradiction)) +
-                        "; make both agree there or free one component");
+  const BoundaryCondition<2> &changeable = one.contact == Contact::bilateral ? two : one;
+  const BoundaryCondition<2> &other = one.contact == Contact::bilateral ? one : two;
+  reject(scene, "Boundary " + changeable.name, support_entry(changeable),
+         "contradicts " + mention(scene, "Boundary " + other.name, support_entry(other)) +
+             " at their corner " + to_string(corner) + " by " + to_string(std::abs(contradiction)) +
+             "; make both agree there or free one component");
 }
 
 /** The largest displacement that any boundary prescribes. */
@@ -71,7 +337,7 @@ double largest_displacement(const Scene<2> &scene, const std::vector<Edge> &edge
 }
 
 /** Can all @p conditions at one corner hold together? */
-void check_corner(const Parameters &parameters, const Scene<2> &scene, const Point<2> &corner,
+void check_corner(const Scene<2> &scene, const Point<2> &corner,
                   const std::vector<PointCondition> &conditions, const double scale)
 {
   std::vector<PointCondition> basis; // orthonormal directions, by Gram and Schmidt
@@ -87,7 +353,7 @@ void check_corner(const Parameters &parameters, const Scene<2> &scene, const Poi
     if (norm > 1e-6)
       basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
     else if (std::abs(rest.value) > 1e-10 * scale)
-      reject_corner(parameters, scene.boundaries[basis.front().boundary],
+      reject_corner(scene, scene.boundaries[basis.front().boundary],
                     scene.boundaries[rest.boundary], corner, rest.value);
   }
 }
@@ -150,7 +416,7 @@ bool friction_resists(const Scene<2> &scene, const std::vector<Edge> &edges,
                       const Tensor<1, 2> &direction)
 {
   for (unsigned int f = 0; f < edges.size(); ++f)
-    if (scene.boundaries[f].friction_bound &&
+    if (scene.boundaries[f].friction.bound &&
         (direction - (direction * edges[f].normal) * edges[f].normal).norm() > 1e-8)
       return true;
   return false;
@@ -162,8 +428,8 @@ bool friction_resists(const Scene<2> &scene, const std::vector<Edge> &edges,
 class ExactSolutionCheck
 {
 public:
-  ExactSolutionCheck(const Parameters &parameters, const Scene<2> &scene, const unsigned int id)
-      : parameters(parameters), exact(*scene.exact_solution), boundary(scene.boundaries[id]),
+  ExactSolutionCheck(const Scene<2> &scene, const unsigned int id)
+      : scene(scene), exact(*scene.exact_solution), boundary(scene.boundaries[id]),
         section("Boundary " + boundary.name), edge(edges_of(scene.geometry)[id])
   {
     for (unsigned int d = 0; d < 2; ++d)
@@ -183,7 +449,7 @@ public:
     for (const Point<2> &point : edge.sample())
     {
       check_displacement(point);
-      if (!boundary.bilateral_contact)
+      if (!boundary.has_contact())
         check_traction(point);
       else
         check_contact(point);
@@ -216,24 +482,24 @@ private:
       contradict("Contact", point, "set Contact = none");
     const double lambda = exact.multiplier(point);
     if (std::abs(lambda) > 1 + tolerance)
-      parameters.reject("Exact solution", "Length",
-                        "asks friction for |lambda| = " + to_string(std::abs(lambda)) + " > 1 at " +
-                            to_string(point) +
-                            "; enlarge it, shorten the contact or move Transition to the right");
+      reject(scene, "Exact solution", "Length",
+             "asks friction for |lambda| = " + to_string(std::abs(lambda)) + " > 1 at " +
+                 to_string(point) +
+                 "; enlarge it, shorten the contact or move Transition to the right");
     double imbalance = g(point) * lambda;
     for (unsigned int d = 0; d < 2; ++d)
       imbalance += t[d] * (stress[d]->value(point) - traction(d, point));
     if (differ(imbalance, 0, stress_scale))
       contradict("Traction", point, "leave the contact without traction");
     if (g(point) > 0 && differ(lambda * (u * t), std::abs(u * t), displacement_scale))
-      parameters.reject("Exact solution", "Length",
-                        "lets the body slip against its friction at " + to_string(point) +
-                            "; enlarge it or move Transition to the right");
+      reject(scene, "Exact solution", "Length",
+             "lets the body slip against its friction at " + to_string(point) +
+                 "; enlarge it or move Transition to the right");
   }
 
   double g(const Point<2> &point) const
   {
-    return boundary.friction_bound ? boundary.friction_bound->value(point) : 0.;
+    return boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
   }
 
   double traction(const unsigned int component, const Point<2> &point) const
@@ -249,14 +515,13 @@ private:
   [[noreturn]] void contradict(const std::string &entry, const Point<2> &point,
                                const std::string &remedy) const
   {
-    parameters.reject(
-        section, entry,
-        "contradicts Exact solution/Solution = " + parameters.text("Exact solution", "Solution") +
-            " at " + to_string(point) + "; " + remedy + " or set Solution = none");
+    reject(scene, section, entry,
+           "contradicts " + mention(scene, "Exact solution", "Solution") + " at " +
+               to_string(point) + "; " + remedy + " or set Solution = none");
   }
 
   static constexpr double tolerance = 1e-8;
-  const Parameters &parameters;
+  const Scene<2> &scene;
   const ExactSolution<2> &exact;
   const BoundaryCondition<2> &boundary;
   const std::string section;
@@ -264,9 +529,8 @@ private:
   std::array<std::unique_ptr<const Function<2>>, 2> stress; ///< the components of `sigma n`
   double displacement_scale = 0, stress_scale = 0;
 };
-} // namespace
 
-void check_corners(const Parameters &parameters, const Scene<2> &scene)
+void check_corners(const Scene<2> &scene)
 {
   const std::vector<Edge> edges = edges_of(scene.geometry);
   const double scale = largest_displacement(scene, edges);
@@ -278,9 +542,105 @@ void check_corners(const Parameters &parameters, const Scene<2> &scene)
       if (edges[f].corners[0] == c || edges[f].corners[1] == c)
         for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], corner))
           conditions.push_back(condition);
-    check_corner(parameters, scene, corner, conditions, scale);
+    check_corner(scene, corner, conditions, scale);
   }
 }
+
+void check_exact_solution(const Scene<2> &scene)
+{
+  if (scene.exact_solution == nullptr)
+    return;
+  if (scene.has_body_force())
+    reject(scene, "Body force", "Expression",
+           "contradicts " + mention(scene, "Exact solution", "Solution") +
+               ", which has none; remove it or set Solution = none");
+  if (scene.materials.size() > 1)
+    reject(scene, "Exact solution", "Solution",
+           "knows one material, and the scene has " + std::to_string(scene.materials.size()) +
+               "; measure errors by Error/Reference solution");
+  for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
+    ExactSolutionCheck(scene, b).run();
+}
+
+/** A reference solution holds the entries of its problem, for those who compare with it. */
+void check_reference(const Scene<2> &scene)
+{
+  if (!scene.parameters && (scene.output.reference || !scene.reference_solution.empty()))
+    fail(printable(scene.name),
+         scene.output.reference ? "Output/Reference solution" : "Error/Reference solution",
+         "compares the entries of two files, and this scene has none; read it from a file");
+  if (!scene.reference_solution.empty() && !std::ifstream(scene.reference_solution))
+    reject(scene, "Error", "Reference solution",
+           "cannot be read; make the file by a run with Output/Reference solution = "
+           "true, or leave the entry empty");
+}
+
+// ---------------------------------------------------------------- the method
+
+void check_adaptivity(const Scene<2> &scene)
+{
+  const Adaptivity &adaptivity = scene.adaptivity;
+  const std::string start = std::to_string(adaptivity.start_degree);
+  if (adaptivity.start_degree == 0) // a file's own degree, which the reader has put in its place
+    reject(scene, "Adaptivity", "Start degree",
+           "is no degree; give one from 1 to 20, as own_start_degree()", start);
+  if (adaptivity.start_degree > adaptivity.maximum_degree)
+    reject(scene, "Adaptivity", "Start degree",
+           "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
+               "; lower the one or raise the other",
+           start);
+  if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
+    reject(scene, "Adaptivity", "hpa1 raised fraction",
+           "makes more than all cells with hpa1 bisected fraction = " +
+               (scene.parameters ? scene.parameters->text("Adaptivity", "hpa1 bisected fraction")
+                                 : text(adaptivity.hpa1_bisected)) +
+               "; let the two sum to at most 1",
+           text(adaptivity.hpa1_raised));
+}
+
+void check_multiplier_degree(const Scene<2> &scene, const SceneUse use)
+{
+  if (!scene.has_contact())
+    return;
+  const int offset = scene.solver.multiplier_offset;
+  // p + 1 multipliers on each edge meet p tangential displacements per edge, and one more at most.
+  if (offset >= 0 && use == SceneUse::solve)
+    reject(scene, "Solver", "Multiplier degree offset",
+           "makes S singular: there are more multipliers than displacements on the "
+           "contact boundary determine, the discrete inf-sup constant is 0; give -2, or "
+           "measure the constant by hpvi --inf-sup",
+           std::to_string(offset));
+  if (static_cast<int>(scene.adaptivity.start_degree) + offset < 0)
+    reject(scene, "Adaptivity", "Start degree",
+           "is too low for contact: the multiplier has degree p - " + std::to_string(-offset) +
+               "; give at least " + std::to_string(-offset) +
+               " or raise Solver/Multiplier degree offset = " + std::to_string(offset),
+           std::to_string(scene.adaptivity.start_degree));
+}
+
+/** At least so many: grading adds some, and what two edges hold at their corner is held once. */
+void check_first_step(const Scene<2> &scene)
+{
+  const unsigned int degree = scene.adaptivity.start_degree;
+  const double nodes_x = 1. + degree * scene.geometry.subdivisions[0],
+               nodes_y = 1. + degree * scene.geometry.subdivisions[1];
+  double unknowns = 2 * nodes_x * nodes_y;
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+  {
+    unsigned int held = boundary.contact == Contact::bilateral ? 1 : 0;
+    for (const auto &component : boundary.displacement)
+      held += component != nullptr ? 1 : 0;
+    unknowns -= std::min(held, 2U) * (boundary.id < 2 ? nodes_y : nodes_x);
+  }
+  if (unknowns > scene.adaptivity.maximum_unknowns)
+    reject(scene, "Geometry", "Subdivisions",
+           "makes at least " + std::to_string(std::llround(unknowns)) +
+               " free unknowns of degree " + std::to_string(degree) +
+               " in the first step, more than Adaptivity/Maximum unknowns = " +
+               std::to_string(scene.adaptivity.maximum_unknowns) +
+               "; start coarser or raise that limit");
+}
+} // namespace
 
 std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
 {
@@ -303,7 +663,7 @@ std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
   {
     const Tensor<1, 2> direction({motion[0], motion[1]});
     if (translation || !is_translation(motion) || !friction_resists(scene, edges, direction))
-      throw InputError(scene.file +
+      throw InputError(printable(scene.origin(), 400) +
                        ": Boundary left, right, bottom, top/Displacement: the supports leave a "
                        "rigid-body motion free, " +
                        describe(motion, centre, length) +
@@ -314,58 +674,18 @@ std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
   return translation;
 }
 
-void check_exact_solution(const Parameters &parameters, const Scene<2> &scene)
+void check_scene(const Scene<2> &scene, const SceneUse use)
 {
-  if (scene.exact_solution == nullptr)
-    return;
-  if (scene.has_body_force())
-    parameters.reject(
-        "Body force", "Expression",
-        "contradicts Exact solution/Solution = " + parameters.text("Exact solution", "Solution") +
-            ", which has none; remove it or set Solution = none");
-  for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
-    ExactSolutionCheck(parameters, scene, b).run();
-}
-
-void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene,
-                             const SceneUse use)
-{
-  if (!scene.has_contact())
-    return;
-  const int offset = scene.solver.multiplier_offset;
-  // p + 1 multipliers on each edge meet p tangential displacements per edge, and one more at most.
-  if (offset >= 0 && use == SceneUse::solve)
-    parameters.reject("Solver", "Multiplier degree offset",
-                      "makes S singular: there are more multipliers than displacements on the "
-                      "contact boundary determine, the discrete inf-sup constant is 0; give -2, or "
-                      "measure the constant by hpvi --inf-sup");
-  if (static_cast<int>(scene.adaptivity.start_degree) + offset < 0)
-    parameters.reject("Adaptivity", "Start degree",
-                      "is too low for contact: the multiplier has degree p - " +
-                          std::to_string(-offset) + "; give at least " + std::to_string(-offset) +
-                          " or raise Solver/Multiplier degree offset = " + std::to_string(offset));
-}
-
-/** At least so many: grading adds some, and what two edges hold at their corner is held once. */
-void check_first_step(const Parameters &parameters, const Scene<2> &scene)
-{
-  const unsigned int degree = scene.adaptivity.start_degree;
-  const double nodes_x = 1. + degree * scene.geometry.subdivisions[0],
-               nodes_y = 1. + degree * scene.geometry.subdivisions[1];
-  double unknowns = 2 * nodes_x * nodes_y;
-  for (const BoundaryCondition<2> &boundary : scene.boundaries)
-  {
-    unsigned int held = boundary.bilateral_contact ? 1 : 0;
-    for (const auto &component : boundary.displacement)
-      held += component != nullptr ? 1 : 0;
-    unknowns -= std::min(held, 2U) * (boundary.id < 2 ? nodes_y : nodes_x);
-  }
-  if (unknowns > scene.adaptivity.maximum_unknowns)
-    parameters.reject("Geometry", "Subdivisions",
-                      "makes at least " + std::to_string(std::llround(unknowns)) +
-                          " free unknowns of degree " + std::to_string(degree) +
-                          " in the first step, more than Adaptivity/Maximum unknowns = " +
-                          std::to_string(scene.adaptivity.maximum_unknowns) +
-                          "; start coarser or raise that limit");
+  check_geometry(scene);
+  check_materials(scene);
+  check_boundaries(scene);
+  check_corners(scene);
+  free_translation(scene);
+  check_exact_solution(scene);
+  check_reference(scene);
+  for_each_value(scene, CheckValue(scene));
+  check_adaptivity(scene);
+  check_first_step(scene);
+  check_multiplier_degree(scene, use);
 }
 } // namespace hpvi

@@ -25,6 +25,11 @@ std::string joined(const std::vector<std::string> &words, const std::string &sep
   return result;
 }
 
+std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
+{
+  return matching(Patterns::Selection(joined(words, "|")));
+}
+
 void add_problem_entries(std::vector<Entry> &entries)
 {
   const auto text = matching(Patterns::Anything());
@@ -38,8 +43,7 @@ void add_problem_entries(std::vector<Entry> &entries)
        {"", "Dimension", "2", matching(Patterns::Integer(2, 3)), "2", "Space dimension."},
        {"Units", "Length", "", text, "a label", "Label of lengths; nothing is converted."},
        {"Units", "Stress", "", text, "a label", "Label of stresses; nothing is converted."},
-       {"Geometry", "Shape", "box", matching(Patterns::Selection("box|quadrilateral")),
-        "box or quadrilateral",
+       {"Geometry", "Shape", "box", one_of(shape_names), "box or quadrilateral",
         "box: given by Lower corner and Upper corner. quadrilateral: convex, given by Corners."},
        {"Geometry", "Lower corner", "0, 0", matching(point), point_wanted,
         "Corner of the box with the smallest coordinates, x, y [length]."},
@@ -63,8 +67,8 @@ void add_problem_entries(std::vector<Entry> &entries)
         "E > 0 [stress]; constant E in expressions."},
        {"Material", "Poisson's ratio", "0.3", number, "a number nu with -1 < nu < 1/2",
         "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu))."},
-       {"Material", "Plane", "strain", matching(Patterns::Selection("stress|strain")),
-        "stress or strain", "Plane stress or plane strain (thesis, Section 2.1.3)."},
+       {"Material", "Plane", "strain", one_of(plane_names), "stress or strain",
+        "Plane stress or plane strain (thesis, Section 2.1.3)."},
        {"Body force", "Expression", "", text, "Fx; Fy or nothing",
         "Force per volume Fx; Fy as expressions of x and y [stress/length]; empty: none."}});
 }
@@ -97,8 +101,8 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
        {section, "Traction", "", text, "Gx; Gy or nothing",
         "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
-       {section, "Contact", "none", matching(Patterns::Selection("none|bilateral")),
-        "none or bilateral", "bilateral: the boundary slides along itself, u_n = 0."},
+       {section, "Contact", "none", one_of(contact_names), "none or bilateral",
+        "bilateral: the boundary slides along itself, u_n = 0."},
        {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
         "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g; empty or 0: no friction."}});
 }
@@ -112,14 +116,12 @@ void add_method_entries(std::vector<Entry> &entries)
 
   entries.insert(
       entries.end(),
-      {{section, "Method", "hpa3", matching(Patterns::Selection(joined(method_names, "|"))),
-        "one of " + joined(method_names, " "),
+      {{section, "Method", "hpa3", one_of(method_names), "one of " + joined(method_names, " "),
         "hup2, hup3, hup4: bisect every cell, p = 2, 3, 4. hap2, hap3, hap4: bisect cells with "
         "large indicator. pu: raise p everywhere. hpa1: bisect the first cells by indicator, raise "
         "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
         "the same where the indicator exceeds a share of the largest."},
-       {section, "Smoothness reading", "plain", matching(Patterns::Selection("plain|joint")),
-        "plain or joint",
+       {section, "Smoothness reading", "plain", one_of(reading_names), "plain or joint",
         "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
         "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
@@ -160,8 +162,7 @@ void add_program_entries(std::vector<Entry> &entries)
   const std::string yes_no = "true or false";
   entries.insert(
       entries.end(),
-      {{"Solver", "QP solver", "active set", matching(Patterns::Selection("mprgp|active set")),
-        "mprgp or active set",
+      {{"Solver", "QP solver", "active set", one_of(qp_solver_names), "mprgp or active set",
         "mprgp: conjugate gradients on faces, the thesis's; active set: Newton's method with dense "
         "Cholesky factorisations, and mprgp where that cycles. Both end at the same tolerance."},
        {"Solver", "QP warm start", "true", boolean, yes_no,

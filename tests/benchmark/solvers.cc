@@ -16,6 +16,7 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <dmumps_c.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/scene/scene_reader.h>
 #include <hpvi/solver/linear_solver.h>
 #include <metis.h>
 
@@ -311,9 +312,9 @@ void print_row(const unsigned int n_free_dofs, const Discretisation<2> &discreti
 
 void run(const std::string &file)
 {
-  const auto scene = Scene<2>::read(file, {{"Adaptivity/Method", "hpa2"},
-                                           {"Adaptivity/Maximum steps", "100"},
-                                           {"Adaptivity/Maximum unknowns", "60000"}});
+  const auto scene = read_scene<2>(file, {{"Adaptivity/Method", "hpa2"},
+                                          {"Adaptivity/Maximum steps", "100"},
+                                          {"Adaptivity/Maximum unknowns", "60000"}});
   AdaptiveSolver<2> solver(scene);
   double next_size = 1000;
   print_head();

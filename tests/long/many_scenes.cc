@@ -2,6 +2,7 @@
 // A thousand scenes in one process: the memory that it uses does not grow, and each result has the
 // bytes of a fresh process's. ./run long.
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/scene/scene_reader.h>
 
 #include <malloc.h>
 
@@ -77,7 +78,7 @@ Scene<2> scene(const unsigned int number)
   if (!has_own_bound)
     overrides.emplace_back("Boundary bottom/Friction bound",
                            chosen({"0.01", "0.1", "1", "10"}) + "*(1 + x^2*(sin(x) > 0))");
-  return Scene<2>::read("prm/" + name + ".prm", overrides);
+  return read_scene<2>("prm/" + name + ".prm", overrides);
 }
 
 /** Of all numbers that scene @p number gives, and of the words with which it is refused or gives up. */

@@ -498,7 +498,7 @@ void ResidualOracle::add_edge(const Cell &cell, const unsigned int face)
   if (cell->at_boundary(face))
   {
     const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
-    if (condition.bilateral_contact)
+    if (condition.has_contact())
       add_contact(cell, face);
     else
       add_neumann(cell, face);

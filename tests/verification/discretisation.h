@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/scene/scene_reader.h>
 
 #include <cmath>
 #include <filesystem>
@@ -36,7 +37,7 @@ inline std::string text(const double value)
 /** One of the scenes that come with the program. */
 inline Scene<2> shipped_scene(const std::string &name, const Overrides &overrides = {})
 {
-  return Scene<2>::read("prm/" + name + ".prm", overrides);
+  return read_scene<2>("prm/" + name + ".prm", overrides);
 }
 
 /** A scene that consists of @p entries alone. */
@@ -45,7 +46,7 @@ inline Scene<2> scene_of(const Overrides &entries)
   const auto file = std::filesystem::path(::testing::TempDir()) /
                     ("hpvi-" + std::to_string(std::random_device()()) + ".prm");
   std::ofstream(file) << "set Dimension = 2\n";
-  Scene<2> scene = Scene<2>::read(file.string(), entries);
+  Scene<2> scene = read_scene<2>(file.string(), entries);
   std::filesystem::remove(file);
   return scene;
 }

@@ -3,7 +3,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <gtest/gtest.h>
 #include <hpvi/scene/exact_solution.h>
-#include <hpvi/scene/scene.h>
+#include <hpvi/scene/scene_reader.h>
 
 #include <array>
 #include <cmath>
@@ -209,7 +209,7 @@ std::string scene_file(const std::string &name)
 
 TEST(ExactSolution, BoundariesTakeItByName)
 {
-  const Scene<2> scene = Scene<2>::read(scene_file("stick-slip.prm"));
+  const Scene<2> scene = read_scene<2>(scene_file("stick-slip.prm"));
   ASSERT_NE(scene.exact_solution, nullptr);
   EXPECT_EQ(scene.exact_solution->transitions().at(0), Point<2>(0., 0.));
   const Point<2> corner(-1., 0.);
@@ -218,7 +218,7 @@ TEST(ExactSolution, BoundariesTakeItByName)
   // kappa A / mu with A = g/(1.5 (1 + kappa)) = 0.065
   EXPECT_NEAR(scene.exact_solution->displacement(corner)[0], 0.351, 1e-14);
 
-  const Scene<2> smooth = Scene<2>::read(scene_file("smooth.prm"));
+  const Scene<2> smooth = read_scene<2>(scene_file("smooth.prm"));
   EXPECT_TRUE(smooth.exact_solution->singularities().empty());
   EXPECT_TRUE(smooth.boundaries[3].has_traction());
 }

@@ -18,7 +18,7 @@ double beta(const unsigned int n, const unsigned int p, const int offset,
   Overrides entries = {{"Geometry/Subdivisions", cells},
                        {"Solver/Multiplier degree offset", std::to_string(offset)}};
   entries.insert(entries.end(), more.begin(), more.end());
-  const auto scene = Scene<2>::read("prm/han-6-12.prm", entries, SceneUse::measure);
+  const auto scene = read_scene<2>("prm/han-6-12.prm", entries, SceneUse::measure);
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const Degrees degrees(mesh.n_active_cells(), p);

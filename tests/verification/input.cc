@@ -137,8 +137,8 @@ TEST(Expressions, RoundOffBelowAZeroBoundIsZero)
 {
   const Scene<2> scene =
       shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "x*(4-x) - 1e-13"}});
-  EXPECT_EQ(scene.boundaries[2].friction_bound->value(Point<2>(0., 0.)), 0.);
-  EXPECT_GT(scene.boundaries[2].friction_bound->value(Point<2>(1., 0.)), 2.9);
+  EXPECT_EQ(scene.boundaries[2].friction.bound->value(Point<2>(0., 0.)), 0.);
+  EXPECT_GT(scene.boundaries[2].friction.bound->value(Point<2>(1., 0.)), 2.9);
 }
 
 // ---------------------------------------------------------------- nothing at all

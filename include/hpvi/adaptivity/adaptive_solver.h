@@ -19,6 +19,7 @@ template <int dim>
 class AdaptiveSolver
 {
 public:
+  /** Throws InputError where the scene does not pass Scene::check(). */
   explicit AdaptiveSolver(const Scene<dim> &scene);
   ~AdaptiveSolver();
 

@@ -15,8 +15,8 @@ using Degrees = std::vector<unsigned int>;
 
 /**
  * Build the coarse triangulation of @p scene: a regular grid of quadrilaterals whose boundary ids
- * are those of Scene::boundaries, bisected towards the points that the scene names. Throws
- * InputError where a cell would not be convex.
+ * are those of Scene::boundaries and material ids those of Scene::materials, bisected towards the
+ * points that the scene names. Throws InputError where the scene has no such material.
  */
 template <int dim>
 void make_mesh(const Scene<dim> &scene, dealii::Triangulation<dim> &triangulation);

@@ -17,17 +17,32 @@ enum class Shape
   quadrilateral
 };
 
+template <int dim>
+using Corners = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
+
+/** The corners of a box from those with the smallest and the largest coordinates. */
+template <int dim>
+Corners<dim> box_corners(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper);
+
+/** The corners of a quadrilateral, given counterclockwise from the bottom left. */
+Corners<2> quadrilateral_corners(const std::array<dealii::Point<2>, 4> &around);
+
 /** The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, then graded. */
 template <int dim>
 struct Geometry
 {
-  Shape shape;
+  Geometry(); ///< the unit box of one cell
+
+  /** The d-linear image of @p unit in [0,1]^dim. */
+  dealii::Point<dim> point(const dealii::Point<dim> &unit) const;
+
+  Shape shape = Shape::box;
   /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
-  std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell> corners;
+  Corners<dim> corners;
   std::array<unsigned int, dim> subdivisions;
   /** Cells that touch one of these points are bisected @p grading_levels times. */
   std::vector<dealii::Point<dim>> graded_towards;
-  unsigned int grading_levels;
+  unsigned int grading_levels = 0;
 };
 
 /** A straight edge of a plane body. */

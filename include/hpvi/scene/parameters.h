@@ -27,7 +27,12 @@ struct Entry
   std::string documentation;
 
   std::string path() const;
+  /** "is not accepted here; give ..." where @p value does not match; else empty. */
+  std::string objection(const std::string &value) const;
 };
+
+/** @p text without what no parameter file can hold: '#', line breaks, a backslash at the end. */
+std::string storable(std::string text);
 
 /**
  * The values of all entries, and where each was set: deal.II's ParameterHandler with error messages
@@ -44,6 +49,8 @@ public:
 
   /** Give an entry its final value where the file leaves it to the program. */
   void set(const std::string &section, const std::string &name, const std::string &value);
+
+  const std::string &file_name() const; ///< as the user wrote it
 
   std::string text(const std::string &section, const std::string &name) const;
   double number(const std::string &section, const std::string &name) const;

@@ -11,29 +11,58 @@
 #include <deal.II/base/function.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hpvi
 {
+class Parameters;
+
+/** A function of x and y; null where there is none. */
+template <int dim>
+using Expression = std::shared_ptr<const dealii::Function<dim>>;
+
+/** The same @p value everywhere, for scenes built by code. */
+template <int dim>
+Expression<dim> expression(double value);
+
+/** Any function of a point. */
+template <int dim>
+Expression<dim> expression(const std::function<double(const dealii::Point<dim> &)> &function);
+
+/** What holds a boundary to the plane below it. */
+enum class Contact
+{
+  none,
+  bilateral ///< u_n = 0
+};
+
+/** What resists sliding on a contact boundary. */
+template <int dim>
+struct FrictionLaw
+{
+  Expression<dim> bound; ///< Tresca's g(x) >= 0 [stress]; null: no friction
+};
+
 /** Everything that a scene says about one named part of the boundary. */
 template <int dim>
 struct BoundaryCondition
 {
-  using Expression = std::shared_ptr<const dealii::Function<dim>>;
+  using Expression = hpvi::Expression<dim>;
 
   std::string name;                         ///< left, right, bottom, top, front, back
-  dealii::types::boundary_id id;            ///< deal.II's number: the index into Scene::boundaries
+  dealii::types::boundary_id id = 0;        ///< deal.II's number: the index into Scene::boundaries
   std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
   std::array<Expression, dim> traction;     ///< components of G [stress]; null: zero
-  bool bilateral_contact;                   ///< u_n = 0
-  Expression friction_bound;                ///< Tresca's g(x) >= 0 [stress]; null: no friction
+  Contact contact = Contact::none;
+  FrictionLaw<dim> friction;
 
   bool has_displacement() const; ///< is any component prescribed?
   bool has_traction() const;     ///< is any component given?
+  bool has_contact() const;
 };
 
 /** The methods of Chapter 5, and one that needs fewer unknowns and less time. */
@@ -65,48 +94,52 @@ enum class QpSolver
   active_set ///< ActiveSet
 };
 
+/** The degree of the coarse mesh with which the thesis starts @p method. */
+unsigned int own_start_degree(Method method);
+
 /** The rule of Section 4.3 and Chapter 5 with its numbers. */
 struct Adaptivity
 {
-  Method method;
-  SmoothnessReading reading;
-  unsigned int start_degree;   ///< p >= -offset of the multiplier at the contact boundary
-  unsigned int maximum_degree; ///< cells of this degree are bisected where p would rise
-  double hap_threshold;        ///< hap: bisect where eta_K > threshold * mean(eta_K)
-  double hpa1_bisected;        ///< hpa1: fraction of elements bisected
-  double hpa1_raised;          ///< hpa1: fraction of elements, next in order, whose p is raised
-  double hpa2_marked;          ///< hpa2: fraction of elements refined
-  double hpa2_decay;           ///< hpa2: raise p where b > this, else bisect
-  double hpa3_threshold;       ///< hpa3: refine where eta_K > threshold * max(eta_K)
-  double hpa3_decay;           ///< hpa3: raise p where b > this, else bisect
-  unsigned int maximum_steps;
-  unsigned int maximum_unknowns; ///< no step is started after one with more dofs_free
-  double maximum_seconds;        ///< no step is started after this time; 0: no limit
-  double tolerance;              ///< stop where the relative indicator falls below; 0: never
+  Method method = Method::hpa3;
+  SmoothnessReading reading = SmoothnessReading::plain;
+  unsigned int start_degree = 3;    ///< p >= -offset of the multiplier at the contact boundary
+  unsigned int maximum_degree = 12; ///< cells of this degree are bisected where p would rise
+  double hap_threshold = 0.5;       ///< hap: bisect where eta_K > threshold * mean(eta_K)
+  double hpa1_bisected = 0.1;       ///< hpa1: fraction of elements bisected
+  double hpa1_raised = 0.1;    ///< hpa1: fraction of elements, next in order, whose p is raised
+  double hpa2_marked = 0.2;    ///< hpa2: fraction of elements refined
+  double hpa2_decay = 1;       ///< hpa2: raise p where b > this, else bisect
+  double hpa3_threshold = 0.2; ///< hpa3: refine where eta_K > threshold * max(eta_K)
+  double hpa3_decay = 0.8;     ///< hpa3: raise p where b > this, else bisect
+  unsigned int maximum_steps = 16;
+  unsigned int maximum_unknowns = 1000000; ///< no step is started after one with more dofs_free
+  double maximum_seconds = 0;              ///< no step is started after this time; 0: no limit
+  double tolerance = 0; ///< stop where the relative indicator falls below; 0: never
 };
 
 /** How the quadratic program is solved. */
 struct SolverSettings
 {
-  QpSolver qp_solver;
-  bool qp_warm_start;                      ///< from the multiplier of the previous step
-  double qp_tolerance;                     ///< |g^P| <= tolerance * max(|d|, |S z_0|)
-  unsigned int qp_maximum_multiplications; ///< more products with S than this: exit status 2
-  bool diagonal_scaling;
-  int multiplier_offset; ///< the multiplier has degree p_K + offset on a contact edge
-  bool condition_number; ///< report cond(S), raw and scaled: costs an eigenvalue computation
+  QpSolver qp_solver = QpSolver::active_set;
+  bool qp_warm_start = true;                        ///< from the multiplier of the previous step
+  double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)
+  unsigned int qp_maximum_multiplications = 100000; ///< more products with S: exit status 2
+  bool diagonal_scaling = true;
+  int multiplier_offset = -2; ///< the multiplier has degree p_K + offset on a contact edge
+  bool condition_number =
+      false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
 };
 
 /** Which files are written besides the tables. */
 struct OutputSettings
 {
-  bool vtu;
-  bool mesh_picture;
-  bool contact;
-  bool reference; ///< reference.dat after the last step
+  bool vtu = true;
+  bool mesh_picture = true;
+  bool contact = true;
+  bool reference = false; ///< reference.dat after the last step
 };
 
-/** What a scene is read for. */
+/** What a scene is there for. */
 enum class SceneUse
 {
   solve,  ///< a run: what no run can solve is refused
@@ -114,33 +147,44 @@ enum class SceneUse
 };
 
 /**
- * A checked, immutable description of one problem, read from a parameter file. Later stages take
- * it by const reference and never see the parameter file itself.
+ * One problem and how to solve it: plain data, built by code or by read_scene(). Later stages take
+ * it by const reference.
  */
 template <int dim>
 struct Scene
 {
-  using Expression = typename BoundaryCondition<dim>::Expression;
+  using Expression = hpvi::Expression<dim>;
 
-  std::string file;  ///< as the user named it, for messages
-  std::string name;  ///< file name without directory and suffix
-  std::string title; ///< one line for humans
+  Scene(); ///< the unit box, with free boundaries of the usual names and the defaults of a file
+
+  std::string name = "scene"; ///< of the directory for results: the file's without suffix
+  std::string title;          ///< one line for humans
   std::string length_unit;
   std::string stress_unit;
 
   Geometry<dim> geometry;
-  std::vector<Material> materials;                ///< indexed by the material_id of a cell
+  std::vector<Material> materials; ///< indexed by the material_id of a cell; at first one
+  /** The index of the material at the centre of a coarse cell; null: 0 everywhere. */
+  std::function<dealii::types::material_id(const dealii::Point<dim> &)> material_at;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
-  /** The unit vector of a translation that friction alone resists; most scenes have none. */
-  std::optional<dealii::Tensor<1, dim>> free_translation;
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
   SolverSettings solver;
   OutputSettings output;
 
-  std::string effective_parameters; ///< the text of scene.prm: every entry with its value
+  /** The file, for messages and scene.prm; null: the scene was built by code. */
+  std::shared_ptr<const Parameters> parameters;
+
+  /** Throws InputError, one line with entry, value and remedy, for what no stage could make sense of. */
+  void check(SceneUse use = SceneUse::solve) const;
+
+  /** Throws InputError where there is none of this name. */
+  BoundaryCondition<dim> &boundary(const std::string &name);
+
+  std::string
+  origin() const; ///< the file as the user named it, or the name: messages begin with it
 
   /** The material of @p cell, which its children inherit. */
   template <class Cell>
@@ -162,15 +206,10 @@ struct Scene
   bool has_friction() const;       ///< does any contact boundary name a friction bound?
 
   /**
-   * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
-   * Throws InputError with one line (file, entry, value, remedy).
+   * The unit vector of a translation that supports and contact leave free and friction alone
+   * resists (a semicoercive problem); most scenes have none. Throws InputError where nothing resists.
    */
-  static Scene read(const std::string &file,
-                    const std::vector<std::pair<std::string, std::string>> &overrides = {},
-                    SceneUse use = SceneUse::solve);
-
-  /** All entries with defaults and documentation, as a parameter file. */
-  static std::string default_parameters();
+  std::optional<dealii::Tensor<1, dim>> free_translation() const;
 };
 } // namespace hpvi
 

@@ -2,39 +2,28 @@
 #ifndef hpvi_scene_checks_h
 #define hpvi_scene_checks_h
 
-#include <hpvi/scene/parameters.h>
 #include <hpvi/scene/scene.h>
 
 #include <optional>
+#include <string>
 
 namespace hpvi
 {
-/** Throws InputError where the supports of two edges contradict each other at their corner. */
-void check_corners(const Parameters &parameters, const Scene<2> &scene);
+/** Scene::check(). */
+void check_scene(const Scene<2> &scene, SceneUse use);
 
-/**
- * The direction in which supports and contact leave the body free to move and friction alone
- * resists (a semicoercive problem), if there is one. Throws InputError where nothing resists.
- */
+/** Of that the part which functions rely on when they are tried on the body. */
+void check_geometry(const Scene<2> &scene);
+
+/** And the part on which the constants of expressions rely. */
+void check_materials(const Scene<2> &scene);
+
+/** Scene::free_translation(). */
 std::optional<dealii::Tensor<1, 2>> free_translation(const Scene<2> &scene);
 
-/**
- * Throws InputError where the scene's data or its friction law contradict its exact solution, so
- * that an error against that solution is an error of the method.
- */
-void check_exact_solution(const Parameters &parameters, const Scene<2> &scene);
-
-/**
- * Throws InputError where the multiplier on a contact edge had a negative degree, and, unless the
- * inf-sup constant is only to be measured, where it had degree p or more.
- */
-void check_multiplier_degree(const Parameters &parameters, const Scene<2> &scene, SceneUse use);
-
-/**
- * Throws InputError where the coarse mesh alone has more free displacement unknowns than
- * Adaptivity/Maximum unknowns, before memory is spent on it.
- */
-void check_first_step(const Parameters &parameters, const Scene<2> &scene);
+/** What is wrong with a bound where there is no contact. */
+inline const std::string friction_needs_contact =
+    "needs contact; set Contact = bilateral or remove it";
 } // namespace hpvi
 
 #endif

@@ -17,6 +17,49 @@ inline const std::vector<std::string> boundary_names = {"left", "right", "bottom
 inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
+/** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact. */
+inline const std::vector<std::string> reading_names = {"plain", "joint"},
+                                      qp_solver_names = {"mprgp", "active set"},
+                                      shape_names = {"box", "quadrilateral"},
+                                      plane_names = {"stress", "strain"},
+                                      contact_names = {"none", "bilateral"};
+
+/**
+ * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry
+ * sets as it stands, so that reader and check have them from one list.
+ */
+template <class Scene, class Visitor>
+void for_each_value(Scene &scene, const Visitor &visit)
+{
+  visit("Geometry", "Grading levels", scene.geometry.grading_levels);
+  auto &adaptivity = scene.adaptivity;
+  visit("Adaptivity", "Maximum degree", adaptivity.maximum_degree);
+  visit("Adaptivity", "Start degree", adaptivity.start_degree);
+  visit("Adaptivity", "hap threshold", adaptivity.hap_threshold);
+  visit("Adaptivity", "hpa1 bisected fraction", adaptivity.hpa1_bisected);
+  visit("Adaptivity", "hpa1 raised fraction", adaptivity.hpa1_raised);
+  visit("Adaptivity", "hpa2 marked fraction", adaptivity.hpa2_marked);
+  visit("Adaptivity", "hpa2 decay threshold", adaptivity.hpa2_decay);
+  visit("Adaptivity", "hpa3 threshold", adaptivity.hpa3_threshold);
+  visit("Adaptivity", "hpa3 decay threshold", adaptivity.hpa3_decay);
+  visit("Adaptivity", "Maximum steps", adaptivity.maximum_steps);
+  visit("Adaptivity", "Maximum unknowns", adaptivity.maximum_unknowns);
+  visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
+  visit("Adaptivity", "Tolerance", adaptivity.tolerance);
+  auto &solver = scene.solver;
+  visit("Solver", "QP warm start", solver.qp_warm_start);
+  visit("Solver", "QP tolerance", solver.qp_tolerance);
+  visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
+  visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
+  visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
+  visit("Solver", "Condition number", solver.condition_number);
+  auto &output = scene.output;
+  visit("Output", "VTU", output.vtu);
+  visit("Output", "Mesh picture", output.mesh_picture);
+  visit("Output", "Contact tables", output.contact);
+  visit("Output", "Reference solution", output.reference);
+}
+
 /**
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible
  * values and documentation.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_scene_reader_h
+#define hpvi_scene_reader_h
+
+#include <hpvi/scene/scene.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
+ * Throws InputError with one line (file, entry, value, remedy).
+ */
+template <int dim>
+Scene<dim> read_scene(const std::string &file,
+                      const std::vector<std::pair<std::string, std::string>> &overrides = {},
+                      SceneUse use = SceneUse::solve);
+
+/** All entries of a plane scene with defaults and documentation, as a parameter file. */
+std::string default_parameters();
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/scene_reader.h>
+
+#include <hpvi/base/text.h>
+#include <hpvi/scene/expressions.h>
+#include <hpvi/scene/parameters.h>
+#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/scene_entries.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The enumerator whose name is the value of an entry. */
+template <class Enum>
+Enum read_choice(const Parameters &parameters, const std::string &section, const std::string &name,
+                 const std::vector<std::string> &names)
+{
+  const auto found = std::find(names.begin(), names.end(), parameters.text(section, name));
+  return static_cast<Enum>(found - names.begin());
+}
+
+/** Takes the value of an entry, for for_each_value(). */
+struct ReadValue
+{
+  const Parameters &parameters;
+
+  void operator()(const char *section, const char *name, double &value) const
+  {
+    value = parameters.number(section, name);
+  }
+
+  void operator()(const char *section, const char *name, bool &value) const
+  {
+    value = parameters.boolean(section, name);
+  }
+
+  template <class Integer>
+  void operator()(const char *section, const char *name, Integer &value) const
+  {
+    value = parameters.integer(section, name);
+  }
+};
+
+Corners<2> read_corners(const Parameters &parameters)
+{
+  const std::vector<Point<2>> around = parameters.points<2>("Geometry", "Corners");
+  if (around.size() != 4)
+    parameters.reject("Geometry", "Corners",
+                      "does not give four corners; a quadrilateral needs \"x, y; x, y; x, y; "
+                      "x, y\", counterclockwise from the bottom left");
+  return quadrilateral_corners({{around[0], around[1], around[2], around[3]}});
+}
+
+template <int dim>
+void read_geometry(const Parameters &parameters, Geometry<dim> &geometry)
+{
+  geometry.shape = read_choice<Shape>(parameters, "Geometry", "Shape", shape_names);
+  if (geometry.shape == Shape::quadrilateral)
+    geometry.corners = read_corners(parameters);
+  else
+    geometry.corners = box_corners(parameters.points<dim>("Geometry", "Lower corner")[0],
+                                   parameters.points<dim>("Geometry", "Upper corner")[0]);
+  if (geometry.shape == Shape::box && !parameters.text("Geometry", "Corners").empty())
+    parameters.reject("Geometry", "Corners",
+                      "has no meaning for a box; set Shape = quadrilateral or remove it");
+  const std::vector<int> subdivisions = Utilities::string_to_int(
+      Utilities::split_string_list(parameters.text("Geometry", "Subdivisions"), ','));
+  std::copy(subdivisions.begin(), subdivisions.end(), geometry.subdivisions.begin());
+  geometry.graded_towards = parameters.points<dim>("Geometry", "Graded towards");
+}
+
+Material read_material(const Parameters &parameters)
+{
+  return {parameters.number("Material", "Young's modulus"),
+          parameters.number("Material", "Poisson's ratio"),
+          read_choice<PlaneModel>(parameters, "Material", "Plane", plane_names)};
+}
+
+// ---------------------------------------------------------------- the exact solution
+
+/** The value of a friction bound that is the same all along @p edge; NaN if it is not. */
+double constant_friction_bound(const Parameters &parameters, const ExpressionReader<2> &expressions,
+                               const std::string &boundary, const Edge &edge)
+{
+  const std::vector<Point<2>> points = edge.sample();
+  const auto bound = expressions.read_bound("Boundary " + boundary, "Friction bound", points);
+  if (bound == nullptr || parameters.text("Boundary " + boundary, "Contact") == "none")
+    return 0.;
+  const double value = bound->value(points[0]);
+  const bool constant =
+      std::all_of(points.begin(), points.end(),
+                  [&](const Point<2> &point) { return bound->value(point) == value; });
+  return constant ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/** Every one of them slides along the bottom of the body, on y = 0. */
+std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &parameters,
+                                                            const ExpressionReader<2> &expressions,
+                                                            const Scene<2> &scene)
+{
+  const std::string section = "Exact solution", solution = parameters.text(section, "Solution");
+  if (solution == "none")
+    return nullptr;
+  const unsigned int bottom = 2;
+  const Edge edge = edges_of(scene.geometry)[bottom];
+  if (edge.ends[0][1] != 0. || edge.ends[1][1] != 0. || edge.normal[1] > 0)
+    parameters.reject(section, "Solution",
+                      "slides along y = 0 below the body; put the bottom edge there");
+  const double friction_bound =
+      constant_friction_bound(parameters, expressions, boundary_names[bottom], edge);
+  if (!(solution == "stick-slip" ? friction_bound > 0 : friction_bound >= 0))
+    parameters.reject("Boundary " + boundary_names[bottom], "Friction bound",
+                      "must be a positive constant for Exact solution/Solution = " + solution +
+                          "; give a number, and Contact = bilateral");
+  const double transition = parameters.number(section, "Transition");
+  const double length = parameters.number(section, "Length");
+  if (solution == "stick-slip")
+    return std::make_shared<StickSlip>(scene.materials[0], friction_bound, transition, length);
+  return std::make_shared<Smooth>(scene.materials[0], friction_bound, transition, length);
+}
+
+// ---------------------------------------------------------------- the rest
+
+template <int dim>
+void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                   const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
+{
+  const Edge edge = edges_of(scene.geometry)[boundary.id];
+  const std::vector<Point<dim>> points = edge.sample();
+  const auto exact_displacement = [&](const unsigned int c) -> Expression<dim>
+  {
+    return scene.exact_solution == nullptr
+               ? nullptr
+               : std::make_shared<ExactDisplacement<dim>>(scene.exact_solution, c);
+  };
+  const auto exact_traction = [&](const unsigned int c) -> Expression<dim>
+  {
+    return scene.exact_solution == nullptr
+               ? nullptr
+               : std::make_shared<ExactTraction<dim>>(scene.exact_solution, scene.materials[0],
+                                                      edge.normal, c);
+  };
+
+  const std::string section = "Boundary " + boundary.name;
+  boundary.displacement =
+      expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
+  boundary.traction =
+      expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
+  boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
+  boundary.friction.bound = expressions.read_bound(section, "Friction bound", points);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty()) // even a zero
+    parameters.reject(section, "Friction bound", friction_needs_contact);
+}
+
+/** Resolves `Start degree = 0`, also in @p parameters. */
+template <int dim>
+void read_method(Parameters &parameters, Scene<dim> &scene)
+{
+  for_each_value(scene, ReadValue{parameters});
+  Adaptivity &adaptivity = scene.adaptivity;
+  adaptivity.method = read_choice<Method>(parameters, "Adaptivity", "Method", method_names);
+  adaptivity.reading =
+      read_choice<SmoothnessReading>(parameters, "Adaptivity", "Smoothness reading", reading_names);
+  if (adaptivity.start_degree == 0)
+    adaptivity.start_degree = own_start_degree(adaptivity.method);
+  parameters.set("Adaptivity", "Start degree", std::to_string(adaptivity.start_degree));
+  scene.solver.qp_solver =
+      read_choice<QpSolver>(parameters, "Solver", "QP solver", qp_solver_names);
+}
+} // namespace
+
+template <int dim>
+Scene<dim> read_scene(const std::string &file,
+                      const std::vector<std::pair<std::string, std::string>> &overrides,
+                      const SceneUse use)
+{
+  const auto parameters = std::make_shared<Parameters>(scene_entries(dim), file);
+  parameters->read(overrides);
+  if (parameters->text("", "Dimension") != std::to_string(dim))
+    parameters->reject("", "Dimension", "is not available yet; set Dimension = 2");
+  Scene<dim> scene;
+  scene.parameters = parameters;
+  scene.name = std::filesystem::path(file).stem().string();
+  if (parameters->text("", "Title").empty())
+    parameters->set("", "Title", storable(scene.name));
+  scene.title = parameters->text("", "Title");
+  scene.length_unit = parameters->text("Units", "Length");
+  scene.stress_unit = parameters->text("Units", "Stress");
+
+  read_method(*parameters, scene);
+
+  // Expressions are tried on the body and know its material: both must be sound.
+  read_geometry(*parameters, scene.geometry);
+  check_geometry(scene);
+  scene.materials = {read_material(*parameters)};
+  check_materials(scene);
+  const ExpressionReader<dim> expressions(*parameters, scene.materials[0]);
+  scene.body_force =
+      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
+  scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
+  for (BoundaryCondition<dim> &boundary : scene.boundaries)
+    read_boundary(*parameters, expressions, scene, boundary);
+  scene.reference_solution = parameters->text("Error", "Reference solution");
+  scene.check(use);
+  return scene;
+}
+
+std::string default_parameters()
+{
+  return Parameters(scene_entries(2), "").print(true);
+}
+
+template Scene<2> read_scene(const std::string &,
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+} // namespace hpvi

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Scenes that are built by code: the same as from a file, and refused where they are wrong.
+#include "discretisation.h"
+
+#include <hpvi/output/output.h>
+#include <hpvi/scene/scene_entries.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <regex>
+
+namespace
+{
+using namespace verification;
+
+/** prm/han-6-12.prm, Example 5.2 of the thesis. */
+Scene<2> pushed_block()
+{
+  Scene<2> scene;
+  scene.geometry.corners = box_corners(Point<2>(0, 0), Point<2>(4, 4));
+  scene.geometry.subdivisions = {{4, 4}};
+  scene.materials = {{15., 0.4, PlaneModel::stress}};
+  scene.boundary("left").traction = {
+      {expression<2>([](const Point<2> &x) { return 1.5 * (5 - x[1]); }), expression<2>(-0.75)}};
+  scene.boundary("right").displacement = {{expression<2>(0.), expression<2>(0.)}};
+  scene.boundary("bottom").contact = Contact::bilateral;
+  scene.boundary("bottom").friction.bound = expression<2>(4.5);
+  scene.adaptivity.method = Method::hpa2;
+  scene.adaptivity.reading = SmoothnessReading::joint;
+  scene.adaptivity.start_degree = own_start_degree(Method::hpa2);
+  return scene;
+}
+
+/** What a run leaves: energies and errors of each step, and the files that equal runs share. */
+struct Record
+{
+  std::vector<double> numbers;
+  std::map<std::string, std::string> files;
+};
+
+Record record(const Scene<2> &scene)
+{
+  const auto directory = std::filesystem::path(::testing::TempDir()) /
+                         ("hpvi-scene-" + std::to_string(std::random_device()()));
+  Record result;
+  {
+    Output<2> output(scene, directory.string());
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          const Energies &e = step.energies;
+          result.numbers.insert(result.numbers.end(),
+                                {e.lagrangian, e.energy, e.slack, e.norm,
+                                 step.contact.at(0).friction_resultant, step.estimate.total(),
+                                 step.scaled_estimate});
+          if (scene.has_known_solution())
+            result.numbers.push_back(step.errors.energy);
+          output.write_step(step);
+        });
+  }
+  const std::regex timed("convergence\\.csv|summary\\.json|solution\\.pvd|scene\\.prm|\\..*");
+  for (const auto &entry : std::filesystem::directory_iterator(directory))
+    if (const std::string name = entry.path().filename(); !std::regex_match(name, timed))
+    {
+      std::ostringstream content;
+      content << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+      result.files[name] = content.str();
+    }
+  EXPECT_EQ(std::filesystem::exists(directory / "scene.prm"), scene.parameters != nullptr);
+  std::filesystem::remove_all(directory);
+  return result;
+}
+
+void expect_same(const Record &one, const Record &other)
+{
+  EXPECT_FALSE(one.numbers.empty());
+  EXPECT_EQ(one.numbers, other.numbers);
+  EXPECT_FALSE(one.files.empty());
+  EXPECT_EQ(one.files.size(), other.files.size());
+  for (const auto &[name, content] : one.files)
+    EXPECT_TRUE(other.files.count(name) && other.files.at(name) == content) << name;
+}
+
+TEST(SceneByCode, IsTheSameAsFromAFile)
+{
+  Scene<2> scene = pushed_block(), file = shipped_scene("han-6-12");
+  scene.title = file.title; // pictures show it, and the units
+  scene.length_unit = file.length_unit;
+  scene.stress_unit = file.stress_unit;
+  for (Scene<2> *each : {&scene, &file})
+    each->adaptivity.maximum_steps = 9;
+  expect_same(record(scene), record(file));
+}
+
+/** Compares a number of one scene with that of another. */
+TEST(SceneByCode, HasTheDefaultsOfAFile)
+{
+  Scene<2> code;
+  const Scene<2> file = scene_of({{"Boundary right/Displacement", "0; 0"}});
+  std::vector<std::string> ours, theirs;
+  const auto collect = [](std::vector<std::string> &list)
+  {
+    return [&list](const char *section, const char *name, const auto &value)
+    { list.push_back(std::string(section) + "/" + name + " = " + text(value)); };
+  };
+  for_each_value(code, collect(ours));
+  for_each_value(file, collect(theirs));
+  EXPECT_EQ(ours, theirs);
+  EXPECT_GT(ours.size(), 20U);
+  EXPECT_EQ(code.adaptivity.method, file.adaptivity.method);
+  EXPECT_EQ(code.adaptivity.reading, file.adaptivity.reading);
+  EXPECT_EQ(code.solver.qp_solver, file.solver.qp_solver);
+  EXPECT_EQ(code.geometry.shape, file.geometry.shape);
+  EXPECT_EQ(code.geometry.corners, file.geometry.corners);
+  EXPECT_EQ(code.geometry.subdivisions, file.geometry.subdivisions);
+  EXPECT_EQ(code.materials[0].young, file.materials[0].young);
+  EXPECT_EQ(code.materials[0].poisson, file.materials[0].poisson);
+  EXPECT_EQ(code.materials[0].plane, file.materials[0].plane);
+  for (unsigned int b = 0; b < 4; ++b)
+  {
+    EXPECT_EQ(code.boundaries[b].name, file.boundaries[b].name);
+    EXPECT_EQ(code.boundaries[b].contact, file.boundaries[b].contact);
+  }
+}
+
+// ---------------------------------------------------------------- several materials
+
+/** Every stage asks for the material of its cell: a first one with the same mu is never seen. */
+TEST(SceneByCode, MayNumberItsMaterialsAsItLikes)
+{
+  const auto scene = [](const bool second, const Overrides &overrides)
+  {
+    Scene<2> result = shipped_scene("han-6-12", overrides);
+    if (second)
+    {
+      const Material unused{2 * result.materials[0].mu(), 0., PlaneModel::strain};
+      result.materials.insert(result.materials.begin(), unused);
+      result.material_at = [](const Point<2> &) { return 1; };
+    }
+    return result;
+  };
+  const Overrides fine = {{"Adaptivity/Maximum steps", "4"}, {"Output/Reference solution", "true"}};
+  const Record one = record(scene(false, fine)), other = record(scene(true, fine));
+  expect_same(one, other);
+
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-reference-" + std::to_string(std::random_device()()));
+  std::ofstream(file, std::ios::binary) << one.files.at("reference.dat");
+  const Overrides coarse = {{"Adaptivity/Maximum steps", "2"},
+                            {"Error/Reference solution", file.string()}};
+  expect_same(record(scene(false, coarse)), record(scene(true, coarse)));
+  std::filesystem::remove(file);
+}
+
+/** A cantilever of two layers takes the materials where material_at says. */
+TEST(SceneByCode, PutsMaterialsWhereItSays)
+{
+  Scene<2> scene;
+  scene.geometry.subdivisions = {{4, 2}};
+  scene.geometry.graded_towards = {Point<2>(0, 0)};
+  scene.geometry.grading_levels = 3;
+  scene.materials = {{1., 0.3, PlaneModel::strain}, {50., 0.2, PlaneModel::strain}};
+  scene.material_at = [](const Point<2> &x) { return x[1] < 0.5 ? 0 : 1; };
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  EXPECT_GT(mesh.n_active_cells(), 8U);
+  for (const auto &cell : mesh.active_cell_iterators())
+    EXPECT_EQ(&scene.material_of(cell), &scene.materials[cell->center()[1] < 0.5 ? 0 : 1]);
+
+  scene.material_at = [](const Point<2> &) { return 2; };
+  Triangulation<2> other;
+  EXPECT_THROW(make_mesh(scene, other), InputError);
+}
+
+// ---------------------------------------------------------------- wrong scenes
+
+struct Mistake
+{
+  std::string words; ///< how the message goes on after "scene: "
+  std::function<void(Scene<2> &)> make;
+};
+
+void PrintTo(const Mistake &mistake, std::ostream *out)
+{
+  *out << mistake.words;
+}
+
+class WrongScene : public ::testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(WrongScene, IsRefused)
+{
+  Scene<2> scene = pushed_block();
+  ASSERT_NO_THROW(scene.check());
+  try
+  {
+    GetParam().make(scene);
+    scene.check();
+    ADD_FAILURE() << "is accepted";
+  }
+  catch (const InputError &error)
+  {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("scene: " + GetParam().words, 0), 0U) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_NE(message.find("; "), std::string::npos) << "no remedy: " << message;
+  }
+}
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    Material, WrongScene,
+    ::testing::Values(
+        Mistake{"Material/Young's modulus = -15: is not accepted here; give a number E > 0",
+                [](Scene<2> &s) { s.materials[0].young = -15; }},
+        Mistake{"Material/Young's modulus = nan: is not accepted here",
+                [](Scene<2> &s) { s.materials[0].young = nan; }},
+        Mistake{"Material/Poisson's ratio = 0.5: is outside (-1, 1/2)",
+                [](Scene<2> &s) { s.materials[0].poisson = 0.5; }},
+        Mistake{"Material/Young's modulus = 0: is not accepted here",
+                [](Scene<2> &s)
+                {
+                  s.materials.push_back({0., 0.3, PlaneModel::strain});
+                  s.material_at = [](const Point<2> &) { return 0; };
+                }},
+        Mistake{"Material: is missing", [](Scene<2> &s) { s.materials.clear(); }},
+        Mistake{"Material: says nowhere which of 2 is where; set material_at",
+                [](Scene<2> &s) { s.materials.resize(2); }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Geometry, WrongScene,
+    ::testing::Values(
+        Mistake{"Geometry/Upper corner = (4, 0): is not above and right of the lower corner (0, 4)",
+                [](Scene<2> &s)
+                { s.geometry.corners = box_corners(Point<2>(0, 4), Point<2>(4, 0)); }},
+        Mistake{"Geometry/Upper corner = (nan, 4): is not above",
+                [](Scene<2> &s) { s.geometry.corners[3][0] = nan; }},
+        Mistake{"Geometry/Shape = box: has corners that are not those of a box",
+                [](Scene<2> &s) { s.geometry.corners[1][1] = 0.1; }},
+        Mistake{"Geometry/Corners: is degenerate, clockwise or not convex at (1, 1)",
+                [](Scene<2> &s)
+                {
+                  s.geometry.shape = Shape::quadrilateral;
+                  s.geometry.corners = quadrilateral_corners(
+                      {{Point<2>(0, 0), Point<2>(4, 0), Point<2>(1, 1), Point<2>(0, 4)}});
+                }},
+        Mistake{"Geometry/Upper corner: has lengths from 1e-200 to 1e-200", [](Scene<2> &s)
+                { s.geometry.corners = box_corners(Point<2>(), Point<2>(1e-200, 1e-200)); }},
+        Mistake{"Geometry/Subdivisions = 4, 0: makes no cells",
+                [](Scene<2> &s) { s.geometry.subdivisions[1] = 0; }},
+        Mistake{"Geometry/Subdivisions = 9999, 9999: makes more than a million cells",
+                [](Scene<2> &s) {
+                  s.geometry.subdivisions = {{9999, 9999}};
+                }},
+        Mistake{"Geometry/Subdivisions: makes at least 1620899 free unknowns",
+                [](Scene<2> &s) {
+                  s.geometry.subdivisions = {{300, 300}};
+                }},
+        Mistake{"Geometry/Grading levels: has no point to grade to",
+                [](Scene<2> &s) { s.geometry.grading_levels = 2; }},
+        Mistake{"Geometry/Grading levels = 41: is not accepted here",
+                [](Scene<2> &s)
+                {
+                  s.geometry.graded_towards = {Point<2>(0, 0)};
+                  s.geometry.grading_levels = 41;
+                }},
+        Mistake{"Geometry/Graded towards: has the point (5, 0) outside the body",
+                [](Scene<2> &s) { s.geometry.graded_towards = {Point<2>(5, 0)}; }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Boundary, WrongScene,
+    ::testing::Values(
+        Mistake{"Boundary botom: there is none of this name; give left, right, bottom, top",
+                [](Scene<2> &s) { s.boundary("botom").contact = Contact::bilateral; }},
+        Mistake{"Boundary: has 3 instead of 4", [](Scene<2> &s) { s.boundaries.pop_back(); }},
+        Mistake{"Boundary left: has the id 1 and stands at 0",
+                [](Scene<2> &s) { s.boundary("left").id = 1; }},
+        Mistake{"Boundary top/Friction bound: needs contact",
+                [](Scene<2> &s) { s.boundary("top").friction.bound = expression<2>(1.); }},
+        Mistake{"Boundary bottom/Friction bound: is -1 at (0, 0)",
+                [](Scene<2> &s) { s.boundary("bottom").friction.bound = expression<2>(-1.); }},
+        Mistake{"Boundary bottom/Friction bound: is nan at (0, 0)",
+                [](Scene<2> &s) { s.boundary("bottom").friction.bound = expression<2>(nan); }},
+        Mistake{"Boundary bottom/Displacement: stands beside Contact = bilateral",
+                [](Scene<2> &s) { s.boundary("bottom").displacement[0] = expression<2>(0.); }},
+        Mistake{"Boundary right/Traction: acts on the component x that Displacement prescribes",
+                [](Scene<2> &s) { s.boundary("right").traction[0] = expression<2>(1.); }},
+        Mistake{"Boundary right/Displacement: contradicts Boundary bottom/Contact at their corner "
+                "(4, 0) by 0.1",
+                [](Scene<2> &s) { s.boundary("right").displacement[1] = expression<2>(0.1); }},
+        Mistake{
+            "Boundary top/Displacement: contradicts Boundary right/Displacement at their corner",
+            [](Scene<2> &s) { s.boundary("top").displacement[1] = expression<2>(1.); }},
+        Mistake{"Boundary left/Traction: is not finite at (0, 0)",
+                [](Scene<2> &s) {
+                  s.boundary("left").traction[0] =
+                      expression<2>([](const Point<2> &x) { return 1 / x[1]; });
+                }},
+        Mistake{"Boundary left/Traction: has a component of magnitude 1e+200",
+                [](Scene<2> &s) { s.boundary("left").traction[0] = expression<2>(1e200); }},
+        Mistake{"Body force/Expression: is not finite at (2, 0)",
+                [](Scene<2> &s) {
+                  s.body_force[1] = expression<2>([](const Point<2> &x) { return 1 / (x[0] - 2); });
+                }},
+        Mistake{"Boundary left, right, bottom, top/Displacement: the supports leave a rigid-body "
+                "motion free, translation in x, and no friction resists it",
+                [](Scene<2> &s)
+                {
+                  s.boundary("right").displacement = {};
+                  s.boundary("bottom").friction = {};
+                }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Method, WrongScene,
+    ::testing::Values(
+        Mistake{"Adaptivity/Start degree = 0: is no degree",
+                [](Scene<2> &s) { s.adaptivity.start_degree = 0; }},
+        Mistake{"Adaptivity/Start degree = 1: is too low for contact",
+                [](Scene<2> &s) { s.adaptivity.start_degree = 1; }},
+        Mistake{"Adaptivity/Start degree = 13: exceeds Maximum degree = 12",
+                [](Scene<2> &s) { s.adaptivity.start_degree = 13; }},
+        Mistake{
+            "Adaptivity/Maximum degree = 21: is not accepted here; give an integer from 1 to 20",
+            [](Scene<2> &s) { s.adaptivity.maximum_degree = 21; }},
+        Mistake{"Adaptivity/hap threshold = 0: is not accepted here",
+                [](Scene<2> &s) { s.adaptivity.hap_threshold = 0; }},
+        Mistake{"Adaptivity/hpa2 marked fraction = 1.5: is not accepted here",
+                [](Scene<2> &s) { s.adaptivity.hpa2_marked = 1.5; }},
+        Mistake{"Adaptivity/hpa1 raised fraction = 0.7: makes more than all cells with hpa1 "
+                "bisected fraction = 0.4",
+                [](Scene<2> &s)
+                {
+                  s.adaptivity.hpa1_bisected = 0.4;
+                  s.adaptivity.hpa1_raised = 0.7;
+                }},
+        Mistake{"Adaptivity/Maximum steps = 0: is not accepted here",
+                [](Scene<2> &s) { s.adaptivity.maximum_steps = 0; }},
+        Mistake{"Adaptivity/Tolerance = -1: is not accepted here",
+                [](Scene<2> &s) { s.adaptivity.tolerance = -1; }},
+        Mistake{"Adaptivity/Maximum seconds = nan: is not accepted here",
+                [](Scene<2> &s) { s.adaptivity.maximum_seconds = nan; }},
+        Mistake{"Solver/QP tolerance = 0: is not accepted here",
+                [](Scene<2> &s) { s.solver.qp_tolerance = 0; }},
+        Mistake{"Solver/Multiplier degree offset = -21: is not accepted here",
+                [](Scene<2> &s) { s.solver.multiplier_offset = -21; }},
+        Mistake{"Solver/Multiplier degree offset = 0: makes S singular",
+                [](Scene<2> &s) { s.solver.multiplier_offset = 0; }}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Errors, WrongScene,
+    ::testing::Values(
+        Mistake{"Output/Reference solution: compares the entries of two files",
+                [](Scene<2> &s) { s.output.reference = true; }},
+        Mistake{"Error/Reference solution: compares the entries of two files",
+                [](Scene<2> &s) { s.reference_solution = "reference.dat"; }},
+        Mistake{
+            "Boundary left/Traction: contradicts Exact solution/Solution at (0, 0); write exact",
+            [](Scene<2> &s)
+            { s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.); }},
+        Mistake{"Body force/Expression: contradicts Exact solution/Solution",
+                [](Scene<2> &s)
+                {
+                  s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.);
+                  s.body_force[0] = expression<2>(1.);
+                }},
+        Mistake{"Exact solution/Solution: knows one material, and the scene has 2", [](Scene<2> &s)
+                {
+                  s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.);
+                  s.materials.resize(2);
+                  s.material_at = [](const Point<2> &) { return 0; };
+                }}));
+
+/** The constant is measured where no run can succeed. */
+TEST(SceneByCode, MayHaveTooManyMultipliersToMeasureThem)
+{
+  Scene<2> scene = pushed_block();
+  scene.solver.multiplier_offset = 0;
+  EXPECT_NO_THROW(scene.check(SceneUse::measure));
+  EXPECT_THROW(AdaptiveSolver<2>{scene}, InputError);
+}
+} // namespace
