@@ -3,7 +3,6 @@
 // bytes of a fresh process's. ./run long.
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/scene/scene_reader.h>
-#include <hpvi/scene/scene_reader.h>
 
 #include <malloc.h>
 
