@@ -170,9 +170,13 @@ TEST(Process, HearsOfUnknownFunctionsByExceptions)
         n_known += known;
         const CaughtStderr caught;
         if (known)
+        {
           EXPECT_NO_THROW(shipped_scene("han-6-12", overrides)) << expression;
+        }
         else
+        {
           EXPECT_THROW(shipped_scene("han-6-12", overrides), InputError) << expression;
+        }
       }
   EXPECT_GT(n_known, 50U);
 }
