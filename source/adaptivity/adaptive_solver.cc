@@ -43,7 +43,8 @@ struct AdaptiveSolver<dim>::Stages
   AlgebraicError algebraic;      ///< of the current step
   StageTimes times;              ///< of the current step
   History history;               ///< of the finished steps
-  std::function<void(const Progress &)> about_to;
+  std::vector<Refinement> refinements; ///< from the coarse mesh to that of the current step
+  std::function<void(const Progress &)> about_to = [](const Progress &) {};
 
   explicit Stages(const Scene<dim> &scene)
       : scene(scene), tables(std::make_shared<const ShapeTables<dim>>()), elements(scene, *tables),
@@ -60,6 +61,7 @@ struct AdaptiveSolver<dim>::Stages
   std::string dense_note() const;
   void discretise();
   Solution<dim> solve(ReducedSolution &reduced);
+  void keep_start(const Vector<double> &z, double moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate);
   StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
@@ -67,6 +69,7 @@ struct AdaptiveSolver<dim>::Stages
   std::string end_of_run(const Solution<dim> &solution, const Refinement &refinement) const;
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
+  void resume(const RunState &state);
 };
 
 template <int dim>
@@ -124,12 +127,19 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
                          .solve(reduced, algebraic);
   times.qp += reduced.seconds;
   times.recover += timer.wall_time() - reduced.seconds;
-  if (contact_space.n_multipliers() > 0 && scene.solver.qp_warm_start)
-  {
-    previous = MultiplierTrace<dim>(contact_space, reduced.z);
-    translation = reduced.translation;
-  }
+  keep_start(reduced.z, reduced.translation);
   return {scene, discretisation->spaces, std::move(u), reduced.z};
+}
+
+/** The next step begins where this one ends. */
+template <int dim>
+void AdaptiveSolver<dim>::Stages::keep_start(const Vector<double> &z, const double moved)
+{
+  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
+  if (contact_space.n_multipliers() == 0 || !scene.solver.qp_warm_start)
+    return;
+  previous = MultiplierTrace<dim>(contact_space, z);
+  translation = moved;
 }
 
 template <int dim>
@@ -171,6 +181,41 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
   refined->copy_triangulation(*mesh);
   degrees = refine_mesh(*refined, degrees, refinement);
   mesh = refined;
+  refinements.push_back(refinement);
+}
+
+/** Marking is not kept in a state, because it follows from the solution. */
+template <int dim>
+void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
+{
+  const FileFormat &format = RunState::format();
+  format.check_entries(state.name, state.entries,
+                       RunState::entries_of(scene.effective_parameters()));
+  discretise();
+  for (const Refinement &refinement : state.refinements)
+  {
+    if (refinement.bisect.size() != degrees.size())
+      format.reject(state.name, "the run state has another coarse mesh");
+    refine(refinement);
+    discretise(); // element matrices go from step to step, to the last bit
+  }
+  const auto &spaces = discretisation->spaces;
+  if (state.history.size() != state.refinements.size() + 1 ||
+      state.u.size() != spaces->displacement_space.n_dofs() ||
+      state.z.size() != spaces->contact_space.n_multipliers())
+    format.reject(state.name, "the run state has another number of steps or unknowns");
+  const Solution<dim> solution(scene, spaces, state.u, state.z);
+  history = state.history;
+  keep_start(solution.z, state.translation);
+  const Refinement refinement = mark(solution, estimate(solution));
+  const std::string limit = end_of_run(solution, refinement);
+  if (!limit.empty())
+    format.reject(state.name, "there is nothing to go on with after step " +
+                                  std::to_string(history.size()) + ": " +
+                                  (limit == "round-off" ? "exact to round-off"
+                                                        : "Adaptivity/" + limit + " ends the run"));
+  refine(refinement);
+  times = {};
 }
 
 template <int dim>
@@ -237,7 +282,23 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
 }
 
 template <int dim>
+AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState &state)
+    : AdaptiveSolver(scene)
+{
+  stages->resume(state);
+}
+
+template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
+
+template <int dim>
+RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const
+{
+  return {"the run state",     RunState::entries_of(stages->scene.effective_parameters()),
+          stages->refinements, step.solution.u,
+          step.solution.z,     stages->translation,
+          stages->history};
+}
 
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/text.h>
+#include <hpvi/base/file_format.h>
 #include <hpvi/evaluation/stored_solution.h>
-#include <hpvi/scene/parameters.h>
-
-#include <boost/crc.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
-#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -19,14 +14,10 @@ using namespace dealii;
 
 namespace
 {
-const std::string first_line = "hpvi reference solution, format 1";
-
-[[noreturn]] void does_not_fit(const std::string &file, const std::string &what)
-{
-  throw InputError(printable(file) + ": " + what +
-                   "; make the reference solution anew from a scene of the same problem with the "
-                   "same coarse mesh");
-}
+const FileFormat
+    format("reference solution", 1,
+           "make the reference solution anew from a scene of the same problem with the "
+           "same coarse mesh");
 
 /** What of a scene decides about its solution; the coarse mesh's grading has a check of its own. */
 bool belongs_to_problem(const std::string &section, const std::string &entry)
@@ -36,77 +27,12 @@ bool belongs_to_problem(const std::string &section, const std::string &entry)
          (section == "Geometry" && entry != "Graded towards" && entry != "Grading levels");
 }
 
-/** The entries of the problem as "Section/Entry = value", as in scene.prm; none without a file. */
-template <int dim>
-std::vector<std::string> problem_of(const Scene<dim> &scene)
-{
-  std::vector<std::string> result;
-  std::istringstream lines(scene.parameters ? scene.parameters->print(false) : "");
-  std::string section;
-  for (std::string line; std::getline(lines, line);)
-  {
-    const std::string statement = single_spaced(line), opening = "subsection ", setting = "set ";
-    if (statement.rfind(opening, 0) == 0)
-      section = statement.substr(opening.size());
-    const std::size_t equals = statement.find(" =");
-    if (statement.rfind(setting, 0) == 0 && equals != std::string::npos &&
-        belongs_to_problem(section, statement.substr(setting.size(), equals - setting.size())))
-      result.push_back(section + "/" + statement.substr(setting.size()));
-  }
-  return result;
-}
-
-std::string checksum(const std::string &content)
-{
-  boost::crc_32_type crc;
-  crc.process_bytes(content.data(), content.size());
-  std::ostringstream out;
-  out << "checksum " << std::hex << std::setw(8) << std::setfill('0') << crc.checksum();
-  return out.str();
-}
-
-/** What follows the checksum. */
-std::istringstream read_content(const std::string &file)
+std::string content_of(const std::string &file)
 {
   std::ifstream in(file, std::ios::binary);
-  std::string format, sum;
   if (!in || !std::filesystem::is_regular_file(file))
-    does_not_fit(file, "the reference solution cannot be read");
-  if (!std::getline(in, format) || format != first_line)
-    does_not_fit(file, "does not begin with \"" + first_line + "\"");
-  std::getline(in, sum);
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
-  if (sum != checksum(content))
-    does_not_fit(file, "the reference solution is cut short or altered, its content has " +
-                           checksum(content));
-  return std::istringstream(content);
-}
-
-/** The first entry that differs is named; blanks do not count. */
-void check_problem(const std::string &file, const std::vector<std::string> &there,
-                   const std::vector<std::string> &here)
-{
-  const auto without_blanks = [](std::string text)
-  {
-    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
-    return text;
-  };
-  const auto value = [](const std::string &entry)
-  {
-    const std::string text = entry.substr(entry.find('=') + 1);
-    return text.empty() ? " nothing" : printable(text);
-  };
-  for (std::size_t k = 0; k < std::max(there.size(), here.size()); ++k)
-  {
-    const std::string theirs = k < there.size() ? there[k] : "",
-                      ours = k < here.size() ? here[k] : "";
-    if (theirs.substr(0, theirs.find(" =")) != ours.substr(0, ours.find(" =")))
-      does_not_fit(file, "the reference solution knows other entries than this program");
-    if (without_blanks(theirs) != without_blanks(ours))
-      does_not_fit(file, "is the reference solution of another problem: " +
-                             theirs.substr(0, theirs.find(" =") + 2) + value(theirs) + " there," +
-                             value(ours) + " here");
-  }
+    format.reject(file, "the reference solution cannot be read");
+  return format.read(in, file);
 }
 
 /**
@@ -139,7 +65,7 @@ std::vector<std::string> read_problem(std::istream &in, const std::string &file,
   while (std::getline(in, line) && line.rfind(last, 0) != 0)
     problem.push_back(line);
   if (!in || !(std::istringstream(line.substr(last.size())) >> energy))
-    does_not_fit(file, "not a reference solution");
+    format.reject(file, "not a reference solution");
   return problem;
 }
 
@@ -152,11 +78,11 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
   {
     CellRecord record;
     if (!(in >> record.degree) || record.degree == 0 || record.degree > 100)
-      does_not_fit(file, "not a reference solution");
+      format.reject(file, "not a reference solution");
     record.coefficients.resize(dim * Utilities::fixed_power<2>(record.degree + 1));
     for (double &value : record.coefficients)
       if (!(in >> value))
-        does_not_fit(file, "the reference solution is incomplete");
+        format.reject(file, "the reference solution is incomplete");
     records.emplace(cell, std::move(record));
   }
   return records;
@@ -165,7 +91,8 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
 
 template <int dim>
 StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const double energy)
-    : mesh(&solution.displacement_space.triangulation()), problem(problem_of(solution.scene)),
+    : mesh(&solution.displacement_space.triangulation()),
+      problem(entries_of(solution.scene.effective_parameters(), belongs_to_problem)),
       energy_value(energy), degrees(solution.displacement_space.degrees())
 {
   for (unsigned int cell = 0; cell < degrees.size(); ++cell)
@@ -177,9 +104,9 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
     : mesh(&own_mesh)
 {
   static_assert(dim == 2, "the number of coefficients of a cell");
-  std::istringstream content = read_content(file);
+  std::istringstream content(content_of(file));
   problem = read_problem(content, file, energy_value);
-  check_problem(file, problem, problem_of(scene));
+  format.check_entries(file, problem, entries_of(scene.effective_parameters(), belongs_to_problem));
   const std::map<std::string, CellRecord> records = read_records(content, file, dim);
   make_mesh(scene, own_mesh);
   // Bisect every cell that is not in the file until all active cells are.
@@ -190,14 +117,14 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
       if (records.count(path<dim>(cell)) == 0)
       {
         if (own_mesh.n_active_cells() > records.size())
-          does_not_fit(file, "the reference solution has another coarse mesh");
+          format.reject(file, "the reference solution has another coarse mesh");
         cell->set_refine_flag();
         complete = false;
       }
     own_mesh.execute_coarsening_and_refinement();
   }
   if (own_mesh.n_active_cells() != records.size())
-    does_not_fit(file, "the reference solution has another coarse mesh");
+    format.reject(file, "the reference solution has another coarse mesh");
   for (const auto &cell : own_mesh.active_cell_iterators())
   {
     const CellRecord &record = records.at(path<dim>(cell));
@@ -221,7 +148,7 @@ void StoredSolution<dim>::write(std::ostream &out) const
       content << ' ' << value;
     content << '\n';
   }
-  out << first_line << '\n' << checksum(content.str()) << '\n' << content.str();
+  format.write(out, content.str());
 }
 
 template <int dim>

@@ -31,7 +31,7 @@ Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
     write_summary(); // names the files of earlier runs as long as there are any
     directory.remove_earlier();
     if (scene.parameters)
-      write("scene.prm", scene.parameters->print(false));
+      write("scene.prm", scene.effective_parameters());
   }
   catch (const InputError &error)
   {

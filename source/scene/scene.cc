@@ -158,6 +158,12 @@ bool Scene<dim>::has_friction() const
 }
 
 template <int dim>
+std::string Scene<dim>::effective_parameters() const
+{
+  return parameters ? parameters->print(false) : "";
+}
+
+template <int dim>
 std::optional<Tensor<1, dim>> Scene<dim>::free_translation() const
 {
   return hpvi::free_translation(*this);

@@ -2,6 +2,7 @@
 #ifndef hpvi_adaptive_solver_h
 #define hpvi_adaptive_solver_h
 
+#include <hpvi/adaptivity/checkpoint.h>
 #include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/step_report.h>
 #include <hpvi/base/numerical_failure.h>
@@ -21,6 +22,14 @@ class AdaptiveSolver
 public:
   /** Throws InputError where the scene does not pass Scene::check(). */
   explicit AdaptiveSolver(const Scene<dim> &scene);
+
+  /**
+   * Goes on after the step in which @p state was taken, to the same numbers as if the run had not been
+   * broken off. Throws InputError where @p scene is not that of the state, limits, output and labels
+   * aside, or where its limits leave no step to take.
+   */
+  AdaptiveSolver(const Scene<dim> &scene, const RunState &state);
+
   ~AdaptiveSolver();
 
   /**
@@ -31,6 +40,9 @@ public:
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,
       const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+
+  /** What it takes to go on after @p step; to be asked while its callback lasts. */
+  RunState state(const StepReport<dim> &step) const;
 
 private:
   struct Stages;

@@ -82,7 +82,6 @@ private:
   const Scene<dim> &scene;
   ResultDirectory directory;
   bool is_usable = false; ///< proved by writing `scene.prm`
-  const ShapeTables<dim> shape_tables;
   Tables<dim> tables;
   Summary<dim> summary;
   std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name

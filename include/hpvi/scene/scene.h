@@ -183,6 +183,9 @@ struct Scene
   /** Throws InputError where there is none of this name. */
   BoundaryCondition<dim> &boundary(const std::string &name);
 
+  /** The text of scene.prm, every entry with its value; empty for a scene that was built by code. */
+  std::string effective_parameters() const;
+
   std::string
   origin() const; ///< the file as the user named it, or the name: messages begin with it
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/checkpoint.h>
+#include <hpvi/base/formatting.h>
+
+#include <charconv>
+#include <sstream>
+#include <system_error>
+
+namespace hpvi
+{
+namespace
+{
+void write_values(std::ostream &out, const char *const name, const dealii::Vector<double> &values)
+{
+  out << name << ' ' << values.size();
+  for (const double value : values)
+    out << ' ' << text(value);
+  out << '\n';
+}
+
+/** A cell by its degree, or 0 where it is bisected and has none. */
+void write_refinement(std::ostream &out, const Refinement &refinement)
+{
+  out << refinement.bisect.size();
+  for (std::size_t cell = 0; cell < refinement.bisect.size(); ++cell)
+    out << ' ' << (refinement.bisect[cell] ? 0 : refinement.degrees[cell]);
+  out << '\n';
+}
+
+/** The content of a file, word by word. */
+class Reader
+{
+public:
+  Reader(const std::string &content, const std::string &file) : in(content), file(file)
+  {
+  }
+
+  /** As text() writes it, which knows infinity. */
+  template <class Number>
+  Number number()
+  {
+    std::string word;
+    Number value{};
+    in >> word;
+    const char *const end = word.data() + word.size();
+    const auto result = std::from_chars(word.data(), end, value);
+    if (result.ec != std::errc() || result.ptr != end)
+      malformed();
+    return value;
+  }
+
+  void expect(const std::string &name)
+  {
+    std::string word;
+    if (!(in >> word) || word != name)
+      malformed();
+  }
+
+  std::vector<std::string> lines(const unsigned int n)
+  {
+    std::vector<std::string> result(n);
+    in >> std::ws;
+    for (std::string &line : result)
+      std::getline(in, line);
+    return result;
+  }
+
+  dealii::Vector<double> values(const std::string &name)
+  {
+    expect(name);
+    dealii::Vector<double> result(number<unsigned int>());
+    for (double &value : result)
+      value = number<double>();
+    return result;
+  }
+
+  Refinement refinement()
+  {
+    Refinement result;
+    for (unsigned int n = number<unsigned int>(); n > 0; --n)
+    {
+      result.degrees.push_back(number<unsigned int>());
+      result.bisect.push_back(result.degrees.back() == 0);
+    }
+    return result;
+  }
+
+private:
+  [[noreturn]] void malformed() const
+  {
+    RunState::format().reject(file, "not a run state");
+  }
+
+  std::istringstream in;
+  const std::string file;
+};
+
+/** Whatever else a scene says decides about the numbers of a run. */
+bool decides(const std::string &section, const std::string &entry)
+{
+  const bool limit = section == "Adaptivity" &&
+                     (entry.rfind("Maximum ", 0) == 0 || entry == "Tolerance") &&
+                     entry != "Maximum degree";
+  return !limit && section != "Output" && section != "Error" && section != "Units" &&
+         entry != "Title";
+}
+} // namespace
+
+std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
+{
+  return hpvi::entries_of(scene_prm, decides);
+}
+
+const FileFormat &RunState::format()
+{
+  static const FileFormat format("run state", 1,
+                                 "go on with the scene of that run, or begin a new one");
+  return format;
+}
+
+void RunState::write(std::ostream &out) const
+{
+  std::ostringstream content;
+  content << "entries " << entries.size() << '\n';
+  for (const std::string &entry : entries)
+    content << entry << '\n';
+  content << "steps " << history.size() << '\n';
+  for (const PastStep &step : history)
+    content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
+            << text(step.seconds) << ' ' << step.lacks_condition << '\n';
+  content << "refinements " << refinements.size() << '\n';
+  for (const Refinement &refinement : refinements)
+    write_refinement(content, refinement);
+  content << "translation " << text(translation) << '\n';
+  write_values(content, "u", u);
+  write_values(content, "z", z);
+  format().write(out, content.str());
+}
+
+RunState RunState::read(std::istream &in, const std::string &name)
+{
+  Reader reader(format().read(in, name), name);
+  RunState state;
+  state.name = name;
+  reader.expect("entries");
+  state.entries = reader.lines(reader.number<unsigned int>());
+  reader.expect("steps");
+  for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
+  {
+    PastStep &step = state.history.emplace_back();
+    step.estimate = reader.number<double>();
+    step.relative_estimate = reader.number<double>();
+    step.seconds = reader.number<double>();
+    step.lacks_condition = reader.number<unsigned int>() != 0;
+  }
+  reader.expect("refinements");
+  for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
+    state.refinements.push_back(reader.refinement());
+  reader.expect("translation");
+  state.translation = reader.number<double>();
+  state.u = reader.values("u");
+  state.z = reader.values("z");
+  return state;
+}
+} // namespace hpvi

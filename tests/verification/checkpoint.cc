@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A run that is broken off, written, read and continued gives what the whole run gives.
+#include "discretisation.h"
+
+#include <hpvi/base/input_error.h>
+
+namespace
+{
+using namespace verification;
+
+/** All digits of what a step leaves, times aside. */
+std::string digits(const StepReport<2> &step)
+{
+  std::ostringstream out;
+  out << std::hexfloat << step.number << ' ' << step.estimate.total() << ' '
+      << step.relative_estimate << ' ' << step.energies.lagrangian << ' ' << step.energies.energy
+      << ' ' << step.energies.norm << ' ' << step.energies.slack << ' ' << step.errors.energy << ' '
+      << step.qp.multiplications << ' ' << step.stopped_by;
+  for (const unsigned int p : step.solution.displacement_space.degrees())
+    out << ' ' << p;
+  for (const double value : step.solution.u)
+    out << ' ' << value;
+  for (const double value : step.solution.z)
+    out << ' ' << value;
+  for (const ContactState<2> &state : step.contact)
+    out << ' ' << state.normal_resultant << ' ' << state.friction_resultant;
+  for (const std::string &warning : step.warnings)
+    out << ' ' << warning;
+  return out.str();
+}
+
+Overrides steps(const unsigned int n, const Overrides &more = {})
+{
+  Overrides result = more;
+  result.emplace_back("Adaptivity/Maximum steps", std::to_string(n));
+  return result;
+}
+
+/** What is written of the last step. */
+std::string written_state(const Scene<2> &scene)
+{
+  std::ostringstream out;
+  AdaptiveSolver<2> solver(scene);
+  solver.run(
+      [&](const StepReport<2> &step)
+      {
+        if (!step.stopped_by.empty())
+          solver.state(step).write(out);
+      });
+  return out.str();
+}
+
+RunState read_state(const std::string &text)
+{
+  std::istringstream in(text);
+  return RunState::read(in, "state.dat");
+}
+
+struct Run
+{
+  std::string name, scene;
+  Overrides overrides;
+};
+
+class BrokenOff : public ::testing::TestWithParam<Run>
+{
+};
+
+TEST_P(BrokenOff, GoesOnToTheLastBit)
+{
+  const auto scene = [](const unsigned int n)
+  { return shipped_scene(GetParam().scene, steps(n, GetParam().overrides)); };
+  const Scene<2> whole = scene(6), half = scene(3);
+  std::vector<std::string> expected;
+  double seconds = 0;
+  AdaptiveSolver<2>(whole).run([&](const StepReport<2> &step)
+                               { expected.push_back(digits(step)); });
+  ASSERT_EQ(expected.size(), 6U);
+  const RunState state = read_state(written_state(half));
+  seconds = state.history.back().seconds;
+  unsigned int k = 3;
+  AdaptiveSolver<2>(whole, state)
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ASSERT_LT(k, 6U);
+            EXPECT_EQ(digits(step), expected[k]) << "step " << k + 1;
+            EXPECT_GT(step.seconds, seconds); // those of the first half count
+            ++k;
+          });
+  EXPECT_EQ(k, 6U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , BrokenOff,
+    ::testing::Values(
+        Run{"block", "han-6-12", {}}, Run{"bar", "han-6-13", {}},
+        Run{"exact", "stick-slip", {{"Exact solution/Transition", "0.1"}}},
+        Run{"strain", "plane-strain", {}}, Run{"free", "semicoercive", {}},
+        Run{"mprgp", "han-6-12", {{"Solver/QP solver", "mprgp"}, {"Adaptivity/Method", "hpa3"}}},
+        Run{"cold", "han-6-12", {{"Solver/QP warm start", "false"}, {"Adaptivity/Method", "hap2"}}},
+        // Cells that are congruent up to round-off: which one stands for its class is history.
+        Run{"uneven",
+            "han-6-12",
+            {{"Geometry/Lower corner", "0.1, 0.3"},
+             {"Geometry/Upper corner", "3.4, 2.9"},
+             {"Geometry/Subdivisions", "3, 3"},
+             {"Adaptivity/Method", "hap3"}}},
+        Run{"skew",
+            "han-6-12",
+            {{"Geometry/Shape", "quadrilateral"},
+             {"Geometry/Corners", "0, 0; 4.1, 0.3; 3.7, 4; -0.5, 3.3"},
+             {"Geometry/Lower corner", "0, 0"},
+             {"Geometry/Upper corner", "1, 1"},
+             {"Geometry/Graded towards", "0, 0"},
+             {"Geometry/Grading levels", "2"}}}),
+    [](const auto &info) { return info.param.name; });
+
+/** A scene without friction has no multiplier, and one that is refined by p alone has one mesh. */
+TEST(RunState, KeepsWhatThereIs)
+{
+  const Overrides overrides = {{"Boundary bottom/Friction bound", ""}, {"Adaptivity/Method", "pu"}};
+  const std::string text = written_state(shipped_scene("han-6-12", steps(2, overrides)));
+  const RunState state = read_state(text);
+  EXPECT_EQ(state.z.size(), 0U);
+  EXPECT_EQ(state.history.size(), 2U);
+  EXPECT_EQ(state.refinements.size(), 1U);
+  std::ostringstream again;
+  state.write(again);
+  EXPECT_EQ(again.str(), text);
+  unsigned int first = 0;
+  AdaptiveSolver<2>(shipped_scene("han-6-12", steps(3, overrides)), state)
+      .run([&](const StepReport<2> &step) { first = step.number; });
+  EXPECT_EQ(first, 3U);
+}
+
+template <class Action>
+std::string refusal(const Action &action)
+{
+  try
+  {
+    action();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("begin a new one"), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal_to_go_on(const RunState &state, const Overrides &overrides)
+{
+  return refusal([&] { AdaptiveSolver<2>(shipped_scene("han-6-12", overrides), state); });
+}
+
+TEST(RunState, OfAnotherSceneIsRefusedWithWhatDiffers)
+{
+  const RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  const auto other = [&](const std::string &entry, const std::string &value) {
+    return refusal_to_go_on(state, steps(4, {{entry, value}}));
+  };
+  const std::string line = other("Material/Poisson's ratio", "0.3");
+  EXPECT_EQ(line.find("state.dat: is the run state of another problem: "
+                      "Material/Poisson's ratio = 0.4 there, 0.3 here; "),
+            0U)
+      << line;
+  for (const auto &[entry, value] : Overrides{{"Boundary bottom/Friction bound", "4"},
+                                              {"Geometry/Subdivisions", "2, 2"},
+                                              {"Geometry/Graded towards", "0, 0"},
+                                              {"Adaptivity/Method", "hup2"},
+                                              {"Adaptivity/Maximum degree", "11"},
+                                              {"Adaptivity/hpa2 decay threshold", "2"},
+                                              {"Solver/QP tolerance", "1e-8"}})
+    EXPECT_NE(other(entry, value).find(entry + " = "), std::string::npos) << entry;
+  for (const auto &[entry, value] : Overrides{{"Title", "another"},
+                                              {"Units/Length", "m"},
+                                              {"Output/VTU", "false"},
+                                              {"Adaptivity/Tolerance", "1e-9"},
+                                              {"Adaptivity/Maximum seconds", "1e9"}})
+    EXPECT_EQ(other(entry, value), "") << entry;
+}
+
+TEST(RunState, AtItsEndIsRefused)
+{
+  const RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  EXPECT_NE(refusal_to_go_on(state, steps(2)).find("after step 2: Adaptivity/Maximum steps"),
+            std::string::npos);
+  EXPECT_NE(refusal_to_go_on(state, steps(4, {{"Adaptivity/Tolerance", "0.9"}}))
+                .find("Adaptivity/Tolerance"),
+            std::string::npos);
+  EXPECT_EQ(refusal_to_go_on(state, steps(3)), "");
+}
+
+TEST(RunState, ThatIsNotWholeIsRefused)
+{
+  const std::string text = written_state(shipped_scene("han-6-12", steps(2)));
+  const auto damaged = [](const std::string &content)
+  { return refusal([&] { read_state(content); }); };
+  for (unsigned int part = 1; part < 4; ++part)
+    EXPECT_NE(
+        damaged(text.substr(0, part * text.size() / 4)).find("state.dat: the run state is cut"),
+        std::string::npos);
+  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 1\""),
+            std::string::npos);
+  std::string altered = text;
+  char &digit = altered[altered.find_last_of("12345678")];
+  ++digit;
+  EXPECT_NE(damaged(altered).find("cut short or altered"), std::string::npos);
+  EXPECT_EQ(damaged(text), "");
+}
+
+/** With a checksum of its own. */
+TEST(RunState, WithoutSenseIsRefused)
+{
+  for (const std::string content : {"", "entries 0\nsteps 1\n1 1 x 0\n", "entries 0\nsteps -1\n",
+                                    "entries 0\nsteps 0\nrefinements 0\ntranslation 0\nu 2 1\n"})
+  {
+    std::ostringstream out;
+    RunState::format().write(out, content);
+    EXPECT_NE(refusal([&] { read_state(out.str()); }).find("state.dat: not a run state"),
+              std::string::npos)
+        << content;
+  }
+  RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  const RunState whole = state;
+  state.u.reinit(3);
+  EXPECT_NE(refusal_to_go_on(state, steps(3)).find("number of steps or unknowns"),
+            std::string::npos);
+  state = whole;
+  state.history.clear();
+  EXPECT_NE(refusal_to_go_on(state, steps(3)).find("number of steps or unknowns"),
+            std::string::npos);
+  state = whole;
+  state.refinements[0].bisect.resize(3);
+  EXPECT_NE(refusal_to_go_on(state, steps(3)).find("another coarse mesh"), std::string::npos);
+}
+} // namespace
