@@ -98,7 +98,7 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
 {
   const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
-  const StiffnessFormula<dim> product(scene.materials[material]);
+  const HookesLaw<dim> law(scene.materials[material]);
   const unsigned int n = numbering.shape.size();
   FullMatrix<double> K(n, n);
   for (unsigned int row = 0; row < n; ++row)
@@ -106,8 +106,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
     {
       const unsigned int i = numbering.shape[row], c = numbering.component[row];
       const unsigned int j = numbering.shape[column], d = numbering.component[column];
-      K(row, column) =
-          product([&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
+      K(row, column) = law.stiffness(
+          [&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
     }
   return K;
 }

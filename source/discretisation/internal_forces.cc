@@ -31,7 +31,7 @@ class Batch
 public:
   Batch(const Material &material, const DisplacementSpace<dim> &space,
         const ShapeTables<dim> &tables, const unsigned int degree, const unsigned int n_gauss)
-      : material(material), space(space), table(tables.gradients(degree, n_gauss)),
+      : law(material), space(space), table(tables.gradients(degree, n_gauss)),
         numbering(tables.numbering(degree)), n_rows(table.derivatives.m())
   {
   }
@@ -95,7 +95,7 @@ private:
           reference[c][r] = value[c * n_rows + q * dim + r];
       const Tensor<2, dim> gradient = reference * inverse;
       const double weight = table.weights[q] * std::abs(determinant(J));
-      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(material.stress(gradient));
+      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(law.stress(gradient));
       energy += scalar_product(sigma, gradient);
       const Tensor<2, dim> pulled = sigma * transpose(inverse);
       for (unsigned int c = 0; c < dim; ++c)
@@ -105,7 +105,7 @@ private:
     return energy;
   }
 
-  const Material &material;
+  const HookesLaw<dim> law;
   const DisplacementSpace<dim> &space;
   const ShapeTable<dim> &table;
   const LocalNumbering &numbering;

@@ -27,19 +27,24 @@ Unknowns<dim>::Unknowns(const DisplacementSpace<dim> &displacement_space,
       express_by_moments(rows, numbers, inside_contact_edges);
 
   first_entry.reserve(space.n_dofs() + 1);
+  auto edge_line = inside_contact_edges.begin(); // ascending, as the loop is
   Line line;
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
   {
     first_entry.push_back(entries.size());
-    const auto found = inside_contact_edges.find(dof);
-    if (found == inside_contact_edges.end())
+    if (edge_line != inside_contact_edges.end() && edge_line->first == dof)
+    {
+      entries.insert(entries.end(), edge_line->second.begin(), edge_line->second.end());
+      ++edge_line;
+    }
+    else if (numbers[dof] != none)
+      entries.emplace_back(numbers[dof], 1.);
+    else if (space.constraints().is_constrained(dof))
     {
       line.clear();
       add_terms(dof, 1., numbers, line, offsets[dof]);
       entries.insert(entries.end(), line.begin(), line.end());
     }
-    else
-      entries.insert(entries.end(), found->second.begin(), found->second.end());
   }
   first_entry.push_back(entries.size());
 }
@@ -54,7 +59,8 @@ std::vector<unsigned int> Unknowns<dim>::number(const ShapeTables<dim> &tables)
     {
       const unsigned int index = cell->active_cell_index();
       const auto cell_dofs = space.cell_dofs(index);
-      for (unsigned int i = 0; i < tables.numbering(space.degrees()[index]).n_boundary; ++i)
+      const unsigned int n_boundary = tables.numbering(space.degrees()[index]).n_boundary;
+      for (unsigned int i = 0; i < n_boundary; ++i)
         if (numbers[cell_dofs[i]] == none && !space.constraints().is_constrained(cell_dofs[i]))
         {
           numbers[cell_dofs[i]] = dofs.size();

@@ -44,8 +44,13 @@ private:
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const ContactFace<dim> &face);
 
-  std::vector<Tensor<1, dim>> normals(const Cell &cell, unsigned int face,
-                                      const ShapeTable<dim> &table) const;
+  /** Outer normals and weights times ds at the points of a table on a face. */
+  struct FacePoints
+  {
+    std::vector<Tensor<1, dim>> normals;
+    std::vector<double> weights;
+  };
+  FacePoints face_points(const Cell &cell, unsigned int face, const ShapeTable<dim> &table) const;
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
                                         const std::vector<Tensor<1, dim>> &normals) const;
   double weight(unsigned int cell) const; ///< h_K/p_K
@@ -104,7 +109,7 @@ template <int dim>
 void Residuals<dim>::add_volume(const Cell &cell)
 {
   const unsigned int index = cell->active_cell_index(), p = degrees[index];
-  const Material &material = solution.scene.material_of(cell);
+  const HookesLaw<dim> law(solution.scene.material_of(cell));
   const ShapeTable<dim> &table = tables.cell(p, p + 1);
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   const unsigned int n_rows = table.derivatives.m();
@@ -134,7 +139,7 @@ void Residuals<dim>::add_volume(const Cell &cell)
         }
       second[c] = transpose(inverse) * reference * inverse;
     }
-    Tensor<1, dim> residual = -material.divergence_of_stress(second);
+    Tensor<1, dim> residual = -law.divergence_of_stress(second);
     if (solution.scene.has_body_force())
     {
       const Point<dim> x = maps[index].point(table.points[q]);
@@ -148,12 +153,20 @@ void Residuals<dim>::add_volume(const Cell &cell)
 }
 
 template <int dim>
-std::vector<Tensor<1, dim>> Residuals<dim>::normals(const Cell &cell, const unsigned int face,
-                                                    const ShapeTable<dim> &table) const
+typename Residuals<dim>::FacePoints Residuals<dim>::face_points(const Cell &cell,
+                                                                const unsigned int face,
+                                                                const ShapeTable<dim> &table) const
 {
-  std::vector<Tensor<1, dim>> result;
-  for (const Point<dim> &point : table.points)
-    result.push_back(maps[cell->active_cell_index()].normal(face, point));
+  const CellMap<dim> &map = maps[cell->active_cell_index()];
+  FacePoints result;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const bool is_known = q > 0 && map.is_affine();
+    const double measure =
+        is_known ? result.weights[0] / table.weights[0] : map.face_measure(face, table.points[q]);
+    result.normals.push_back(is_known ? result.normals[0] : map.normal(face, table.points[q]));
+    result.weights.push_back(table.weights[q] * measure);
+  }
   return result;
 }
 
@@ -164,14 +177,18 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
                           const std::vector<Tensor<1, dim>> &normals) const
 {
   const unsigned int index = cell->active_cell_index();
-  const Material &material = solution.scene.material_of(cell);
+  const HookesLaw<dim> law(solution.scene.material_of(cell));
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   std::vector<Tensor<1, dim>> result(table.points.size());
+  Tensor<2, dim> inverse;
   for (unsigned int q = 0; q < result.size(); ++q)
-    result[q] = material.traction(
-        physical_gradient<dim>(derivatives, q * table.rows_per_point, table.derivatives.m(),
-                               invert(maps[index].jacobian(table.points[q]))),
-        normals[q]);
+  {
+    if (q == 0 || !maps[index].is_affine())
+      inverse = invert(maps[index].jacobian(table.points[q]));
+    result[q] = law.traction(physical_gradient<dim>(derivatives, q * table.rows_per_point,
+                                                    table.derivatives.m(), inverse),
+                             normals[q]);
+  }
   return result;
 }
 
@@ -192,12 +209,12 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
     other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
 
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
-  const std::vector<Tensor<1, dim>> n = normals(cell, face, table);
-  const auto own = tractions(cell, table, n), opposite = tractions(neighbor, *other_table, n);
+  const FacePoints points = face_points(cell, face, table);
+  const auto own = tractions(cell, table, points.normals),
+             opposite = tractions(neighbor, *other_table, points.normals);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
-    sum += table.weights[q] * maps[index].face_measure(face, table.points[q]) *
-           (0.5 * (own[q] - opposite[q])).norm_square();
+    sum += points.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
   result.jumps[index] += weight(index) * sum;
   result.jumps[other] += weight(other) * sum;
 }
@@ -209,7 +226,8 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
-  const auto own = tractions(cell, table, normals(cell, face, table));
+  const FacePoints points = face_points(cell, face, table);
+  const auto own = tractions(cell, table, points.normals);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     for (unsigned int c = 0; c < dim; ++c)
@@ -218,8 +236,7 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
         double residual = own[q][c];
         if (condition.traction[c])
           residual -= condition.traction[c]->value(maps[index].point(table.points[q]));
-        sum += table.weights[q] * maps[index].face_measure(face, table.points[q]) * residual *
-               residual;
+        sum += points.weights[q] * residual * residual;
       }
   result.neumann[index] += weight(index) * sum;
 }
@@ -231,7 +248,7 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
   const unsigned int index = face.cell->active_cell_index(), n_gauss = face.degree + 1;
   const auto &condition = solution.scene.boundaries[face.condition->id];
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
-  const auto own = tractions(face.cell, table, normals(face.cell, face.face_no, table));
+  const auto own = tractions(face.cell, table, face_points(face.cell, face.face_no, table).normals);
   double sum = 0;
   for (unsigned int q = 0; q < n_gauss; ++q)
   {

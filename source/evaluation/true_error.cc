@@ -89,13 +89,13 @@ struct LocalField
 };
 
 template <int dim>
-void add_squares(const Material &material, const Values<dim> &field, const Values<dim> &truth,
+void add_squares(const HookesLaw<dim> &law, const Values<dim> &field, const Values<dim> &truth,
                  const double weight, Squares &sums)
 {
   const Values<dim> difference = truth - field;
-  sums.energy += weight * material.energy_product(difference.gradient);
+  sums.energy += weight * law.energy_product(difference.gradient);
   sums.l2 += weight * difference.u.norm_square();
-  sums.norm += weight * material.energy_product(truth.gradient);
+  sums.norm += weight * law.energy_product(truth.gradient);
 }
 
 /** Walks through two meshes that descend from one coarse mesh. */
@@ -140,8 +140,9 @@ private:
     const QGauss<dim> gauss(std::max(field.degree, truth.degree) + 2);
     const auto field_values = field.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
     const double share = std::pow(in_a.size, dim);
+    const HookesLaw<dim> law(scene.material_of(a));
     for (unsigned int q = 0; q < gauss.size(); ++q)
-      add_squares(scene.material_of(a), field_values[q], truth_values[q],
+      add_squares(law, field_values[q], truth_values[q],
                   gauss.weight(q) * share *
                       std::abs(determinant(field.map.jacobian(in_a.point(gauss.point(q))))),
                   sums);
@@ -311,6 +312,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
     std::vector<Box<dim>> boxes;
     add_graded_boxes<dim>(field.map, {}, exact.singularities(), levels, boxes);
     const QGauss<dim> gauss(field.degree + 5);
+    const HookesLaw<dim> law(scene.material_of(cell));
     for (const Box<dim> &box : boxes)
     {
       const auto field_values = field.at(box, gauss);
@@ -318,8 +320,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
       {
         const Point<dim> reference_point = box.point(gauss.point(q));
         const Point<dim> x = field.map.point(reference_point);
-        add_squares(scene.material_of(cell), field_values[q],
-                    {exact.displacement(x), exact.gradient(x)},
+        add_squares(law, field_values[q], {exact.displacement(x), exact.gradient(x)},
                     gauss.weight(q) * std::pow(box.size, dim) *
                         std::abs(determinant(field.map.jacobian(reference_point))),
                     sums);

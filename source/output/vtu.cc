@@ -49,7 +49,7 @@ public:
       Tensor<2, dim> gradient;
       for (unsigned int c = 0; c < dim; ++c)
         gradient[c] = inputs.solution_gradients[q][c];
-      const SymmetricTensor<2, dim> sigma = material.stress(gradient);
+      const SymmetricTensor<2, dim> sigma = HookesLaw<dim>(material).stress(gradient);
       fields[q][0] = von_mises(material, sigma);
       for (unsigned int i = 0; i < sigma.n_independent_components; ++i)
         fields[q][1 + i] = sigma.access_raw_entry(i);

@@ -151,7 +151,7 @@ ExactTraction<dim>::ExactTraction(std::shared_ptr<const ExactSolution<dim>> solu
 template <int dim>
 double ExactTraction<dim>::value(const Point<dim> &x, unsigned int) const
 {
-  return material.traction(solution->gradient(x), normal)[direction];
+  return HookesLaw<dim>(material).traction(solution->gradient(x), normal)[direction];
 }
 
 template class ExactSolution<2>;

@@ -145,7 +145,8 @@ Distance distance(Bar &bar)
   for (const ContactFace<2> &face : discrete.contact_space.faces())
   {
     const Material &material = bar.scene.materials[face.cell->center()[bar.across] < 1 ? 0 : 1];
-    const double expected = material.stress(bar.exact->gradient(face.cell->center()))[1][1];
+    const double expected =
+        HookesLaw<2>(material).stress(bar.exact->gradient(face.cell->center()))[1][1];
     const ContactTraces<2> traces(face, 2, solution);
     for (unsigned int q = 0; q < 2; ++q)
       result.normal_traction =

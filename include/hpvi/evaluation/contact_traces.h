@@ -13,7 +13,7 @@ class ContactTraces
 public:
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
                 const Solution<dim> &solution)
-      : face(face), material(solution.scene.material_of(face.cell)), map(map_of<dim>(face.cell)),
+      : face(face), law(solution.scene.material_of(face.cell)), map(map_of<dim>(face.cell)),
         table(solution.tables.face(face.degree, face.face_no, n_gauss))
   {
     const std::vector<double> coefficients = solution.coefficients(face.cell->active_cell_index());
@@ -35,7 +35,7 @@ public:
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    return material.stress(reference * dealii::invert(map.jacobian(table.points[q])));
+    return law.stress(reference * dealii::invert(map.jacobian(table.points[q])));
   }
 
   /** n . (sigma n - G): what the plane exerts, without an applied traction G; positive pulls. */
@@ -52,7 +52,7 @@ public:
 
 private:
   const ContactFace<dim> &face;
-  const Material &material;
+  const HookesLaw<dim> law;
   const CellMap<dim> map;
   const ShapeTable<dim> &table;
   std::vector<double> values, derivatives; ///< component by component

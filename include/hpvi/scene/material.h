@@ -15,8 +15,8 @@ enum class PlaneModel
 };
 
 /**
- * Isotropic linear elasticity: the one place of Hooke's law `sigma = lambda tr(eps) I + 2 mu eps`
- * (thesis, Section 2.1). The entry (i,j) of a gradient is `d u_i / d x_j`.
+ * Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). HookesLaw
+ * has the formulas.
  */
 struct Material
 {
@@ -40,48 +40,6 @@ struct Material
     return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
   }
 
-  /** sigma of a displacement gradient [stress]. */
-  template <int dim>
-  dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient) const
-  {
-    const dealii::SymmetricTensor<2, dim> strain = dealii::symmetrize(gradient);
-    return lambda(dim) * dealii::trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-           2 * mu() * strain;
-  }
-
-  /** `sigma n` [stress]. */
-  template <int dim>
-  dealii::Tensor<1, dim> traction(const dealii::Tensor<2, dim> &gradient,
-                                  const dealii::Tensor<1, dim> &normal) const
-  {
-    return stress(gradient) * normal;
-  }
-
-  /** `div sigma` [stress/length] of second derivatives: @p second[i][j][k] is d_j d_k u_i. */
-  template <int dim>
-  dealii::Tensor<1, dim> divergence_of_stress(const dealii::Tensor<3, dim> &second) const
-  {
-    const double shear = mu(), both = lambda(dim) + shear;
-    dealii::Tensor<1, dim> result;
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      result[c] += shear * dealii::trace(second[c]);
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] += both * second[c][d][c];
-    }
-    return result;
-  }
-
-  /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy. */
-  template <int dim>
-  double energy_product(const dealii::Tensor<2, dim> &gradient) const
-  {
-    const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
-    const double divergence = dealii::trace(strain);
-    return lambda(dim) * divergence * divergence +
-           2 * mu() * dealii::scalar_product(strain, strain);
-  }
-
   /** The largest c [stress] with `c eps : eps <= sigma(eps) : eps`. */
   double coercivity(int dim) const;
 
@@ -92,14 +50,58 @@ struct Material
   double kolosov() const;
 };
 
-/** Both of Lame's parameters [stress], at hand where a formula is used for each pair of unknowns. */
+/**
+ * Hooke's law of one material, with Lame's parameters at hand for loops over points and unknowns. The
+ * entry (i,j) of a gradient is `d u_i / d x_j`.
+ */
 template <int dim>
-class StiffnessFormula
+class HookesLaw
 {
 public:
-  explicit StiffnessFormula(const Material &material)
-      : lambda(material.lambda(dim)), mu(material.mu())
+  explicit HookesLaw(const Material &material) : lambda(material.lambda(dim)), mu(material.mu())
   {
+  }
+
+  /** sigma of a displacement gradient [stress]. */
+  dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient) const
+  {
+    const double pressure = lambda * dealii::trace(gradient);
+    dealii::SymmetricTensor<2, dim> sigma;
+    for (unsigned int i = 0; i < dim; ++i)
+    {
+      sigma[i][i] = 2 * mu * gradient[i][i] + pressure;
+      for (unsigned int j = i + 1; j < dim; ++j)
+        sigma[i][j] = mu * (gradient[i][j] + gradient[j][i]);
+    }
+    return sigma;
+  }
+
+  /** `sigma n` [stress]. */
+  dealii::Tensor<1, dim> traction(const dealii::Tensor<2, dim> &gradient,
+                                  const dealii::Tensor<1, dim> &normal) const
+  {
+    return stress(gradient) * normal;
+  }
+
+  /** `div sigma` [stress/length] of second derivatives: @p second[i][j][k] is d_j d_k u_i. */
+  dealii::Tensor<1, dim> divergence_of_stress(const dealii::Tensor<3, dim> &second) const
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      result[c] += mu * dealii::trace(second[c]);
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += (lambda + mu) * second[c][d][c];
+    }
+    return result;
+  }
+
+  /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy. */
+  double energy_product(const dealii::Tensor<2, dim> &gradient) const
+  {
+    const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
+    const double divergence = dealii::trace(strain);
+    return lambda * divergence * divergence + 2 * mu * dealii::scalar_product(strain, strain);
   }
 
   /**
@@ -107,7 +109,7 @@ public:
    * `d_a phi d_b psi` over a cell.
    */
   template <class Products>
-  double operator()(const Products &P, const unsigned int c, const unsigned int d) const
+  double stiffness(const Products &P, const unsigned int c, const unsigned int d) const
   {
     double sum = lambda * P(c, d) + mu * P(d, c);
     for (unsigned int a = 0; c == d && a < dim; ++a)
