@@ -196,6 +196,48 @@ TEST(Contact, SeesASignChangeOnASample)
   }
 }
 
+/** A bump between the points of the multiplier is warned of, bisected, and no more warned of then. */
+TEST(CoarseBound, IsWarnedOfUntilItIsResolved)
+{
+  const std::string bump = "0.2 + 3*exp(-400*(x - 1.3)^2)"; // smooth: nothing jumps
+  for (const std::string method : {"hpa3", "pu"})
+  {
+    unsigned int n_unresolved = 0, steps = 0;
+    std::vector<std::string> warnings;
+    AdaptiveSolver<2>(pushed_with(bump, {{"Adaptivity/Method", method}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              EXPECT_TRUE(step.solution.contact_space.unresolved_jumps().empty());
+              n_unresolved = step.solution.contact_space.unresolved_bounds().size();
+              EXPECT_TRUE(n_unresolved > 0 || step.number > 2);
+              ++steps;
+              warnings = step.warnings;
+            });
+    EXPECT_EQ(steps, 6U);
+    EXPECT_EQ(n_unresolved > 0, method == "pu");
+    EXPECT_EQ(mentions(warnings, "more than the multiplier's points see"), method == "pu");
+  }
+}
+
+/** The numbers of the warning are those of the edge: one edge, p = 3, points at 1/2 -+ 1/sqrt(12). */
+TEST(CoarseBound, IsNamedWithItsSumAndItsIntegral)
+{
+  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "x^4"}});
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Laboratory discrete(scene, mesh, Degrees(1, 3));
+  const auto bounds = discrete.contact_space.unresolved_bounds();
+  ASSERT_EQ(bounds.size(), 1U);
+  EXPECT_NEAR(bounds[0].integral, 0.2, 1e-14);
+  EXPECT_NEAR(bounds[0].sum, 7. / 36, 1e-14);
+  EXPECT_NEAR(discrete.contact_space.friction_limit(), 0.2, 1e-14);
+  EXPECT_NEAR(discrete.contact_space.discrete_friction_limit(), 7. / 36, 1e-14);
+  EXPECT_TRUE(Laboratory(scene, mesh, Degrees(1, 4)).contact_space.unresolved_bounds().empty());
+}
+
 // ---------------------------------------------------------------- bodies that friction holds
 
 /** A strip 4 x 1 without supports, pushed along the top by @p force. */

@@ -455,6 +455,89 @@ TEST(Coupling, OfPrescribedDisplacementsIsPartOfTheWhole)
     expect_coupling(offset);
 }
 
+/** The displacement that unknowns describe has them as its moments `int psi_i u_t / w_i` again. */
+TEST(Moments, AreTheUnknownsInsideContactEdges)
+{
+  const Scene<2> scene = scene_of_every_kind("0.1 + 0.2*x");
+  const RandomMesh mesh(scene, 3, 2);
+  const Laboratory discrete(scene, mesh);
+  const ConditionRows &rows = discrete.discretisation.contact_rows;
+  EXPECT_EQ(rows.kept.size(), discrete.contact_space.n_multipliers());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  Vector<double> x(discrete.discretisation.unknowns.n());
+  for (double &value : x)
+    value = uniform(random);
+  // homogeneous: what x alone does
+  const Vector<double> u = discrete.discretisation.unknowns.expand(x);
+  Vector<double> back = discrete.discretisation.unknowns.coordinates(u);
+  back -= x;
+  EXPECT_LE(back.linfty_norm(), 1e-13);
+}
+
+/** `S = W S_p^{-1} W` with the primal Schur complement on the moments, `S_p = A_mm - A_mi A_ii^-1 A_im`. */
+TEST(Moments, TurnThePrimalSchurComplementIntoTheDualOne)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  const RandomMesh mesh(scene, 5, 1, 2, 5);
+  const Laboratory discrete(scene, mesh);
+  const SymmetricMatrix &A = discrete.system.A;
+  const ConditionRows &rows = discrete.discretisation.contact_rows;
+  const unsigned int n = A.n(), m = rows.kept.size();
+  // Unknowns inside first, moments last, and Gauss's elimination up to them.
+  std::vector<unsigned int> place(n);
+  for (unsigned int k = 0, inside = 0; k < n; ++k)
+  {
+    const auto found = std::lower_bound(rows.kept.begin(), rows.kept.end(), k);
+    const bool is_kept = found != rows.kept.end() && *found == k;
+    place[k] = is_kept ? n - m + (found - rows.kept.begin()) : inside++;
+  }
+  FullMatrix<double> dense(n, n);
+  for (unsigned int column = 0; column < n; ++column)
+    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+      dense(place[A.row[k]], place[column]) = dense(place[column], place[A.row[k]]) = A.value[k];
+  for (unsigned int k = 0; k < n - m; ++k)
+    for (unsigned int i = k + 1; i < n; ++i)
+      if (const double factor = dense(i, k) / dense(k, k))
+        for (unsigned int j = k; j < n; ++j)
+          dense(i, j) -= factor * dense(k, j);
+  FullMatrix<double> S_p(m, m);
+  S_p.fill(dense, 0, 0, n - m, n - m);
+  S_p.gauss_jordan();
+  const SchurComplement reduced = discrete.reduce();
+  const std::vector<double> &w = discrete.contact_space.weights();
+  for (unsigned int i = 0; i < m; ++i)
+    for (unsigned int j = 0; j < m; ++j)
+    {
+      const unsigned int a = rows.B[i][0].first, b = rows.B[j][0].first;
+      EXPECT_NEAR(reduced.S()(i, j), w[i] * S_p(a, b) * w[j], 1e-11 * reduced.S()(i, i));
+    }
+}
+
+/** A solution keeps mesh and spaces: what is asked of it after the run is what was asked in its step. */
+TEST(Solution, OutlivesItsStep)
+{
+  const Scene<2> scene = shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "5"}});
+  std::vector<Solution<2>> solutions;
+  std::vector<double> estimates, resultants;
+  {
+    AdaptiveSolver<2> solver(scene);
+    solver.run(
+        [&](const StepReport<2> &step)
+        {
+          solutions.push_back(step.solution);
+          estimates.push_back(step.estimate.total());
+          resultants.push_back(step.contact.at(0).friction_resultant);
+        });
+  }
+  ASSERT_EQ(solutions.size(), 5u);
+  for (unsigned int k = 0; k < solutions.size(); ++k)
+  {
+    EXPECT_EQ(estimate_error(solutions[k]).total(), estimates[k]);
+    EXPECT_EQ(contact_states(solutions[k]).at(0).friction_resultant, resultants[k]);
+  }
+}
+
 /** `p + 2` Gauss points on cells and edges take loads that are three degrees higher than p. */
 TEST(Loads, OfDegreePPlusThreeAreIntegratedExactly)
 {
