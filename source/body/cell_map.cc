@@ -98,25 +98,19 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
 
 namespace
 {
-/** n ds over ds of the reference face: normal to the images of the reference tangents. */
+/** n ds over ds of the reference face, from the images of its tangents, whose product points outwards. */
 template <int dim>
 Tensor<1, dim> area_vector(const CellMap<dim> &map, const unsigned int face_no,
                            const Point<dim> &reference)
 {
   const Tensor<2, dim> J = map.jacobian(reference);
-  const Tensor<1, dim> &reference_normal = GeometryInfo<dim>::unit_normal_vector[face_no];
-  Tensor<1, dim> area;
+  const auto &tangents = GeometryInfo<dim>::unit_tangential_vectors[face_no];
   if constexpr (dim == 1)
-    area[0] = 1.;
+    return GeometryInfo<dim>::unit_normal_vector[face_no];
+  else if constexpr (dim == 2)
+    return cross_product_2d(J * tangents[0]);
   else
-  {
-    const auto &tangents = GeometryInfo<dim>::unit_tangential_vectors[face_no];
-    if constexpr (dim == 2)
-      area = cross_product_2d(J * tangents[0]);
-    else
-      area = cross_product_3d(J * tangents[0], J * tangents[1]);
-  }
-  return area * (J * reference_normal) < 0 ? -area : area;
+    return cross_product_3d(J * tangents[0], J * tangents[1]);
 }
 } // namespace
 

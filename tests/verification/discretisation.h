@@ -143,9 +143,8 @@ public:
     const SchurComplement schur_complement = reduce();
     ReducedSolution reduced;
     reduced.z.reinit(contact_space.n_multipliers());
-    AlgebraicError error;
     Vector<double> u = IterativeRefinement<2>(discretisation, elements, *solver, schur_complement)
-                           .solve(reduced, error);
+                           .solve(reduced, algebraic);
     return {scene, spaces, std::move(u), std::move(reduced.z)};
   }
 
@@ -161,6 +160,8 @@ public:
     displacement_space.constraints().distribute(u);
     return {scene, spaces, std::move(u), std::move(z)};
   }
+
+  mutable AlgebraicError algebraic; ///< of the last solve(); corrections would hide a wrong system
 
 private:
   mutable std::unique_ptr<const LinearSolver> solver;

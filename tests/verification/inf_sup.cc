@@ -96,6 +96,14 @@ TEST(InfSup, IsMeasuredAgainstASpaceThatIsRichEnough)
   }
 }
 
+/** Rows hold no g: it says which edges have multipliers, here all, and no more. */
+TEST(InfSup, DoesNotDependOnTheBound)
+{
+  const double even = beta(4, 3, -2);
+  EXPECT_EQ(beta(4, 3, -2, {{"Boundary bottom/Friction bound", "if(x < 0.5, 0, 1 + x)"}}), even);
+  EXPECT_EQ(beta(4, 3, -2, {{"Boundary bottom/Friction bound", "1e-9"}}), even);
+}
+
 TEST(InfSup, NamesTheDegreesOnTheContactBoundary)
 {
   const Scene<2> scene = shipped_scene("han-6-12");
