@@ -56,29 +56,37 @@ std::string tensile_contact(const Solution<dim> &solution,
               worst->highest_tension_point, "); a body that may lift off needs unilateral contact");
 }
 
-/** Gauss points obey |z_i| <= g(x_i), the polynomial through them need not. */
+/**
+ * Gauss points obey |z_i| <= g(x_i), the polynomial through them need not. What exceeds g is compared
+ * with the largest g, because next to a bound that vanishes a quotient says nothing.
+ */
 template <int dim>
 std::string overshooting_multiplier(const Solution<dim> &solution)
 {
-  double highest = 0;
+  double excess = 0.05 * solution.contact_space.largest_bound(), friction = 0, bound = 0;
   Point<dim> where;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
     {
       const double s = k / (4. * face.n_multipliers);
       const double g = face.friction_bound(face.point(s)),
-                   z = std::abs(solution.contact_space.value(face, solution.z, s)),
-                   value = g > 0. ? z / g : 0.;
-      if (value > highest)
+                   z = std::abs(solution.contact_space.value(face, solution.z, s));
+      if (z - g > excess)
       {
-        highest = value;
+        excess = z - g;
+        friction = z;
+        bound = g;
         where = face.point(s);
       }
     }
-  if (highest <= 1.05)
+  if (friction == 0)
     return {};
-  return line("|lambda| reaches ", highest, " between Gauss points, at (", where,
-              "); it obeys |lambda| <= 1 at the Gauss points only: refine there");
+  const std::string remedy = "refine there";
+  if (bound == 0)
+    return line("friction reaches ", labelled(friction, solution.scene.stress_unit),
+                " between Gauss points, at (", where, "), where Friction bound is 0: ", remedy);
+  return line("|lambda| reaches ", friction / bound, " between Gauss points, at (", where,
+              "); it obeys |lambda| <= 1 at the Gauss points only: ", remedy);
 }
 
 template <int dim>

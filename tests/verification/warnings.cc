@@ -145,4 +145,29 @@ TEST(Warnings, LowDegreeNearIncompressibility)
   EXPECT_FALSE(warns(stick_slip("0.4999", "4"), "may lock"));
   EXPECT_FALSE(warns(stick_slip("0.3", "2"), "may lock"));
 }
+/** Where g falls to nothing any polynomial is many times g: that is no overshoot worth a word. */
+TEST(Warnings, DoNotDivideByABoundThatVanishes)
+{
+  std::vector<std::string> lines;
+  AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5*exp(-40*x)"},
+                                               {"Adaptivity/Maximum steps", "10"}}))
+      .run([&](const StepReport<2> &step) { lines = step.warnings; });
+  for (const std::string &line : lines)
+    EXPECT_EQ(line.find("|lambda|"), std::string::npos) << line;
+}
+/** Half of the edge has no bound; the polynomial through the other half goes on there. */
+TEST(Warnings, NameFrictionWhereThereIsNone)
+{
+  std::vector<std::string> lines;
+  AdaptiveSolver<2>(
+      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "if(x < 0.5, 0, 4.5)"},
+                                 {"Adaptivity/Method", "pu"},
+                                 {"Adaptivity/Start degree", "4"},
+                                 {"Adaptivity/Maximum steps", "1"}}))
+      .run([&](const StepReport<2> &step) { lines = step.warnings; });
+  bool named = false;
+  for (const std::string &line : lines)
+    named = named || line.find("where Friction bound is 0") != std::string::npos;
+  EXPECT_TRUE(named);
+}
 } // namespace
