@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/base/input_error.h>
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace hpvi
 {
@@ -32,6 +34,18 @@ void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
   face.friction =
       make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
                          gauss, face.degree + std::max(1U, face.n_points) - 1);
+}
+/** A scene by code is checked at some points of the boundary, none of which need be @p x. */
+template <int dim>
+double checked_bound(const ContactFace<dim> &face, const Point<dim> &x)
+{
+  const double g = face.friction_bound(x);
+  if (g >= 0 && std::isfinite(g))
+    return g;
+  std::ostringstream line;
+  line << "Boundary " << face.condition->name << "/Friction bound: is " << g << " at (" << x
+       << "); give a bound that is finite and not negative everywhere";
+  throw InputError(line.str());
 }
 } // namespace
 
@@ -103,7 +117,7 @@ void ContactSpace<dim>::number_multipliers()
     {
       const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
       point_weights.push_back(points.weight(i) * frame.measure);
-      bounds.push_back(face.friction_bound(frame.x));
+      bounds.push_back(checked_bound(face, frame.x));
     }
   }
 }

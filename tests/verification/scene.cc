@@ -382,4 +382,26 @@ TEST(SceneByCode, MayHaveTooManyMultipliersToMeasureThem)
   EXPECT_NO_THROW(scene.check(SceneUse::measure));
   EXPECT_THROW(AdaptiveSolver<2>{scene}, InputError);
 }
+/** Between the points where check() looks, at a Gauss point of the multiplier. */
+TEST(SceneByCode, IsRefusedWhereItsBoundIsNegative)
+{
+  Scene<2> scene = pushed_block();
+  const double gauss_point = 0.5 - 0.5 / std::sqrt(3.);
+  for (const double wrong : {-1., std::numeric_limits<double>::quiet_NaN()})
+  {
+    scene.boundary("bottom").friction.bound = expression<2>(
+        [=](const Point<2> &x) { return std::abs(x[0] - gauss_point) < 1e-9 ? wrong : 4.5; });
+    ASSERT_NO_THROW(scene.check());
+    try
+    {
+      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});
+      ADD_FAILURE() << "is accepted";
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_EQ(std::string(error.what()).rfind("Boundary bottom/Friction bound: is ", 0), 0U)
+          << error.what();
+    }
+  }
+}
 } // namespace
