@@ -131,6 +131,27 @@ LAPACKFullMatrix<double> LinearSolver::Factor::trailing_block(const unsigned int
   return block;
 }
 
+namespace
+{
+/** A dense matrix of CHOLMOD's, released with its owner; null where there is no memory for it. */
+struct DenseMatrix
+{
+  DenseMatrix(const std::size_t rows, const std::size_t columns, cholmod_common &common)
+      : matrix(cholmod_allocate_dense(rows, columns, rows, CHOLMOD_REAL, &common)), common(common)
+  {
+  }
+  ~DenseMatrix()
+  {
+    cholmod_free_dense(&matrix, &common);
+  }
+  DenseMatrix(const DenseMatrix &) = delete;
+  DenseMatrix &operator=(const DenseMatrix &) = delete;
+
+  cholmod_dense *matrix;
+  cholmod_common &common;
+};
+} // namespace
+
 Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double> &right_hand_side)
 {
   const OneThread one_thread;
@@ -140,12 +161,14 @@ Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double
   dense.x = const_cast<double *>(right_hand_side.begin());
   dense.xtype = CHOLMOD_REAL;
   dense.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense *result = cholmod_solve(system, L, &dense, &common);
+  // All that it works on is asked for here: where memory ends on the way, CHOLMOD reads a null pointer.
+  DenseMatrix X(L->n, 1, common), Y(L->n, 1, common),
+      E(1, std::max<std::size_t>(1, L->maxesize), common);
   check();
-  const double *values = static_cast<const double *>(result->x);
-  const Vector<double> solution(values, values + right_hand_side.size());
-  cholmod_free_dense(&result, &common);
-  return solution;
+  cholmod_solve2(system, L, &dense, nullptr, &X.matrix, nullptr, &Y.matrix, &E.matrix, &common);
+  check();
+  const double *values = static_cast<const double *>(X.matrix->x);
+  return Vector<double>(values, values + right_hand_side.size());
 }
 
 namespace
