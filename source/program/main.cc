@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/exceptions.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
@@ -42,7 +43,8 @@ std::string failure_line(const std::exception &error)
   const bool foreseen =
       dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
       dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
-  if (dynamic_cast<const std::bad_alloc *>(&error))
+  if (dynamic_cast<const std::bad_alloc *>(&error) ||
+      dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&error))
     return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
            "Geometry/Subdivisions or allow more memory";
   return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
