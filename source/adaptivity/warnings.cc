@@ -238,17 +238,18 @@ template <int dim>
 std::string whole_body_slips(const Solution<dim> &solution,
                              const std::vector<ContactState<dim>> &contact)
 {
-  const auto translation = solution.scene.free_translation();
-  if (!translation)
+  const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
+  if (motions.empty())
     return {};
+  const Tensor<1, dim> translation = motions.front().translation;
   Tensor<1, dim> friction;
   for (const ContactState<dim> &state : contact)
     friction += state.friction_force;
-  if (std::abs(friction * *translation) <
+  if (std::abs(friction * translation) <
       (1 - slip_tolerance) * solution.contact_space.discrete_friction_limit())
     return {};
   return line("the loads reach what friction can resist: the whole body slips along (",
-              *translation, ") and its place is not unique; lower the loads or add a support");
+              translation, ") and its place is not unique; lower the loads or add a support");
 }
 
 /** The discrete problem takes g at Gauss points only. */

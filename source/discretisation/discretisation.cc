@@ -20,14 +20,14 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
 namespace
 {
 template <int dim>
-std::optional<RigidMotion<dim>> motion_of(const std::optional<Tensor<1, dim>> &translation,
+std::optional<RigidMotion<dim>> motion_of(const std::vector<RigidBodyMotion<dim>> &motions,
                                           const Spaces<dim> &spaces, const Unknowns<dim> &unknowns,
                                           const ConditionRows &rows,
                                           const ElasticSystem<dim> &system)
 {
-  if (!translation)
+  if (motions.empty())
     return std::nullopt;
-  return make_translation(*translation, spaces.displacement_space, unknowns, rows,
+  return make_translation(motions.front().translation, spaces.displacement_space, unknowns, rows,
                           spaces.contact_space.weights(), system);
 }
 } // namespace
@@ -40,7 +40,7 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
       unknowns(spaces->displacement_space, spaces->contact_operator, *spaces->tables),
       contact_rows(unknowns.contact_rows()), condensation(spaces->displacement_space, elements),
       system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables, elements),
-      free_motion(motion_of(scene.free_translation(), *spaces, unknowns, contact_rows, system))
+      free_motion(motion_of(scene.free_motions(), *spaces, unknowns, contact_rows, system))
 {
 }
 

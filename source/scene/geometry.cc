@@ -4,6 +4,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace hpvi
 {
@@ -105,6 +106,33 @@ std::vector<Point<2>> sample_body(const Geometry<2> &geometry)
   return points;
 }
 
+template <int dim>
+Tensor<1, dim> RigidBodyMotion<dim>::at(const Point<dim> &x) const
+{
+  static_assert(dim == 2, "a rotation is a number");
+  const Tensor<1, dim> arm = x - centre;
+  return translation + rotation * Tensor<1, dim>({-arm[1], arm[0]});
+}
+
+template <int dim>
+bool RigidBodyMotion<dim>::is_translation() const
+{
+  return rotation == 0.;
+}
+
+template <int dim>
+std::string RigidBodyMotion<dim>::direction() const
+{
+  std::ostringstream text;
+  if (is_translation())
+    text << "along (" << translation << ')';
+  else
+    text << "about (" << centre + Tensor<1, dim>({-translation[1], translation[0]}) / rotation
+         << ')';
+  return text.str();
+}
+
+template struct RigidBodyMotion<2>;
 template Corners<2> box_corners(const Point<2> &, const Point<2> &);
 template struct Geometry<2>;
 } // namespace hpvi

@@ -53,6 +53,18 @@ bool BoundaryCondition<dim>::has_contact() const
   return contact != Contact::none;
 }
 
+template <int dim>
+bool BoundaryCondition<dim>::is_unilateral() const
+{
+  return contact == Contact::unilateral;
+}
+
+template <int dim>
+double BoundaryCondition<dim>::gap_at(const Point<dim> &x) const
+{
+  return gap ? gap->value(x) : 0.;
+}
+
 unsigned int own_start_degree(const Method method)
 {
   switch (method)
@@ -158,15 +170,22 @@ bool Scene<dim>::has_friction() const
 }
 
 template <int dim>
+bool Scene<dim>::has_unilateral_contact() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const BoundaryCondition<dim> &b) { return b.is_unilateral(); });
+}
+
+template <int dim>
 std::string Scene<dim>::effective_parameters() const
 {
   return parameters ? parameters->print(false) : "";
 }
 
 template <int dim>
-std::optional<Tensor<1, dim>> Scene<dim>::free_translation() const
+std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 {
-  return hpvi::free_translation(*this);
+  return hpvi::free_motions(*this);
 }
 
 template Expression<2> expression<2>(double);

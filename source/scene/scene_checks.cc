@@ -436,15 +436,12 @@ std::vector<RigidMotion> free_motions(std::vector<RigidMotion> rows)
   return motions;
 }
 
-/** May friction act against a translation along @p direction? Where it does, the mesh decides. */
-bool friction_resists(const Scene<2> &scene, const std::vector<Edge> &edges,
-                      const Tensor<1, 2> &direction)
+/** What `direction . u = 0` at @p x asks of a motion. */
+RigidMotion row_of(const Tensor<1, 2> &direction, const Point<2> &x, const Point<2> &centre,
+                   const double length)
 {
-  for (unsigned int f = 0; f < edges.size(); ++f)
-    if (scene.boundaries[f].friction.bound &&
-        (direction - (direction * edges[f].normal) * edges[f].normal).norm() > 1e-8)
-      return true;
-  return false;
+  const Tensor<1, 2> arm = (x - centre) / length;
+  return {{direction[0], direction[1], direction[1] * arm[0] - direction[0] * arm[1]}};
 }
 
 // ---------------------------------------------------------------- the exact solution
@@ -667,7 +664,7 @@ void check_first_step(const Scene<2> &scene)
 }
 } // namespace
 
-std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
+std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
 {
   const std::vector<Edge> edges = edges_of(scene.geometry);
   const Point<2> centre = centre_of(scene.geometry);
@@ -675,28 +672,37 @@ std::optional<Tensor<1, 2>> free_translation(const Scene<2> &scene)
   for (const Point<2> &corner : scene.geometry.corners)
     length = std::max(length, corner.distance(centre));
 
-  std::vector<RigidMotion> rows;
+  std::vector<RigidMotion> held, resisted; // by supports; by supports or friction
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &end : edges[f].ends) // rigid-body motions are linear along an edge
+    {
       for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], end))
-      {
-        const Tensor<1, 2> &n = condition.direction, arm = (end - centre) / length;
-        rows.push_back({{n[0], n[1], n[1] * arm[0] - n[0] * arm[1]}});
-      }
-  std::optional<Tensor<1, 2>> translation;
-  for (const RigidMotion &motion : free_motions(rows))
+        held.push_back(row_of(condition.direction, end, centre, length));
+      const Tensor<1, 2> &n = edges[f].normal;
+      if (scene.boundaries[f].friction.bound) // where it vanishes, the mesh decides
+        resisted.push_back(row_of(Tensor<1, 2>({-n[1], n[0]}), end, centre, length));
+    }
+  resisted.insert(resisted.end(), held.begin(), held.end());
+  if (const auto motions = free_motions(resisted);
+      !motions.empty() && !scene.has_unilateral_contact())
+    throw InputError(printable(scene.origin(), 400) +
+                     ": Boundary left, right, bottom, top/Displacement: the supports leave a "
+                     "rigid-body motion free, " +
+                     describe(motions.front(), centre, length) +
+                     ", and no friction resists it; prescribe a displacement component or "
+                     "contact that stops it");
+  std::vector<RigidBodyMotion<2>> result;
+  for (const RigidMotion &motion : free_motions(held))
   {
-    const Tensor<1, 2> direction({motion[0], motion[1]});
-    if (translation || !is_translation(motion) || !friction_resists(scene, edges, direction))
-      throw InputError(printable(scene.origin(), 400) +
-                       ": Boundary left, right, bottom, top/Displacement: the supports leave a "
-                       "rigid-body motion free, " +
-                       describe(motion, centre, length) +
-                       ", and no friction resists it; prescribe a displacement component or "
-                       "contact that stops it");
-    translation = direction / direction.norm();
+    RigidBodyMotion<2> free{Tensor<1, 2>({motion[0], motion[1]}), motion[2] / length, centre};
+    if (is_translation(motion))
+    {
+      free.translation /= free.translation.norm();
+      free.rotation = 0;
+    }
+    result.push_back(free);
   }
-  return translation;
+  return result;
 }
 
 void check_scene(const Scene<2> &scene, const SceneUse use)
@@ -705,7 +711,7 @@ void check_scene(const Scene<2> &scene, const SceneUse use)
   check_materials(scene);
   check_boundaries(scene);
   check_corners(scene);
-  free_translation(scene);
+  free_motions(scene);
   check_exact_solution(scene);
   check_reference(scene);
   for_each_value(scene, CheckValue(scene));

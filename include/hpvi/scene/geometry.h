@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -67,6 +68,21 @@ std::array<double, 4> corner_angles(const Geometry<2> &geometry);
 
 /** The mean of the corners. */
 dealii::Point<2> centre_of(const Geometry<2> &geometry);
+
+/** A displacement that strains nothing: `translation + rotation e_z x (x - centre)`. */
+template <int dim>
+struct RigidBodyMotion
+{
+  dealii::Tensor<1, dim> translation; ///< dimensionless
+  double rotation = 0;                ///< [1/length]
+  dealii::Point<dim> centre;
+
+  dealii::Tensor<1, dim> at(const dealii::Point<dim> &x) const;
+  bool is_translation() const;
+
+  /** As in "along (1 0)" or "about (0.5 2)". */
+  std::string direction() const;
+};
 } // namespace hpvi
 
 #endif

@@ -33,11 +33,20 @@ Expression<dim> expression(double value);
 template <int dim>
 Expression<dim> expression(const std::function<double(const dealii::Point<dim> &)> &function);
 
-/** What holds a boundary to the plane below it. */
+/** What a plane below a boundary asks of it. */
 enum class Contact
 {
   none,
-  bilateral ///< u_n = 0
+  bilateral,  ///< u_n = 0
+  unilateral, ///< u_n <= u_0, T_n <= 0, (u_n - u_0) T_n = 0
+  tangential  ///< nothing in the normal direction; friction alone acts
+};
+
+/** How `u_n <= u_0` is discretised; doc/contact.md compares the two. */
+enum class NormalContact
+{
+  multiplier, ///< in the moments of a multiplier lambda_n >= 0 of degree p + offset
+  nodes       ///< at the Gauss-Lobatto points of each edge, the thesis's set (3.67)
 };
 
 /** What resists sliding on a contact boundary. */
@@ -58,11 +67,14 @@ struct BoundaryCondition
   std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
   std::array<Expression, dim> traction;     ///< components of G [stress]; null: zero
   Contact contact = Contact::none;
+  Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
   FrictionLaw<dim> friction;
 
   bool has_displacement() const; ///< is any component prescribed?
   bool has_traction() const;     ///< is any component given?
   bool has_contact() const;
+  bool is_unilateral() const;
+  double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
 };
 
 /** The methods of Chapter 5, and one that needs fewer unknowns and less time. */
@@ -125,6 +137,7 @@ struct SolverSettings
   double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)
   unsigned int qp_maximum_multiplications = 100000; ///< more products with S: exit status 2
   bool diagonal_scaling = true;
+  NormalContact normal_contact = NormalContact::nodes;
   int multiplier_offset = -2; ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number =
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
@@ -207,12 +220,14 @@ struct Scene
   bool has_contact() const;
   bool has_known_solution() const; ///< exact or reference: can the true error be measured?
   bool has_friction() const;       ///< does any contact boundary name a friction bound?
+  bool has_unilateral_contact() const;
 
   /**
-   * The unit vector of a translation that supports and contact leave free and friction alone
-   * resists (a semicoercive problem); most scenes have none. Throws InputError where nothing resists.
+   * A basis of the motions that prescribed displacements and bilateral contact leave free, so that
+   * friction and unilateral contact alone can hold the body (a semicoercive problem); most scenes have
+   * none. Throws InputError where no contact can resist at all.
    */
-  std::optional<dealii::Tensor<1, dim>> free_translation() const;
+  std::vector<RigidBodyMotion<dim>> free_motions() const;
 };
 } // namespace hpvi
 

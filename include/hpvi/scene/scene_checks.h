@@ -4,8 +4,8 @@
 
 #include <hpvi/scene/scene.h>
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace hpvi
 {
@@ -18,8 +18,8 @@ void check_geometry(const Scene<2> &scene);
 /** And the part on which the constants of expressions rely. */
 void check_materials(const Scene<2> &scene);
 
-/** Scene::free_translation(). */
-std::optional<dealii::Tensor<1, 2>> free_translation(const Scene<2> &scene);
+/** Scene::free_motions(). */
+std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene);
 
 /** What is wrong with a bound where there is no contact. */
 inline const std::string friction_needs_contact =
