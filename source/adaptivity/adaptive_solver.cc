@@ -39,7 +39,7 @@ struct AdaptiveSolver<dim>::Stages
   const TrueError<dim> true_error;
   std::unique_ptr<const Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
-  double translation = 0;        ///< likewise
+  Vector<double> motion;         ///< likewise, of the free motions of the scene
   AlgebraicError algebraic;      ///< of the current step
   StageTimes times;              ///< of the current step
   History history;               ///< of the finished steps
@@ -61,7 +61,7 @@ struct AdaptiveSolver<dim>::Stages
   std::string dense_note() const;
   void discretise();
   Solution<dim> solve(ReducedSolution &reduced);
-  void keep_start(const Vector<double> &z, double moved);
+  void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
   Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate);
   StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
@@ -121,25 +121,27 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
                   " multipliers"
             : "finding the displacement");
   reduced.z = previous.values(contact_space, *tables);
-  reduced.translation = translation;
+  const auto &motions = discretisation->free_motions;
+  if (motions)
+    reduced.motion = motions->from_basis(motion);
   const Timer timer;
   Vector<double> u = IterativeRefinement<dim>(*discretisation, elements, *solver, *schur_complement)
                          .solve(reduced, algebraic);
   times.qp += reduced.seconds;
   times.recover += timer.wall_time() - reduced.seconds;
-  keep_start(reduced.z, reduced.translation);
+  keep_start(reduced.z, motions ? motions->in_basis(reduced.motion) : Vector<double>());
   return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
 
 /** The next step begins where this one ends. */
 template <int dim>
-void AdaptiveSolver<dim>::Stages::keep_start(const Vector<double> &z, const double moved)
+void AdaptiveSolver<dim>::Stages::keep_start(const Vector<double> &z, const Vector<double> &moved)
 {
   const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   if (contact_space.n_multipliers() == 0 || !scene.solver.qp_warm_start)
     return;
   previous = MultiplierTrace<dim>(contact_space, z);
-  translation = moved;
+  motion = moved;
 }
 
 template <int dim>
@@ -202,11 +204,12 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
   const auto &spaces = discretisation->spaces;
   if (state.history.size() != state.refinements.size() + 1 ||
       state.u.size() != spaces->displacement_space.n_dofs() ||
-      state.z.size() != spaces->contact_space.n_multipliers())
+      state.z.size() != spaces->contact_space.n_multipliers() ||
+      !(state.motion.size() == 0 || state.motion.size() == scene.free_motions().size()))
     format.reject(state.name, "the run state has another number of steps or unknowns");
   const Solution<dim> solution(scene, spaces, state.u, state.z);
   history = state.history;
-  keep_start(solution.z, state.translation);
+  keep_start(solution.z, state.motion);
   const Refinement refinement = mark(solution, estimate(solution));
   const std::string limit = end_of_run(solution, refinement);
   if (!limit.empty())
@@ -296,7 +299,7 @@ RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const
 {
   return {"the run state",     RunState::entries_of(stages->scene.effective_parameters()),
           stages->refinements, step.solution.u,
-          step.solution.z,     stages->translation,
+          step.solution.z,     stages->motion,
           stages->history};
 }
 

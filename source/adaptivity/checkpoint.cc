@@ -113,7 +113,7 @@ std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
 
 const FileFormat &RunState::format()
 {
-  static const FileFormat format("run state", 1,
+  static const FileFormat format("run state", 2,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -131,7 +131,7 @@ void RunState::write(std::ostream &out) const
   content << "refinements " << refinements.size() << '\n';
   for (const Refinement &refinement : refinements)
     write_refinement(content, refinement);
-  content << "translation " << text(translation) << '\n';
+  write_values(content, "motion", motion);
   write_values(content, "u", u);
   write_values(content, "z", z);
   format().write(out, content.str());
@@ -156,8 +156,7 @@ RunState RunState::read(std::istream &in, const std::string &name)
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
     state.refinements.push_back(reader.refinement());
-  reader.expect("translation");
-  state.translation = reader.number<double>();
+  state.motion = reader.values("motion");
   state.u = reader.values("u");
   state.z = reader.values("z");
   return state;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,8 @@ std::string tensile_contact(const Solution<dim> &solution,
   const ContactState<dim> *worst = nullptr;
   for (const ContactState<dim> &state : contact)
   {
+    if (solution.scene.boundaries[state.boundary].contact != Contact::bilateral)
+      continue;
     tension += state.tension;
     all += 2 * state.tension - state.normal_resultant;
     if (!worst || state.highest_tension > worst->highest_tension)
@@ -239,17 +242,51 @@ std::string whole_body_slips(const Solution<dim> &solution,
                              const std::vector<ContactState<dim>> &contact)
 {
   const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
-  if (motions.empty())
+  if (motions.empty() || solution.scene.has_unilateral_contact())
     return {};
-  const Tensor<1, dim> translation = motions.front().translation;
   Tensor<1, dim> friction;
   for (const ContactState<dim> &state : contact)
     friction += state.friction_force;
-  if (std::abs(friction * translation) <
+  if (std::abs(friction * motions.front().translation) <
       (1 - slip_tolerance) * solution.contact_space.discrete_friction_limit())
     return {};
-  return line("the loads reach what friction can resist: the whole body slips along (",
-              translation, ") and its place is not unique; lower the loads or add a support");
+  return line("the loads reach what friction can resist: the whole body slips ",
+              motions.front().direction(),
+              " and its place is not unique; lower the loads or add a support");
+}
+
+/**
+ * With unilateral contact: a motion that no multiplier resists which could still change. These are the
+ * frictions below their bound and the pressures above zero; `sum_i w_i (d_i . R(x_i))^2` over them is
+ * not positive definite for the motions R.
+ */
+template <int dim>
+std::string free_place(const Solution<dim> &solution, const std::vector<ContactState<dim>> &contact)
+{
+  const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
+  if (motions.empty() || !solution.scene.has_unilateral_contact())
+    return {};
+  double largest = 0, size = 0;
+  for (const ContactState<dim> &state : contact)
+    largest = std::max(largest, state.highest_pressure);
+  FullMatrix<double> gram(motions.size(), motions.size());
+  for (unsigned int i = 0; i < solution.z.size(); ++i)
+  {
+    const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[i];
+    size += multiplier.weight;
+    const bool holds = multiplier.kind == ContactMultiplier<dim>::Kind::pressure
+                           ? solution.z[i] > slip_tolerance * largest
+                           : std::abs(solution.z[i]) < (1 - slip_tolerance) * multiplier.bound;
+    for (unsigned int j = 0; j < motions.size() && holds; ++j)
+      for (unsigned int k = 0; k < motions.size(); ++k)
+        gram(j, k) += multiplier.weight * (multiplier.direction * motions[j].at(multiplier.x)) *
+                      (multiplier.direction * motions[k].at(multiplier.x));
+  }
+  const auto [eigenvalue, combination] = eigenpairs(gram).back();
+  if (eigenvalue > 1e-14 * size)
+    return {};
+  return line("contact does not hold the body ", combined(motions, combination).direction(),
+              ": its place is not unique; raise Friction bound, lower the loads or add a support");
 }
 
 /** The discrete problem takes g at Gauss points only. */
@@ -315,8 +352,8 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         coarse_transition(solution, contact), stagnating_estimate(history),
         rising_estimate(history), round_off(algebraic), elongated_elements(solution),
         sharp_corners(solution.scene.geometry), locking(solution), rich_multiplier(solution),
-        whole_body_slips(solution, contact), coarse_bound(solution), unresolved_jump(solution),
-        no_condition_number(history)})
+        whole_body_slips(solution, contact), free_place(solution, contact), coarse_bound(solution),
+        unresolved_jump(solution), no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

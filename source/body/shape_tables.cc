@@ -293,16 +293,9 @@ const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
 }
 
 template <int dim>
-const std::vector<double> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
+const QGaussLobatto<1> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
 {
-  const auto [found, is_new] = gauss_lobatto_points.try_emplace(n_points);
-  if (is_new)
-  {
-    const QGaussLobatto<1> rule(n_points);
-    for (const Point<1> &x : rule.get_points())
-      found->second.push_back(x[0]);
-  }
-  return found->second;
+  return gauss_lobatto_rules.try_emplace(n_points, n_points).first->second;
 }
 
 template <int dim>
@@ -326,7 +319,7 @@ const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigne
   if (table.shapes.m() == 0)
   {
     std::vector<Point<1>> nodes;
-    for (const double s : gauss_lobatto(degree + 1))
+    for (const Point<1> &s : gauss_lobatto(degree + 1).get_points())
       nodes.emplace_back(s);
     const auto shapes = Polynomials::generate_complete_Lagrange_basis(nodes);
     const auto &multipliers = gauss_lagrange(n_multipliers);

@@ -78,13 +78,13 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
         const unsigned int p = numbering.degrees()[cell->active_cell_index()];
         const auto dofs = numbering.cell_dofs(cell->active_cell_index());
         const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[f];
-        const std::vector<double> &s = tables.gauss_lobatto(p + 1);
+        const QGaussLobatto<1> &nodes_on_edge = tables.gauss_lobatto(p + 1);
         for (unsigned int k = 0; k <= p; ++k)
         {
           SupportedNode<dim> &node = nodes[dofs[on_edge[k]]];
           for (unsigned int c = 0; c < dim; ++c)
             node.dofs[c] = dofs[on_edge[c * (p + 1) + k]];
-          const Point<dim> reference = point_on_face<dim>(f, Point<dim - 1>(s[k]));
+          const Point<dim> reference = point_on_face<dim>(f, nodes_on_edge.point(k));
           node.x = map.point(reference);
           // A vertex inside an edge of the body gets the same conditions from both of its cells.
           if (std::none_of(node.conditions.begin(), node.conditions.end(),

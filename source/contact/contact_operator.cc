@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/contact/contact_operator.h>
 
+#include <numeric>
+
 namespace hpvi
 {
 using namespace dealii;
 
 namespace
 {
-/** `int psi_i phi_j t_c` for the multiplier's basis psi and the edge's shape functions phi, by Gauss. */
+/** `int psi_i phi_j d_c` for the multiplier's basis psi and the edge's shape functions phi, by Gauss. */
 template <int dim>
-FullMatrix<double> edge_rows(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+FullMatrix<double> moment_rows(const ContactFace<dim> &face, const unsigned int n,
+                               Tensor<1, dim> ContactFrame<dim>::*const direction,
+                               const ShapeTables<dim> &tables)
 {
   // psi_i phi_j has degree 2p - 2 for the thesis's offset, 2p + offset in general.
-  const unsigned int p = face.degree, n_gauss = std::max(p, face.n_multipliers) + 1;
-  const EdgeTable &table = tables.edge(p, face.n_multipliers, n_gauss);
-  FullMatrix<double> B(face.n_multipliers, dim * (p + 1));
+  const unsigned int p = face.degree, n_gauss = std::max(p, n) + 1;
+  const EdgeTable &table = tables.edge(p, n, n_gauss);
+  FullMatrix<double> B(n, dim * (p + 1));
   for (unsigned int q = 0; q < n_gauss; ++q)
   {
     const ContactFrame<dim> frame = face.frame(tables.gauss(n_gauss).point(q)[0]);
@@ -23,37 +27,66 @@ FullMatrix<double> edge_rows(const ContactFace<dim> &face, const ShapeTables<dim
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int j = 0; j <= p; ++j)
           B(i, c * (p + 1) + j) +=
-              weight * table.multipliers(q, i) * table.shapes(q, j) * frame.tangent[c];
+              weight * table.multipliers(q, i) * table.shapes(q, j) * (frame.*direction)[c];
   }
   return B;
 }
 
-/** May the nodes inside the edge move along the tangent, and are there as many of them as multipliers? */
+/** `w_k n` at the node of each pressure, w_k the Gauss-Lobatto weight on this face. */
 template <int dim>
-bool takes_moments(const ContactFace<dim> &face)
+FullMatrix<double> node_rows(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
 {
-  return face.n_multipliers + 1 == face.degree && !face.condition->has_displacement();
+  const unsigned int n_nodes = face.degree + 1;
+  const QGaussLobatto<1> &rule = tables.gauss_lobatto(n_nodes);
+  FullMatrix<double> B(face.pressures.size(), dim * n_nodes);
+  for (unsigned int k = 0, i = 0; k < n_nodes && i < B.m(); ++k)
+    if (face.normal_points[i] == rule.point(k)[0])
+    {
+      const ContactFrame<dim> frame = face.frame(face.normal_points[i]);
+      for (unsigned int c = 0; c < dim; ++c)
+        B(i, c * n_nodes + k) = rule.weight(k) * frame.measure * frame.normal[c];
+      ++i;
+    }
+  return B;
+}
+
+/** May the nodes inside the edge move, and are there as many of them as multipliers? */
+template <int dim>
+bool takes_moments(const ContactFace<dim> &face, const unsigned int n_multipliers)
+{
+  return n_multipliers + 1 == face.degree && !face.condition->has_displacement();
 }
 } // namespace
 
 template <int dim>
 ContactOperator<dim>::ContactOperator(const DisplacementSpace<dim> &displacement_space,
                                       const ContactSpace<dim> &contact_space,
-                                      const ShapeTables<dim> &tables)
+                                      const ShapeTables<dim> &tables, const NormalContact normal)
     : space(displacement_space), multipliers(contact_space)
 {
+  const auto moments = [&](const ContactFace<dim> &face, const unsigned int n)
+  { return takes_moments(face, n) ? &tables.nodes_from_moments(face.degree) : nullptr; };
   for (const ContactFace<dim> &face : contact_space.faces())
-    if (face.n_multipliers > 0)
+  {
+    std::vector<types::global_dof_index> dofs;
+    for (const unsigned int i : tables.numbering(face.degree).edge[face.face_no])
+      dofs.push_back(space.cell_dofs(face.cell->active_cell_index())[i]);
+    if (const unsigned int n = face.n_multipliers; n > 0)
     {
-      Rows rows{&face,
-                {},
-                edge_rows(face, tables),
-                takes_moments(face) ? &tables.nodes_from_moments(face.degree) : nullptr};
-      const auto dofs = space.cell_dofs(face.cell->active_cell_index());
-      for (const unsigned int i : tables.numbering(face.degree).edge[face.face_no])
-        rows.dofs.push_back(dofs[i]);
-      face_rows.push_back(std::move(rows));
+      std::vector<unsigned int> own(n);
+      std::iota(own.begin(), own.end(), face.first_multiplier);
+      face_rows.push_back({&face, Kind::friction, own, dofs,
+                           moment_rows(face, n, &ContactFrame<dim>::tangent, tables),
+                           moments(face, n)});
     }
+    if (const unsigned int n = face.pressures.size(); n > 0 && normal == NormalContact::nodes)
+      face_rows.push_back(
+          {&face, Kind::pressure, face.pressures, dofs, node_rows(face, tables), nullptr});
+    else if (n > 0)
+      face_rows.push_back({&face, Kind::pressure, face.pressures, dofs,
+                           moment_rows(face, n, &ContactFrame<dim>::normal, tables),
+                           moments(face, n)});
+  }
 }
 
 template <int dim>
@@ -63,7 +96,7 @@ Vector<double> ContactOperator<dim>::moments(const Vector<double> &u) const
   for (const Rows &rows : face_rows)
     for (unsigned int i = 0; i < rows.B.m(); ++i)
       for (unsigned int j = 0; j < rows.B.n(); ++j)
-        result[rows.face->first_multiplier + i] += rows.B(i, j) * u[rows.dofs[j]];
+        result[rows.multipliers[i]] += rows.B(i, j) * u[rows.dofs[j]];
   return result;
 }
 
@@ -76,7 +109,7 @@ Vector<double> ContactOperator<dim>::forces(const Vector<double> &z,
     if (only == numbers::invalid_boundary_id || only == rows.face->condition->id)
       for (unsigned int i = 0; i < rows.B.m(); ++i)
         for (unsigned int j = 0; j < rows.B.n(); ++j)
-          result[rows.dofs[j]] += rows.B(i, j) * z[rows.face->first_multiplier + i];
+          result[rows.dofs[j]] += rows.B(i, j) * z[rows.multipliers[i]];
   return result;
 }
 

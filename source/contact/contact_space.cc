@@ -4,8 +4,9 @@
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <sstream>
 
 namespace hpvi
@@ -20,9 +21,18 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
                            const int multiplier_offset, const BoundaryCondition<dim> &condition)
 {
   const int n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
-  ContactFace<dim> face{
-      cell, face_no, degree, &condition, map_of<dim>(cell), 0, static_cast<unsigned int>(n_points),
-      0,    0,       {}};
+  ContactFace<dim> face{cell,
+                        face_no,
+                        degree,
+                        &condition,
+                        map_of<dim>(cell),
+                        0,
+                        static_cast<unsigned int>(n_points),
+                        0,
+                        0,
+                        {},
+                        {},
+                        {}};
   face.length = face.frame(0.5).measure;
   return face;
 }
@@ -35,6 +45,7 @@ void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
       make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
                          gauss, face.degree + std::max(1U, face.n_points) - 1);
 }
+
 /** A scene by code is checked at some points of the boundary, none of which need be @p x. */
 template <int dim>
 double checked_bound(const ContactFace<dim> &face, const Point<dim> &x)
@@ -45,6 +56,51 @@ double checked_bound(const ContactFace<dim> &face, const Point<dim> &x)
   std::ostringstream line;
   line << "Boundary " << face.condition->name << "/Friction bound: is " << g << " at (" << x
        << "); give a bound that is finite and not negative everywhere";
+  throw InputError(line.str());
+}
+
+/** u_0 at @p x, of which the same is true. */
+template <int dim>
+double checked_gap(const ContactFace<dim> &face, const Point<dim> &x)
+{
+  const double gap = face.condition->gap_at(x);
+  if (std::isfinite(gap))
+    return gap;
+  std::ostringstream line;
+  line << "Boundary " << face.condition->name << "/Gap: is " << gap << " at (" << x
+       << "); give a gap that is finite everywhere";
+  throw InputError(line.str());
+}
+
+/** Is `direction . u` prescribed at a node? Then @p value is what it is. */
+template <int dim>
+bool is_prescribed(const AffineConstraints<double> &constraints,
+                   const std::array<types::global_dof_index, dim> &dofs,
+                   const Tensor<1, dim> &direction, double &value)
+{
+  std::map<types::global_dof_index, double> free;
+  value = 0;
+  for (unsigned int c = 0; c < dim; ++c)
+    if (const auto *entries = constraints.get_constraint_entries(dofs[c]))
+    {
+      value += direction[c] * constraints.get_inhomogeneity(dofs[c]);
+      for (const auto &[master, weight] : *entries)
+        free[master] += direction[c] * weight;
+    }
+    else
+      free[dofs[c]] += direction[c];
+  return std::all_of(free.begin(), free.end(),
+                     [](const auto &entry) { return std::abs(entry.second) < 1e-6; });
+}
+
+template <int dim>
+[[noreturn]] void reject_penetration(const ContactFace<dim> &face, const Point<dim> &x,
+                                     const double u_n, const double gap)
+{
+  std::ostringstream line;
+  line << "Boundary " << face.condition->name << "/Gap: is " << gap << " at (" << x
+       << "), where a prescribed displacement moves the body by " << u_n
+       << " towards the foundation; enlarge the gap or free the displacement there";
   throw InputError(line.str());
 }
 } // namespace
@@ -67,9 +123,20 @@ double ContactFace<dim>::friction_bound(const Point<dim> &x) const
   return condition->friction.bound ? condition->friction.bound->value(x) : 0.;
 }
 
+std::vector<double> lagrange_basis(const std::vector<double> &points, const double s)
+{
+  std::vector<double> values(points.size(), 1.);
+  for (unsigned int i = 0; i < values.size(); ++i)
+    for (unsigned int k = 0; k < values.size(); ++k)
+      if (k != i)
+        values[i] *= (s - points[k]) / (points[i] - points[k]);
+  return values;
+}
+
 template <int dim>
 ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
-                                const DisplacementSpace<dim> &displacement_space)
+                                const DisplacementSpace<dim> &displacement_space,
+                                const ShapeTables<dim> &tables)
 {
   if (!scene.has_contact())
     return;
@@ -92,33 +159,107 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                        return a.condition->id < b.condition->id;
                      return a.frame(0.5).tangent * (b.point(0.5) - a.point(0.5)) > 0;
                    });
-  number_multipliers();
+  for (ContactFace<dim> &face : contact_faces)
+  {
+    number_friction(face, tables);
+    if (!face.condition->is_unilateral())
+      continue;
+    if (scene.solver.normal_contact == NormalContact::nodes)
+      number_nodes(face, displacement_space, tables);
+    else
+      number_pressures(face, tables);
+  }
 }
 
 template <int dim>
-void ContactSpace<dim>::number_multipliers()
+void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTables<dim> &tables)
 {
-  // deal.II computes the points of a Gauss rule anew for each object, so the rules are kept.
-  std::map<unsigned int, QGauss<1>> gauss;
-  for (ContactFace<dim> &face : contact_faces)
+  // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2
+  // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
+  integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)));
+  face.first_multiplier = unknowns.size();
+  face.n_multipliers = face.friction.vanishes() ? 0 : face.n_points;
+  if (face.n_multipliers == 0)
+    return;
+  const QGauss<1> &points = tables.gauss(face.n_points);
+  elements.try_emplace(face.n_points, points);
+  for (unsigned int i = 0; i < face.n_points; ++i)
   {
-    // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2
-    // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
-    const unsigned int n_gauss = std::max(face.degree + 1, face.n_points);
-    integrate_friction(face, gauss.try_emplace(n_gauss, n_gauss).first->second);
-    face.first_multiplier = n_unknowns;
-    face.n_multipliers = face.friction.vanishes() ? 0 : face.n_points;
-    n_unknowns += face.n_multipliers;
-    if (face.n_multipliers == 0)
-      continue;
-    const QGauss<1> &points = gauss.try_emplace(face.n_points, face.n_points).first->second;
-    elements.try_emplace(face.n_points, points);
-    for (unsigned int i = 0; i < face.n_points; ++i)
+    const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
+    unknowns.push_back({Kind::friction, frame.x, frame.tangent, points.weight(i) * frame.measure,
+                        checked_bound(face, frame.x), 0});
+  }
+}
+
+/** Moments of the gap by p + 2 points: exact for gaps of degree up to p + 3 - offset. */
+template <int dim>
+void ContactSpace<dim>::number_pressures(ContactFace<dim> &face, const ShapeTables<dim> &tables)
+{
+  const QGauss<1> &points = tables.gauss(face.n_points),
+                  &gauss = tables.gauss(std::max(face.degree, face.n_points) + 2);
+  for (unsigned int i = 0; i < face.n_points; ++i)
+  {
+    const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
+    face.normal_points.push_back(points.point(i)[0]);
+    face.pressures.push_back(unknowns.size());
+    unknowns.push_back(
+        {Kind::pressure, frame.x, frame.normal, points.weight(i) * frame.measure, 0, 0});
+  }
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const ContactFrame<dim> frame = face.frame(gauss.point(q)[0]);
+    const double gap = gauss.weight(q) * frame.measure * checked_gap(face, frame.x);
+    const std::vector<double> basis = lagrange_basis(face.normal_points, gauss.point(q)[0]);
+    for (unsigned int i = 0; i < basis.size(); ++i)
+      unknowns[face.pressures[i]].gap += gap * basis[i];
+  }
+}
+
+/** Nodes of equal normal share an unknown, which has the smaller gap. */
+template <int dim>
+void ContactSpace<dim>::number_nodes(ContactFace<dim> &face,
+                                     const DisplacementSpace<dim> &displacement_space,
+                                     const ShapeTables<dim> &tables)
+{
+  static_assert(dim == 2, "nodes along a straight edge");
+  const unsigned int p = face.degree;
+  const auto dofs = displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[face.face_no];
+  const QGaussLobatto<1> &rule = tables.gauss_lobatto(p + 1);
+  for (unsigned int k = 0; k <= p; ++k)
+  {
+    const ContactFrame<dim> frame = face.frame(rule.point(k)[0]);
+    const double weight = rule.weight(k) * frame.measure, gap = checked_gap(face, frame.x);
+    double u_n;
+    if (is_prescribed<dim>(displacement_space.constraints(),
+                           {{dofs[on_edge[k]], dofs[on_edge[p + 1 + k]]}}, frame.normal, u_n))
     {
-      const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
-      point_weights.push_back(points.weight(i) * frame.measure);
-      bounds.push_back(checked_bound(face, frame.x));
+      if (u_n > gap + 1e-10 * std::max(std::abs(gap), std::abs(u_n)))
+        reject_penetration(face, frame.x, u_n, gap);
+      continue; // the support carries what presses there
     }
+    unsigned int unknown = unknowns.size();
+    if (k == 0 || k == p)
+    {
+      std::vector<unsigned int> &known =
+          at_vertices[face.cell->face(face.face_no)->vertex_index(k / p)];
+      const auto same = std::find_if(known.begin(), known.end(),
+                                     [&](const unsigned int i) {
+                                       return (unknowns[i].direction - frame.normal).norm() < 1e-6;
+                                     });
+      if (same == known.end())
+        known.push_back(unknown);
+      else
+        unknown = *same;
+    }
+    face.normal_points.push_back(rule.point(k)[0]);
+    face.pressures.push_back(unknown);
+    if (unknown == unknowns.size())
+      unknowns.push_back({Kind::pressure, frame.x, frame.normal, 0, 0, 0});
+    ContactMultiplier<dim> &node = unknowns[unknown];
+    const double least = node.weight == 0. ? gap : std::min(gap, node.gap / node.weight);
+    node.weight += weight;
+    node.gap = least * node.weight;
   }
 }
 
@@ -131,15 +272,24 @@ const std::vector<ContactFace<dim>> &ContactSpace<dim>::faces() const
 template <int dim>
 unsigned int ContactSpace<dim>::n_multipliers() const
 {
-  return n_unknowns;
+  return unknowns.size();
+}
+
+template <int dim>
+const std::vector<ContactMultiplier<dim>> &ContactSpace<dim>::multipliers() const
+{
+  return unknowns;
 }
 
 template <int dim>
 FeasibleSet ContactSpace<dim>::feasible_set() const
 {
   FeasibleSet result;
-  for (const double g : bounds)
-    result.add_interval(-g, g);
+  for (const ContactMultiplier<dim> &unknown : unknowns)
+    if (unknown.kind == Kind::friction)
+      result.add_interval(-unknown.bound, unknown.bound);
+    else
+      result.add_interval(0., std::numeric_limits<double>::infinity());
   return result;
 }
 
@@ -169,9 +319,14 @@ double ContactSpace<dim>::value(const ContactFace<dim> &face, const Vector<doubl
 }
 
 template <int dim>
-const std::vector<double> &ContactSpace<dim>::weights() const
+double ContactSpace<dim>::pressure(const ContactFace<dim> &face, const Vector<double> &z,
+                                   const double s) const
 {
-  return point_weights;
+  const std::vector<double> basis = lagrange_basis(face.normal_points, s);
+  double sum = 0;
+  for (unsigned int i = 0; i < basis.size(); ++i)
+    sum += basis[i] * z[face.pressures[i]];
+  return sum;
 }
 
 template <int dim>
@@ -186,13 +341,19 @@ double ContactSpace<dim>::friction_limit() const
 template <int dim>
 double ContactSpace<dim>::discrete_friction_limit() const
 {
-  return std::inner_product(bounds.begin(), bounds.end(), point_weights.begin(), 0.);
+  double sum = 0;
+  for (const ContactMultiplier<dim> &unknown : unknowns)
+    sum += unknown.weight * unknown.bound;
+  return sum;
 }
 
 template <int dim>
 double ContactSpace<dim>::largest_bound() const
 {
-  return bounds.empty() ? 0. : *std::max_element(bounds.begin(), bounds.end());
+  double largest = 0;
+  for (const ContactMultiplier<dim> &unknown : unknowns)
+    largest = std::max(largest, unknown.bound);
+  return largest;
 }
 
 template <int dim>
@@ -204,7 +365,7 @@ std::vector<UnresolvedBound<dim>> ContactSpace<dim>::unresolved_bounds() const
   {
     double sum = 0;
     for (unsigned int i = 0; i < face.n_multipliers; ++i)
-      sum += point_weights[face.first_multiplier + i] * bounds[face.first_multiplier + i];
+      sum += unknowns[face.first_multiplier + i].weight * unknowns[face.first_multiplier + i].bound;
     const double integral = face.length * face.friction.integral();
     if (std::abs(sum - integral) > std::max(1e-3 * integral, negligible))
       result.push_back({&face, sum, integral});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/contact/multiplier_trace.h>
 
+#include <numeric>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -15,7 +17,11 @@ MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
     pieces.push_back({face.condition->id,
                       face.point(0.),
                       face.point(1.) - face.point(0.),
-                      {first, first + face.n_multipliers}});
+                      {first, first + face.n_multipliers},
+                      face.normal_points,
+                      {}});
+    for (const unsigned int i : face.pressures)
+      pieces.back().pressures.push_back(z[i]);
   }
 }
 
@@ -38,15 +44,21 @@ Vector<double> MultiplierTrace<dim>::values(const ContactSpace<dim> &finer,
       ++piece;
     if (piece == pieces.end())
       break;
+    const auto at = [&](const unsigned int unknown)
+    { return place(finer.multipliers()[unknown].x); };
+    for (const unsigned int unknown : face.pressures)
+    {
+      const std::vector<double> basis = lagrange_basis(piece->normal_points, at(unknown));
+      result[unknown] =
+          std::inner_product(basis.begin(), basis.end(), piece->pressures.begin(), 0.);
+    }
     if (piece->values.empty())
       continue;
     const auto &basis = tables.gauss_lagrange(piece->values.size());
     for (unsigned int i = 0; i < face.n_multipliers; ++i)
-    {
-      const double s = place(face.point(tables.gauss(face.n_multipliers).point(i)[0]));
       for (unsigned int k = 0; k < basis.size(); ++k)
-        result[face.first_multiplier + i] += piece->values[k] * basis[k].value(s);
-    }
+        result[face.first_multiplier + i] +=
+            piece->values[k] * basis[k].value(at(face.first_multiplier + i));
   }
   return result;
 }

@@ -12,23 +12,24 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
                     std::shared_ptr<const Triangulation<dim>> triangulation, const Degrees &degrees,
                     std::shared_ptr<const ShapeTables<dim>> shape_tables)
     : mesh(std::move(triangulation)), tables(std::move(shape_tables)),
-      displacement_space(scene, *mesh, degrees, *tables), contact_space(scene, displacement_space),
-      contact_operator(displacement_space, contact_space, *tables)
+      displacement_space(scene, *mesh, degrees, *tables),
+      contact_space(scene, displacement_space, *tables),
+      contact_operator(displacement_space, contact_space, *tables, scene.solver.normal_contact)
 {
 }
 
 namespace
 {
 template <int dim>
-std::optional<RigidMotion<dim>> motion_of(const std::vector<RigidBodyMotion<dim>> &motions,
-                                          const Spaces<dim> &spaces, const Unknowns<dim> &unknowns,
-                                          const ConditionRows &rows,
-                                          const ElasticSystem<dim> &system)
+std::optional<RigidMotions<dim>>
+motions_of(const Scene<dim> &scene, const Spaces<dim> &spaces, const Unknowns<dim> &unknowns,
+           const ConditionRows &rows, const ElasticSystem<dim> &system)
 {
-  if (motions.empty())
+  const std::vector<RigidBodyMotion<dim>> basis = scene.free_motions();
+  if (basis.empty())
     return std::nullopt;
-  return make_translation(motions.front().translation, spaces.displacement_space, unknowns, rows,
-                          spaces.contact_space.weights(), system);
+  return RigidMotions<dim>(basis, spaces.displacement_space, unknowns, rows,
+                           spaces.contact_space.multipliers(), system);
 }
 } // namespace
 
@@ -40,7 +41,7 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
       unknowns(spaces->displacement_space, spaces->contact_operator, *spaces->tables),
       contact_rows(unknowns.contact_rows()), condensation(spaces->displacement_space, elements),
       system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables, elements),
-      free_motion(motion_of(scene.free_motions(), *spaces, unknowns, contact_rows, system))
+      free_motions(motions_of(scene, *spaces, unknowns, contact_rows, system))
 {
 }
 
@@ -61,7 +62,7 @@ LinearSolver Discretisation<dim>::factor() const
   if (dense.n_multipliers > 0)
     require_memory(dense.bytes(), dense.name());
   return LinearSolver(system.A, contact_rows.kept, dense.n_multipliers > 0 ? dense.bytes() : 0.,
-                      free_motion ? free_motion->stabilisation : Stabilisation());
+                      free_motions ? free_motions->stabilisation() : std::vector<Stabilisation>());
 }
 
 template class Spaces<2>;

@@ -40,8 +40,8 @@ Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
     if (defect.size() > 0)
       reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
     Vector<double> x = schur_complement.displacement(reduced.z);
-    if (discretisation.free_motion)
-      x.add(reduced.translation, discretisation.free_motion->R);
+    if (discretisation.free_motions)
+      x += discretisation.free_motions->at_unknowns(reduced.motion);
     u = discretisation.displacement(x);
     error = improve(reduced.z, u);
     if (error.corrections == 0 || defect.size() == 0)
@@ -49,14 +49,15 @@ Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
     if (last.size() > 0)
     {
       last -= reduced.z;
-      error.multiplier =
-          last.linfty_norm() == 0. ? 0. : last.linfty_norm() / contact_space.largest_bound();
+      const double largest = std::max(contact_space.largest_bound(), reduced.z.linfty_norm());
+      error.multiplier = last.linfty_norm() == 0. ? 0. : last.linfty_norm() / largest;
       if (error.multiplier <= 1e-9 || passes_left == 1)
         return u;
     }
     last = reduced.z;
     defect += discretisation.spaces->contact_operator.moments(u);
-    defect -= reduced.moments;
+    for (unsigned int i = 0; i < defect.size(); ++i)
+      defect[i] -= contact_space.multipliers()[i].gap + reduced.moments[i];
   }
 }
 

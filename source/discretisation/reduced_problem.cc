@@ -6,6 +6,7 @@
 #include <hpvi/solver/balance_solver.h>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace hpvi
@@ -47,23 +48,45 @@ BalanceSolver::Inner solver_in_the_set(const SolverSettings &solver)
  * problem can carry `sum w_i g(x_i)`, which is another number where g varies between the points.
  */
 template <int dim>
-void check_equilibrium(const RigidMotion<dim> &motion, const ContactSpace<dim> &contact_space)
+void check_friction(const RigidMotions<dim> &motions, const ContactSpace<dim> &contact_space)
 {
-  const double applied = std::abs(motion.load), available = contact_space.friction_limit(),
+  const double applied = std::abs(motions.balance().e[0]),
+               available = contact_space.friction_limit(),
                discrete = contact_space.discrete_friction_limit();
   const auto exceeds = [&](const double limit) { return applied > limit * (1 + 1e-10); };
   if (!exceeds(available) && !exceeds(discrete))
     return;
   std::ostringstream line;
   line.precision(10); // the two may be close
-  line << "no equilibrium: the loads push the body along (" << motion.direction << ") with "
-       << applied << ", friction can resist with ";
+  line << "no equilibrium: the loads push the body "
+       << motions.motion(Vector<double>({1.})).direction() << " with " << applied
+       << ", friction can resist with ";
   if (exceeds(available))
     line << available << " at most; add a support, raise Friction bound or lower the loads";
   else
     line << available << " but on this mesh with " << discrete
          << " only, for Friction bound varies between the points of the multiplier; raise "
             "Geometry/Subdivisions or set Geometry/Graded towards where it does";
+  throw NumericalFailure(line.str());
+}
+
+/** The same for what friction and contact that can only press may do together. */
+template <int dim>
+void check_contact(const RigidMotions<dim> &motions, const FeasibleSet &feasible_set)
+{
+  const std::optional<Imbalance> imbalance = find_imbalance(feasible_set, motions.balance());
+  if (!imbalance)
+    return;
+  const RigidBodyMotion<dim> motion = motions.motion(imbalance->motion);
+  const bool pushes = motion.is_translation();
+  // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
+  const double unit = pushes ? motion.translation.norm() : std::abs(motion.rotation);
+  std::ostringstream line;
+  line.precision(10);
+  line << "no equilibrium: the loads " << (pushes ? "push" : "turn")
+       << " the body " << motion.direction() << " with " << imbalance->load / unit
+       << ", contact can resist with " << imbalance->resistance / unit
+       << " at most; add a support, raise Friction bound or change the loads";
   throw NumericalFailure(line.str());
 }
 } // namespace
@@ -80,13 +103,15 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
   qp.d += defect;
   const BalanceSolver::Inner solve = solver_in_the_set(settings);
-  if (const auto &motion = discretisation.free_motion)
+  if (const auto &motions = discretisation.free_motions; motions && motions->n_seen() > 0)
   {
-    check_equilibrium(*motion, contact_space);
+    if (!discretisation.scene.has_unilateral_contact() && motions->n_seen() == 1)
+      check_friction(*motions, contact_space); // knows more to say
+    check_contact(*motions, qp.feasible_set);
     // The inner problems leave noise of their own tolerance in the balance.
-    result.qp = BalanceSolver(solve, motion->penalty(), 100 * settings.qp_tolerance)
-                    .solve(qp, {motion->G, motion->load}, result.z, result.translation);
-    qp.d.add(result.translation, motion->G);
+    result.qp = BalanceSolver(solve, motions->penalty(), 100 * settings.qp_tolerance)
+                    .solve(qp, motions->balance(), result.z, result.motion);
+    motions->balance().G.vmult_add(qp.d, result.motion);
   }
   else
     result.qp = solve(qp, result.z);

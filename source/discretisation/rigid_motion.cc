@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/discretisation/rigid_motion.h>
+#include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,17 @@ using namespace dealii;
 
 namespace
 {
-/** Why a body that friction alone could hold has no friction on this mesh. */
+/** Why a body that contact alone could hold has nothing that holds it on this mesh. */
 template <int dim>
-std::string nothing_resists(const Tensor<1, dim> &direction, const double load)
+std::string nothing_resists(const RigidBodyMotion<dim> &motion, const double load)
 {
   std::ostringstream line;
   line
-      << "nothing holds the body along (" << direction << "): the loads push it with "
+      << "nothing holds the body " << motion.direction() << ": the loads push it with "
       << std::abs(load)
-      << ", friction can resist with 0, for Friction bound vanishes wherever this mesh samples it; "
-         "raise Geometry/Subdivisions, set Geometry/Graded towards where it acts, or add a support";
+      << ", contact can resist with 0, for none acts that way, or Friction bound vanishes wherever "
+         "this mesh samples it; raise Geometry/Subdivisions, set Geometry/Graded towards where it "
+         "acts, or add a support";
   return line.str();
 }
 
@@ -33,6 +35,12 @@ double diagonal(const SymmetricMatrix &A, const unsigned int unknown)
     if (A.row[k] == static_cast<int>(unknown))
       return A.value[k];
   return 0.;
+}
+
+/** A sum whose bits do not depend on threads, unlike deal.II's product. */
+double dot(const Vector<double> &a, const Vector<double> &b)
+{
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
 /**
@@ -55,78 +63,195 @@ Stabilisation stabilise(const SymmetricMatrix &A, const Vector<double> &R,
   return result;
 }
 
-/** B'(G/w), the mean of the displacement along R over the contact, as it is on every mesh. */
-Vector<double> mean_along(const ConditionRows &rows, const Vector<double> &G,
-                          const std::vector<double> &weights)
-{
-  Vector<double> P(rows.kept.size());
-  for (unsigned int i = 0; i < rows.n_rows(); ++i)
-    for (const auto &[place, weight] : rows.B[i])
-      P[place] += weight * G[i] / weights[i];
-  return P;
-}
-} // namespace
-
+/** The motion as a displacement of the space. */
 template <int dim>
-bool RigidMotion<dim>::is_seen() const
-{
-  return std::any_of(G.begin(), G.end(), [](const double value) { return value != 0.; });
-}
-
-template <int dim>
-double RigidMotion<dim>::penalty() const
-{
-  double product = 0;
-  for (const auto &[unknown, value] : stabilisation.P)
-    product += value * R[unknown];
-  return 1 / (stabilisation.stiffness * product * product);
-}
-
-template <int dim>
-RigidMotion<dim>
-make_translation(const Tensor<1, dim> &direction, const DisplacementSpace<dim> &space,
-                 const Unknowns<dim> &unknowns, const ConditionRows &rows,
-                 const std::vector<double> &weights, const ElasticSystem<dim> &system)
+Vector<double> interpolate(const RigidBodyMotion<dim> &motion, const DisplacementSpace<dim> &space)
 {
   Vector<double> u(space.n_dofs());
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
     {
+      const CellMap<dim> map = map_of<dim>(cell);
       const auto dofs = space.cell_dofs(cell->active_cell_index());
+      const auto &nodes = cell->get_fe().get_unit_support_points();
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        u[dofs[i]] = direction[cell->get_fe().system_to_component_index(i).first];
+        u[dofs[i]] =
+            motion.at(map.point(nodes[i]))[cell->get_fe().system_to_component_index(i).first];
     }
-  RigidMotion<dim> result{direction, unknowns.coordinates(u), Vector<double>(rows.n_rows()), {}, 0};
+  return u;
+}
+
+/** B x at unknowns, without what is prescribed. */
+Vector<double> apply(const ConditionRows &rows, const Vector<double> &x)
+{
+  Vector<double> result(rows.n_rows());
   for (unsigned int i = 0; i < rows.n_rows(); ++i)
     for (const auto &[place, weight] : rows.B[i])
-      result.G[i] += weight * result.R[rows.kept[place]];
-  // A sum whose bits do not depend on threads, unlike deal.II's product.
-  const auto along = [&](const Vector<double> &f)
-  { return std::inner_product(f.begin(), f.end(), result.R.begin(), 0.); };
-  result.load = along(system.f);
-  if (result.is_seen())
+      result[i] += weight * x[rows.kept[place]];
+  return result;
+}
+} // namespace
+
+template <int dim>
+RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
+                                const DisplacementSpace<dim> &space, const Unknowns<dim> &unknowns,
+                                const ConditionRows &rows,
+                                const std::vector<ContactMultiplier<dim>> &multipliers,
+                                const ElasticSystem<dim> &system)
+    : basis(basis)
+{
+  const unsigned int n = basis.size();
+  std::vector<Vector<double>> columns, B_columns;
+  for (const RigidBodyMotion<dim> &motion : basis)
   {
-    result.stabilisation =
-        stabilise(system.A, result.R, rows.kept, mean_along(rows, result.G, weights));
-    return result;
+    columns.push_back(unknowns.coordinates(interpolate(motion, space)));
+    B_columns.push_back(apply(rows, columns.back()));
   }
-  double absolute = 0;
-  for (unsigned int k = 0; k < system.f.size(); ++k)
-    absolute += std::abs(system.f[k] * result.R[k]);
-  if (std::abs(result.load) > 1e-10 * absolute)
-    throw NumericalFailure(nothing_resists(direction, result.load));
-  const unsigned int held =
-      std::max_element(result.R.begin(), result.R.end(),
-                       [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
-      result.R.begin();
-  const std::vector<double> R_held = {result.R[held]};
-  result.stabilisation =
-      stabilise(system.A, result.R, {held}, Vector<double>(R_held.begin(), R_held.end()));
+  double contact = 0;
+  for (const ContactMultiplier<dim> &multiplier : multipliers)
+    contact += multiplier.weight;
+  FullMatrix<double> gram(n, n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < multipliers.size(); ++i)
+        gram(j, k) += B_columns[j][i] * B_columns[k][i] / multipliers[i].weight;
+  split_by_contact(gram, 1e-20 * contact);
+  equations.G.reinit(multipliers.size(), n_seen());
+  equations.e.reinit(n_seen());
+  for (unsigned int m = 0; m < n; ++m)
+  {
+    R.emplace_back(unknowns.n());
+    for (unsigned int j = 0; j < n; ++j)
+      R[m].add(combinations[m][j], columns[j]);
+    if (m >= n_seen())
+      continue;
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < multipliers.size(); ++i)
+        equations.G(i, m) += combinations[m][j] * B_columns[j][i];
+    equations.e[m] = dot(system.f, R[m]);
+  }
+  stabilise_seen(rows, multipliers, system.A);
+  hold_unseen(system);
+}
+
+/** Eigenvectors of the Gram matrix, those with the largest eigenvalues first. */
+template <int dim>
+void RigidMotions<dim>::split_by_contact(const FullMatrix<double> &gram, const double smallest)
+{
+  unsigned int n_seen = 0;
+  for (auto [eigenvalue, combination] : eigenpairs(gram))
+  {
+    if (*std::max_element(combination.begin(), combination.end()) < combination.linfty_norm())
+      combination *= -1.; // the largest coefficient is positive
+    combinations.push_back(combination);
+    n_seen += eigenvalue > smallest ? 1 : 0;
+  }
+  equations.e.reinit(n_seen);
+}
+
+template <int dim>
+void RigidMotions<dim>::stabilise_seen(const ConditionRows &rows,
+                                       const std::vector<ContactMultiplier<dim>> &multipliers,
+                                       const SymmetricMatrix &A)
+{
+  inverse_stiffness.reinit(n_seen(), n_seen());
+  for (unsigned int m = 0; m < n_seen(); ++m)
+  {
+    Vector<double> P(rows.kept.size()); // B' W^-1 G, the mean along R over the contact
+    for (unsigned int i = 0; i < rows.n_rows(); ++i)
+      for (const auto &[place, weight] : rows.B[i])
+        P[place] += weight * equations.G(i, m) / multipliers[i].weight;
+    terms.push_back(stabilise(A, R[m], rows.kept, P));
+    double product = 0;
+    for (const auto &[unknown, value] : terms.back().P)
+      product += value * R[m][unknown];
+    inverse_stiffness(m, m) = 1 / (terms.back().stiffness * product * product);
+  }
+}
+
+/** A spring at one unknown for each, where those before it do not move. */
+template <int dim>
+void RigidMotions<dim>::hold_unseen(const ElasticSystem<dim> &system)
+{
+  std::vector<Vector<double>> rest(R.begin() + n_seen(), R.end());
+  for (unsigned int m = 0; m < rest.size(); ++m)
+  {
+    const Vector<double> &own = R[n_seen() + m];
+    const double load = dot(system.f, own);
+    double absolute = 0;
+    for (unsigned int k = 0; k < own.size(); ++k)
+      absolute += std::abs(system.f[k] * own[k]);
+    if (std::abs(load) > 1e-10 * absolute)
+      throw NumericalFailure(nothing_resists(combined(basis, combinations[n_seen() + m]), load));
+    const Vector<double> &free = rest[m];
+    const unsigned int held =
+        std::max_element(free.begin(), free.end(),
+                         [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
+        free.begin();
+    const std::vector<double> at_held = {free[held]};
+    terms.push_back(
+        stabilise(system.A, free, {held}, Vector<double>(at_held.begin(), at_held.end())));
+    for (unsigned int k = m + 1; k < rest.size(); ++k)
+      rest[k].add(-rest[k][held] / free[held], free);
+  }
+}
+
+template <int dim>
+unsigned int RigidMotions<dim>::n_seen() const
+{
+  return equations.e.size();
+}
+
+template <int dim>
+const EqualityConstraints &RigidMotions<dim>::balance() const
+{
+  return equations;
+}
+
+template <int dim>
+const FullMatrix<double> &RigidMotions<dim>::penalty() const
+{
+  return inverse_stiffness;
+}
+
+template <int dim>
+const std::vector<Stabilisation> &RigidMotions<dim>::stabilisation() const
+{
+  return terms;
+}
+
+template <int dim>
+RigidBodyMotion<dim> RigidMotions<dim>::motion(const Vector<double> &amounts) const
+{
+  return combined(basis, in_basis(amounts));
+}
+
+template <int dim>
+Vector<double> RigidMotions<dim>::at_unknowns(const Vector<double> &amounts) const
+{
+  Vector<double> x(R.front().size());
+  for (unsigned int m = 0; m < amounts.size(); ++m)
+    x.add(amounts[m], R[m]);
+  return x;
+}
+
+template <int dim>
+Vector<double> RigidMotions<dim>::in_basis(const Vector<double> &amounts) const
+{
+  Vector<double> result(basis.size());
+  for (unsigned int m = 0; m < amounts.size(); ++m)
+    result.add(amounts[m], combinations[m]);
   return result;
 }
 
-template struct RigidMotion<2>;
-template RigidMotion<2> make_translation(const Tensor<1, 2> &, const DisplacementSpace<2> &,
-                                         const Unknowns<2> &, const ConditionRows &,
-                                         const std::vector<double> &, const ElasticSystem<2> &);
+template <int dim>
+Vector<double> RigidMotions<dim>::from_basis(const Vector<double> &coefficients) const
+{
+  Vector<double> result(n_seen());
+  for (unsigned int m = 0; m < n_seen() && coefficients.size() > 0; ++m)
+    result[m] = dot(combinations[m], coefficients);
+  return result;
+}
+
+template class RigidMotions<2>;
 } // namespace hpvi

@@ -21,10 +21,7 @@ Unknowns<dim>::Unknowns(const DisplacementSpace<dim> &displacement_space,
       moments(contact_operator.contact_space().n_multipliers(), none), offsets(space.n_dofs())
 {
   const std::vector<unsigned int> numbers = number(tables);
-  std::map<types::global_dof_index, Line> inside_contact_edges;
-  for (const EdgeRows &rows : contact_operator.rows())
-    if (rows.nodes)
-      express_by_moments(rows, numbers, inside_contact_edges);
+  const std::map<types::global_dof_index, Line> inside_contact_edges = edges_with_moments(numbers);
 
   first_entry.reserve(space.n_dofs() + 1);
   auto edge_line = inside_contact_edges.begin(); // ascending, as the loop is
@@ -86,47 +83,94 @@ void Unknowns<dim>::add_terms(const types::global_dof_index dof, const double we
     line.emplace_back(numbers[dof], weight);
 }
 
-/** `u = t (N (m, u_t(0), u_t(1)))` at the nodes inside a contact edge, where u_n = 0. */
+/** Rows of T for the nodes inside contact edges that have moments. */
 template <int dim>
-void Unknowns<dim>::express_by_moments(const EdgeRows &rows,
-                                       const std::vector<unsigned int> &numbers,
-                                       std::map<types::global_dof_index, Line> &lines)
+std::map<types::global_dof_index, typename Unknowns<dim>::Line>
+Unknowns<dim>::edges_with_moments(const std::vector<unsigned int> &numbers)
 {
-  const FullMatrix<double> &N = *rows.nodes;
-  const unsigned int n = N.m(), n_nodes = n + 2;
-  const Tensor<1, dim> tangent = rows.face->frame(0.5).tangent;
-  const auto dof_at = [&](const unsigned int c, const unsigned int node)
-  { return rows.dofs[c * n_nodes + node]; };
+  static_assert(dim == 2, "a tangent and a normal");
+  std::map<types::global_dof_index, Line> lines;
+  const std::vector<EdgeRows> &all = contact_operator.rows();
+  for (unsigned int k = 0; k < all.size(); ++k)
+  {
+    const EdgeRows *friction = nullptr, *pressure = nullptr;
+    const ContactFace<dim> *face = all[k].face;
+    for (; k < all.size() && all[k].face == face; ++k)
+      if (all[k].nodes)
+        (all[k].kind == ContactOperator<dim>::Kind::friction ? friction : pressure) = &all[k];
+    --k;
+    if (!friction && !pressure)
+      continue;
+    const std::vector<types::global_dof_index> &edge_dofs = (friction ? friction : pressure)->dofs;
+    const ContactFrame<dim> frame = face->frame(0.5);
+    // Each direction takes the place of the component that it has most of.
+    const unsigned int along = std::abs(frame.tangent[0]) >= std::abs(frame.tangent[1]) ? 0 : 1;
+    const bool is_bilateral = face->condition->contact == Contact::bilateral;
+    express(friction, edge_dofs, frame.tangent, along, numbers, lines);
+    if (!is_bilateral)
+      express(pressure, edge_dofs, frame.normal, 1 - along, numbers, lines);
+  }
+  return lines;
+}
 
-  // One component of an inner node is free; its unknown becomes a moment.
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int c = 0; c < dim; ++c)
-      if (numbers[dof_at(c, i + 1)] != none)
-        moments[rows.face->first_multiplier + i] = numbers[dof_at(c, i + 1)];
+/**
+ * Add to the rows of T of the nodes inside an edge the displacement along @p direction, whose unknowns
+ * are those that @p component would have: `u += d (N (m, u_d(0), u_d(1)))` with moments, or where
+ * there are none, @p rows null, `u += d u_d` with nodal values.
+ */
+template <int dim>
+void Unknowns<dim>::express(const EdgeRows *rows,
+                            const std::vector<types::global_dof_index> &edge_dofs,
+                            const Tensor<1, dim> &direction, const unsigned int component,
+                            const std::vector<unsigned int> &numbers,
+                            std::map<types::global_dof_index, Line> &lines)
+{
+  const unsigned int n_nodes = edge_dofs.size() / dim, n = n_nodes - 2;
+  const auto dof_at = [&](const unsigned int c, const unsigned int node)
+  { return edge_dofs[c * n_nodes + node]; };
+  // Where u_n = 0, either component may be the free one.
+  const auto unknown_at = [&](const unsigned int node)
+  {
+    const unsigned int own = numbers[dof_at(component, node)];
+    return own != none ? own : numbers[dof_at(1 - component, node)];
+  };
+  for (unsigned int i = 0; i < n && rows; ++i)
+    moments[rows->multipliers[i]] = unknown_at(i + 1);
 
   for (unsigned int j = 0; j < n; ++j)
   {
-    std::map<unsigned int, double> u_t;
+    std::map<unsigned int, double> u_d;
     double offset = 0;
-    for (unsigned int i = 0; i < n; ++i)
-      u_t[moments[rows.face->first_multiplier + i]] = N(j, i);
-    for (const unsigned int end : {0U, 1U})
-      for (unsigned int c = 0; c < dim; ++c)
-        if (tangent[c] != 0.)
-        {
-          Line line;
-          add_terms(dof_at(c, end * (n_nodes - 1)), N(j, n + end) * tangent[c], numbers, line,
-                    offset);
-          for (const auto &[unknown, weight] : line)
-            u_t[unknown] += weight;
-        }
+    Tensor<1, dim> along = direction;
+    if (rows)
+    {
+      const FullMatrix<double> &N = *rows->nodes;
+      for (unsigned int i = 0; i < n; ++i)
+        u_d[moments[rows->multipliers[i]]] = N(j, i);
+      for (const unsigned int end : {0U, 1U})
+        for (unsigned int c = 0; c < dim; ++c)
+          if (direction[c] != 0.)
+          {
+            Line line;
+            add_terms(dof_at(c, end * (n_nodes - 1)), N(j, n + end) * direction[c], numbers, line,
+                      offset);
+            for (const auto &[unknown, weight] : line)
+              u_d[unknown] += weight;
+          }
+    }
+    else
+    {
+      along *= direction[component] < 0 ? -1. : 1.; // so that a component of u stays what it is
+      u_d[unknown_at(j + 1)] = 1.;
+      rotated.push_back({unknown_at(j + 1), {{dof_at(0, j + 1), dof_at(1, j + 1)}}, along});
+    }
     for (unsigned int c = 0; c < dim; ++c)
     {
       Line &line = lines[dof_at(c, j + 1)];
-      offsets[dof_at(c, j + 1)] = tangent[c] * offset;
-      for (const auto &[unknown, weight] : u_t)
-        if (tangent[c] != 0.)
-          line.emplace_back(unknown, tangent[c] * weight);
+      offsets[dof_at(c, j + 1)] += along[c] * offset;
+      for (const auto &[unknown, weight] : u_d)
+        if (along[c] != 0.)
+          line.emplace_back(unknown, along[c] * weight);
     }
   }
 }
@@ -191,11 +235,17 @@ Vector<double> Unknowns<dim>::coordinates(const Vector<double> &u) const
   Vector<double> x(n());
   for (unsigned int unknown = 0; unknown < n(); ++unknown)
     x[unknown] = u[dofs[unknown]];
+  for (const NodalValue &node : rotated)
+  {
+    x[node.unknown] = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      x[node.unknown] += node.direction[c] * u[node.dofs[c]];
+  }
   const Vector<double> Bu = contact_operator.moments(u);
-  const std::vector<double> &weights = contact_operator.contact_space().weights();
+  const auto &multipliers = contact_operator.contact_space().multipliers();
   for (unsigned int i = 0; i < moments.size(); ++i)
     if (moments[i] != none)
-      x[moments[i]] = Bu[i] / weights[i];
+      x[moments[i]] = Bu[i] / multipliers[i].weight;
   return x;
 }
 
@@ -203,20 +253,21 @@ template <int dim>
 ConditionRows Unknowns<dim>::contact_rows() const
 {
   const double negligible = 1e-14;
-  const std::vector<double> &weights = contact_operator.contact_space().weights();
+  const auto &multipliers = contact_operator.contact_space().multipliers();
   ConditionRows result;
   result.B.resize(moments.size());
   result.prescribed.reinit(moments.size());
+  std::map<unsigned int, std::map<unsigned int, double>> sums; // two faces may give to one row
   for (const EdgeRows &rows : contact_operator.rows())
     for (unsigned int i = 0; i < rows.B.m(); ++i)
     {
-      const unsigned int row = rows.face->first_multiplier + i;
+      const unsigned int row = rows.multipliers[i];
       if (rows.nodes)
       {
-        result.B[row] = {{moments[row], weights[row]}};
+        result.B[row] = {{moments[row], multipliers[row].weight}};
         continue;
       }
-      std::map<unsigned int, double> sum;
+      std::map<unsigned int, double> &sum = sums[row];
       for (unsigned int j = 0; j < rows.B.n(); ++j)
       {
         result.prescribed[row] += rows.B(i, j) * offsets[rows.dofs[j]];
@@ -224,8 +275,18 @@ ConditionRows Unknowns<dim>::contact_rows() const
           for (const auto &[unknown, weight] : terms(rows.dofs[j]))
             sum[unknown] += rows.B(i, j) * weight;
       }
-      result.B[row].assign(sum.begin(), sum.end());
     }
+  for (const auto &[row, sum] : sums)
+  {
+    double largest = 0;
+    for (const auto &[unknown, weight] : sum)
+      largest = std::max(largest, std::abs(weight));
+    for (const auto &[unknown, weight] : sum)
+      if (std::abs(weight) > negligible * largest) // the other direction of a slanted edge cancels
+        result.B[row].emplace_back(unknown, weight);
+  }
+  for (unsigned int i = 0; i < multipliers.size(); ++i)
+    result.prescribed[i] -= multipliers[i].gap;
 
   for (const Line &row : result.B)
     for (const auto &entry : row)

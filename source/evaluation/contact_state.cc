@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hpvi
 {
@@ -16,8 +17,8 @@ namespace
 template <int dim>
 bool differ(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
 {
-  return a.slips != b.slips ||
-         (a.slips && a.friction_bound != 0. && b.friction_bound != 0. && a.lambda * b.lambda < 0.);
+  return a.mode() != b.mode() || (a.mode() == ContactMode::slip && a.friction_bound != 0. &&
+                                  b.friction_bound != 0. && a.lambda * b.lambda < 0.);
 }
 
 /**
@@ -51,50 +52,126 @@ std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>>
   return result;
 }
 
+/** From end to end of the boundary, cut at its transitions; points and transitions follow the tangent. */
+template <int dim>
+std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Point<dim> &begin,
+                                       const Point<dim> &end)
+{
+  std::vector<Point<dim>> cuts = {begin};
+  cuts.insert(cuts.end(), state.transitions.begin(), state.transitions.end());
+  cuts.push_back(end);
+  std::vector<ContactZone<dim>> zones;
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+  {
+    // Points near a cut may still alternate: the one in the middle speaks for the zone.
+    const Point<dim> middle = cuts[k] + 0.5 * (cuts[k + 1] - cuts[k]);
+    const auto &point = *std::min_element(state.points.begin(), state.points.end(),
+                                          [&](const auto &a, const auto &b)
+                                          { return a.x.distance(middle) < b.x.distance(middle); });
+    zones.push_back({point.mode(), cuts[k], cuts[k + 1]});
+  }
+  return zones;
+}
+
+/** Is there no pressure at s in [0,1]: of the unknown there, or of those on both sides of it? */
+template <int dim>
+bool is_open(const ContactFace<dim> &face, const Vector<double> &z, const double s,
+             const double negligible)
+{
+  if (!face.condition->is_unilateral())
+    return false;
+  const std::vector<double> &points = face.normal_points;
+  const unsigned int after =
+      std::lower_bound(points.begin(), points.end(), s - 1e-12) - points.begin();
+  const auto presses = [&](const unsigned int k)
+  { return k < points.size() && z[face.pressures[k]] > negligible; };
+  if (after < points.size() && std::abs(points[after] - s) <= 1e-12)
+    return !presses(after);
+  return !presses(after) && !(after > 0 && presses(after - 1));
+}
+
+/** The largest of all pressures: one that is round-off beside it is none. */
+template <int dim>
+double negligible_pressure(const Solution<dim> &solution)
+{
+  double largest = 0;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    for (const unsigned int unknown : face.pressures)
+      largest = std::max(largest, solution.z[unknown]);
+  return 1e-10 * largest;
+}
+
 /** The Gauss points of a face's multiplier, along the tangent. */
 template <int dim>
 std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
-                                         const Solution<dim> &solution)
+                                         const Solution<dim> &solution, const double negligible)
 {
-  const bool has_friction = face.n_multipliers > 0;
+  const bool has_friction = face.n_multipliers > 0, unilateral = face.condition->is_unilateral();
   const unsigned int n = std::max(face.n_points, 1U);
   const ContactTraces<dim> traces(face, n, solution);
   std::vector<ContactPoint<dim>> points;
   for (unsigned int q = 0; q < n; ++q)
   {
-    const ContactFrame<dim> frame = face.frame(solution.tables.gauss(n).point(q)[0]);
+    const double s = solution.tables.gauss(n).point(q)[0];
+    const ContactFrame<dim> frame = face.frame(s);
     const Tensor<1, dim> u = traces.displacement(q);
     const double g = has_friction ? face.friction_bound(frame.x) : 0.;
     const double z = has_friction ? solution.z[face.first_multiplier + q] : 0.;
     const double lambda = g == 0. ? 0. : z / g;
     points.push_back({frame.x, face.length, g, lambda,
-                      g == 0. || std::abs(lambda) >= 1. - slip_tolerance, frame.normal * u,
-                      frame.tangent * u, traces.normal_traction(q), 0. - z}); // never -0
+                      g == 0. || std::abs(lambda) >= 1. - slip_tolerance,
+                      is_open(face, solution.z, s, negligible),
+                      (unilateral ? face.condition->gap_at(frame.x) : 0.) - frame.normal * u,
+                      frame.normal * u, frame.tangent * u,
+                      unilateral ? 0. - solution.contact_space.pressure(face, solution.z, s)
+                                 : traces.normal_traction(q),
+                      0. - z}); // never -0
   }
   if (face.frame(0.5).tangent * (face.point(1.) - face.point(0.)) < 0)
     std::reverse(points.begin(), points.end());
   return points;
 }
 
-/** T_n is a polynomial of degree p on an affine cell. */
+/** T_n and u_n - u_0 at one point more than u_N has nodes, at which T_n of an affine cell is exact. */
 template <int dim>
 void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solution,
                          ContactState<dim> &state)
 {
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
+  const bool unilateral = face.condition->is_unilateral();
   const ContactTraces<dim> traces(face, gauss.size(), solution);
+  const auto press = [&](const double pressure, const double s)
+  {
+    if (pressure > state.highest_pressure)
+    {
+      state.highest_pressure = pressure;
+      state.highest_pressure_point = face.point(s);
+    }
+  };
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
-    const double weight = gauss.weight(q) * face.frame(gauss.point(q)[0]).measure;
-    const double traction = traces.normal_traction(q);
-    state.normal_resultant += weight * traction;
-    state.tension += weight * std::max(traction, 0.);
+    const double s = gauss.point(q)[0];
+    const ContactFrame<dim> frame = face.frame(s);
+    const double traction = unilateral ? -solution.contact_space.pressure(face, solution.z, s)
+                                       : traces.normal_traction(q);
+    state.normal_resultant += gauss.weight(q) * frame.measure * traction;
+    state.tension += gauss.weight(q) * frame.measure * std::max(traction, 0.);
     if (traction > state.highest_tension)
     {
       state.highest_tension = traction;
-      state.highest_tension_point = face.point(gauss.point(q)[0]);
+      state.highest_tension_point = frame.x;
+    }
+    press(-traction, s);
+    const double depth =
+        unilateral ? frame.normal * traces.displacement(q) - face.condition->gap_at(frame.x) : 0.;
+    if (depth > state.deepest_penetration)
+    {
+      state.deepest_penetration = depth;
+      state.deepest_penetration_point = frame.x;
     }
   }
+  for (unsigned int k = 0; k < face.normal_points.size(); ++k)
+    press(solution.z[face.pressures[k]], face.normal_points[k]);
 }
 
 template <int dim>
@@ -103,32 +180,52 @@ void add_friction(const ContactFace<dim> &face, const Solution<dim> &solution,
 {
   for (unsigned int i = 0; i < face.n_multipliers; ++i)
   {
-    const double force = solution.contact_space.weights()[face.first_multiplier + i] *
-                         solution.z[face.first_multiplier + i];
+    const unsigned int unknown = face.first_multiplier + i;
+    const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[unknown];
+    const double force = multiplier.weight * solution.z[unknown];
     state.friction_resultant -= force;
-    state.friction_force -=
-        force * face.frame(solution.tables.gauss(face.n_points).point(i)[0]).tangent;
+    state.friction_force -= force * multiplier.direction;
   }
+}
+
+/** The ends of a face, along the tangent. */
+template <int dim>
+std::pair<Point<dim>, Point<dim>> ends_of(const ContactFace<dim> &face)
+{
+  std::pair<Point<dim>, Point<dim>> ends(face.point(0.), face.point(1.));
+  if (face.frame(0.5).tangent * (ends.second - ends.first) < 0)
+    std::swap(ends.first, ends.second);
+  return ends;
 }
 } // namespace
 
 template <int dim>
 std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
 {
+  const double negligible = negligible_pressure(solution);
   std::vector<ContactState<dim>> states;
+  std::vector<std::pair<Point<dim>, Point<dim>>> ends;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
   {
+    const auto [begin, end] = ends_of(face);
     if (states.empty() || states.back().boundary != face.condition->id)
+    {
       states.emplace_back().boundary = face.condition->id;
+      ends.emplace_back(begin, end);
+    }
+    ends.back().second = end;
     ContactState<dim> &state = states.back();
     state.length += face.length;
-    for (const ContactPoint<dim> &point : points_of(face, solution))
+    for (const ContactPoint<dim> &point : points_of(face, solution, negligible))
       state.points.push_back(point);
     add_normal_traction(face, solution, state);
     add_friction(face, solution, state);
   }
-  for (ContactState<dim> &state : states)
-    state.transitions = transitions_between(state.points);
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    states[k].transitions = transitions_between(states[k].points);
+    states[k].zones = zones_of(states[k], ends[k].first, ends[k].second);
+  }
   return states;
 }
 

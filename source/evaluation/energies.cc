@@ -99,8 +99,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
       friction += friction_work(face, TangentialDisplacement<dim>(face, solution),
                                 solution.tables.gauss(face.degree + 2));
   const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
-  const double coupling =
-      std::inner_product(solution.z.begin(), solution.z.end(), moments.begin(), 0.);
+  double coupling = 0;
+  for (unsigned int i = 0; i < moments.size(); ++i)
+    coupling += solution.z[i] * (moments[i] - solution.contact_space.multipliers()[i].gap);
   const double potential = 0.5 * a - system.work(solution.u);
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained

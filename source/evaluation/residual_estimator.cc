@@ -15,13 +15,16 @@ using namespace dealii;
 
 double ErrorEstimate::indicator(const unsigned int cell) const
 {
-  return std::sqrt(volume[cell] + jumps[cell] + neumann[cell] + contact[cell]);
+  double sum = volume[cell] + jumps[cell] + neumann[cell] + contact[cell];
+  for (const auto *part : {&normal, &penetration, &tension})
+    sum += part->empty() ? 0. : (*part)[cell];
+  return std::sqrt(sum);
 }
 
 double ErrorEstimate::total() const
 {
   double sum = 0;
-  for (const auto *part : {&volume, &jumps, &neumann, &contact})
+  for (const auto *part : {&volume, &jumps, &neumann, &contact, &normal, &penetration, &tension})
     sum = std::accumulate(part->begin(), part->end(), sum);
   return std::sqrt(sum);
 }
@@ -43,6 +46,7 @@ private:
   void add_jump(const Cell &cell, unsigned int face);
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const ContactFace<dim> &face);
+  double penetration(const ContactFace<dim> &face) const;
 
   /** Outer normals and weights times ds at the points of a table on a face. */
   struct FacePoints
@@ -71,6 +75,9 @@ Residuals<dim>::Residuals(const Solution<dim> &solution)
   const unsigned int n_cells = degrees.size();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
+  if (solution.scene.has_unilateral_contact())
+    for (auto *part : {&result.normal, &result.penetration, &result.tension})
+      part->assign(n_cells, 0.);
   coefficients.resize(n_cells);
   for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
@@ -241,7 +248,10 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   result.neumann[index] += weight(index) * sum;
 }
 
-/** sigma_t + z_N (minus the tangential part of an applied traction). */
+/**
+ * What the body's traction sigma n - G misses of that of the contact: along the tangent z_N, along the
+ * normal the pressure of unilateral contact, or nothing where only friction acts.
+ */
 template <int dim>
 void Residuals<dim>::add_contact(const ContactFace<dim> &face)
 {
@@ -249,18 +259,55 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
   const auto &condition = solution.scene.boundaries[face.condition->id];
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
   const auto own = tractions(face.cell, table, face_points(face.cell, face.face_no, table).normals);
-  double sum = 0;
+  double tangential = 0, normal = 0, tension = 0;
   for (unsigned int q = 0; q < n_gauss; ++q)
   {
     const double s = tables.gauss(n_gauss).point(q)[0];
     const ContactFrame<dim> frame = face.frame(s);
-    double residual = own[q] * frame.tangent + solution.contact_space.value(face, solution.z, s);
+    const double pressure = solution.contact_space.pressure(face, solution.z, s);
+    double along = own[q] * frame.tangent + solution.contact_space.value(face, solution.z, s),
+           across = own[q] * frame.normal + pressure;
     for (unsigned int c = 0; c < dim; ++c)
       if (condition.traction[c])
-        residual -= frame.tangent[c] * condition.traction[c]->value(frame.x);
-    sum += tables.gauss(n_gauss).weight(q) * frame.measure * residual * residual;
+      {
+        const double load = condition.traction[c]->value(frame.x);
+        along -= frame.tangent[c] * load;
+        across -= frame.normal[c] * load;
+      }
+    const double ds = tables.gauss(n_gauss).weight(q) * frame.measure;
+    tangential += ds * along * along;
+    normal += ds * across * across;
+    tension += ds * std::pow(std::min(pressure, 0.), 2);
   }
-  result.contact[index] += weight(index) * sum;
+  result.contact[index] += weight(index) * tangential;
+  if (condition.contact == Contact::tangential)
+    result.neumann[index] += weight(index) * normal;
+  if (!condition.is_unilateral())
+    return;
+  result.normal[index] += weight(index) * normal;
+  result.tension[index] += weight(index) * tension;
+  result.penetration[index] += penetration(face) / weight(index);
+}
+
+/** `mu^2 |max(u_n - u_0, 0)|^2`, seen at twice as many points as u_N has nodes. */
+template <int dim>
+double Residuals<dim>::penetration(const ContactFace<dim> &face) const
+{
+  const unsigned int index = face.cell->active_cell_index(), n = 2 * (face.degree + 1);
+  const auto &condition = solution.scene.boundaries[face.condition->id];
+  const double mu = solution.scene.material_of(face.cell).mu();
+  const std::vector<double> u =
+      evaluate(tables.face(face.degree, face.face_no, n).values, coefficients[index]);
+  double sum = 0;
+  for (unsigned int q = 0; q < n; ++q)
+  {
+    const ContactFrame<dim> frame = face.frame(tables.gauss(n).point(q)[0]);
+    double depth = -condition.gap_at(frame.x);
+    for (unsigned int c = 0; c < dim; ++c)
+      depth += frame.normal[c] * u[c * n + q];
+    sum += tables.gauss(n).weight(q) * frame.measure * std::pow(mu * std::max(depth, 0.), 2);
+  }
+  return sum;
 }
 
 template <int dim>
@@ -300,7 +347,10 @@ double round_off_of_estimate(const Solution<dim> &solution)
   Scene<dim> unloaded = solution.scene;
   unloaded.body_force = {};
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
+  {
     boundary.traction = {};
+    boundary.gap = expression<dim>(std::numeric_limits<double>::max()); // too far away to touch
+  }
   const DisplacementSpace<dim> &space = solution.displacement_space;
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform(-1., 1.);

@@ -125,14 +125,32 @@ std::string RigidBodyMotion<dim>::direction() const
 {
   std::ostringstream text;
   if (is_translation())
-    text << "along (" << translation << ')';
+    text << "along (" << translation / translation.norm() << ')';
   else
     text << "about (" << centre + Tensor<1, dim>({-translation[1], translation[0]}) / rotation
          << ')';
   return text.str();
 }
 
+template <int dim>
+RigidBodyMotion<dim> combined(const std::vector<RigidBodyMotion<dim>> &motions,
+                              const Vector<double> &coefficients)
+{
+  RigidBodyMotion<dim> result{{}, 0, motions.front().centre};
+  for (unsigned int j = 0; j < motions.size(); ++j)
+  {
+    // A rotation by round-off would be one about a far point.
+    if (std::abs(coefficients[j]) < 1e-10 * coefficients.linfty_norm())
+      continue;
+    result.translation += coefficients[j] * motions[j].translation;
+    result.rotation += coefficients[j] * motions[j].rotation;
+  }
+  return result;
+}
+
 template struct RigidBodyMotion<2>;
+template RigidBodyMotion<2> combined(const std::vector<RigidBodyMotion<2>> &,
+                                     const Vector<double> &);
 template Corners<2> box_corners(const Point<2> &, const Point<2> &);
 template struct Geometry<2>;
 } // namespace hpvi

@@ -173,16 +173,14 @@ Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double
 
 namespace
 {
-/** A + stiffness P P', the upper triangle. */
-cholmod_sparse *stabilised(const SymmetricMatrix &A, const Stabilisation &stabilisation,
-                           cholmod_common &common)
+/** P P', the upper triangle of n x n. */
+SymmetricMatrix square(const std::vector<std::pair<unsigned int, double>> &P, const unsigned int n)
 {
   SymmetricMatrix PP;
-  const auto &P = stabilisation.P;
   PP.resize(P.size() * (P.size() + 1) / 2);
   int end = 0;
   auto column_entry = P.begin();
-  for (unsigned int column = 0; column < A.n(); ++column)
+  for (unsigned int column = 0; column < n; ++column)
   {
     if (column_entry != P.end() && column_entry->first == column)
     {
@@ -195,14 +193,29 @@ cholmod_sparse *stabilised(const SymmetricMatrix &A, const Stabilisation &stabil
     }
     PP.column_start.push_back(end);
   }
-  cholmod_sparse first = as_cholmod(A), second = as_cholmod(PP);
-  double one[2] = {1., 0.}, stiffness[2] = {stabilisation.stiffness, 0.};
-  return cholmod_add(&first, &second, one, stiffness, /*values=*/true, /*sorted=*/false, &common);
+  return PP;
 }
+
+/** A sparse matrix of CHOLMOD's, released with its owner. */
+struct SparseMatrix
+{
+  explicit SparseMatrix(cholmod_common &common) : common(common)
+  {
+  }
+  ~SparseMatrix()
+  {
+    cholmod_free_sparse(&matrix, &common);
+  }
+  SparseMatrix(const SparseMatrix &) = delete;
+  SparseMatrix &operator=(const SparseMatrix &) = delete;
+
+  cholmod_sparse *matrix = nullptr;
+  cholmod_common &common;
+};
 } // namespace
 
 LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
-                           const double more_bytes, const Stabilisation &stabilisation)
+                           const double more_bytes, const std::vector<Stabilisation> &stabilisation)
     : factor(std::make_unique<Factor>())
 {
   const OneThread one_thread;
@@ -213,18 +226,20 @@ LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned 
   if (n_kept < n) // else all are in one group, and CAMD wants its number to be below n
     for (const unsigned int unknown : kept)
       is_kept[unknown] = 1;
-  if (stabilisation.stiffness > 0)
+  cholmod_sparse matrix = as_cholmod(A);
+  SparseMatrix sum(factor->common);
+  for (const Stabilisation &term : stabilisation)
   {
-    cholmod_sparse *matrix = stabilised(A, stabilisation, factor->common);
+    const SymmetricMatrix PP = square(term.P, n);
+    cholmod_sparse last = sum.matrix ? *sum.matrix : matrix, added = as_cholmod(PP);
+    double one[2] = {1., 0.}, stiffness[2] = {term.stiffness, 0.};
+    cholmod_sparse *const next = cholmod_add(&last, &added, one, stiffness, /*values=*/true,
+                                             /*sorted=*/false, &factor->common);
+    cholmod_free_sparse(&sum.matrix, &factor->common);
+    sum.matrix = next;
     factor->check();
-    factor->compute(matrix, is_kept, more_bytes);
-    cholmod_free_sparse(&matrix, &factor->common);
   }
-  else
-  {
-    cholmod_sparse matrix = as_cholmod(A);
-    factor->compute(&matrix, is_kept, more_bytes);
-  }
+  factor->compute(sum.matrix ? sum.matrix : &matrix, is_kept, more_bytes);
   if (n_kept == 0)
     return;
   factor->C = factor->trailing_block(n_kept);

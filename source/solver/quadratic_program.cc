@@ -46,6 +46,26 @@ double condition_number(const LAPACKFullMatrix<double> &S)
   return smallest > 0 ? largest / smallest : infinity;
 }
 
+std::vector<std::pair<double, Vector<double>>> eigenpairs(const FullMatrix<double> &matrix)
+{
+  const types::blas_int n = matrix.m(), work_size = 34 * std::max<types::blas_int>(1, n);
+  LAPACKFullMatrix<double> vectors(n);
+  vectors = matrix;
+  std::vector<double> eigenvalues(n), work(work_size);
+  types::blas_int info = 0;
+  if (n > 0)
+    syev("V", "L", &n, &vectors(0, 0), &n, eigenvalues.data(), work.data(), &work_size, &info);
+  AssertThrow(info == 0, ExcInternalError());
+  std::vector<std::pair<double, Vector<double>>> result;
+  for (unsigned int k = matrix.m(); k-- > 0;)
+  {
+    result.emplace_back(eigenvalues[k], Vector<double>(matrix.m()));
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      result.back().second[i] = vectors(i, k);
+  }
+  return result;
+}
+
 Vector<double> diagonal_scale(const LAPACKFullMatrix<double> &S)
 {
   AssertDimension(S.m(), S.n());

@@ -202,7 +202,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
     EXPECT_NE(
         damaged(text.substr(0, part * text.size() / 4)).find("state.dat: the run state is cut"),
         std::string::npos);
-  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 1\""),
+  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 2\""),
             std::string::npos);
   std::string altered = text;
   char &digit = altered[altered.find_last_of("12345678")];
@@ -215,7 +215,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
 TEST(RunState, WithoutSenseIsRefused)
 {
   for (const std::string content : {"", "entries 0\nsteps 1\n1 1 x 0\n", "entries 0\nsteps -1\n",
-                                    "entries 0\nsteps 0\nrefinements 0\ntranslation 0\nu 2 1\n"})
+                                    "entries 0\nsteps 0\nrefinements 0\nmotion 0\nu 2 1\n"})
   {
     std::ostringstream out;
     RunState::format().write(out, content);

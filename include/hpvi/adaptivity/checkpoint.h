@@ -22,9 +22,9 @@ struct RunState
   std::vector<std::string> entries;
   /** From the coarse mesh to that of the step: only their order gives cells the same numbers again. */
   std::vector<Refinement> refinements;
-  dealii::Vector<double> u, z; ///< as in Solution
-  double translation = 0;      ///< length by which a body moves that friction alone holds
-  History history;             ///< of the steps up to this one
+  dealii::Vector<double> u, z;   ///< as in Solution
+  dealii::Vector<double> motion; ///< amounts of Scene::free_motions() by which the body moves
+  History history;               ///< of the steps up to this one
 
   /** The entries of @p scene_prm that a state keeps: all but limits, output and labels. */
   static std::vector<std::string> entries_of(const std::string &scene_prm);

@@ -98,8 +98,8 @@ public:
   /** The Gauss rule on [0,1]: deal.II computes its points anew for each object. */
   const dealii::QGauss<1> &gauss(unsigned int n_gauss) const;
 
-  /** The Gauss-Lobatto points in [0,1], the nodes of FE_Q(n_points - 1) on an edge. */
-  const std::vector<double> &gauss_lobatto(unsigned int n_points) const;
+  /** The Gauss-Lobatto rule on [0,1]: its points are the nodes of FE_Q(n_points - 1) on an edge. */
+  const dealii::QGaussLobatto<1> &gauss_lobatto(unsigned int n_points) const;
 
   /** Lagrange polynomials at the Gauss points. */
   const std::vector<dealii::Polynomials::Polynomial<double>> &
@@ -125,7 +125,7 @@ private:
   mutable std::map<unsigned int, LocalNumbering> numberings;
   mutable std::map<std::array<unsigned int, 4>, EdgeInterpolation> interpolations;
   mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
-  mutable std::map<unsigned int, std::vector<double>> gauss_lobatto_points;
+  mutable std::map<unsigned int, dealii::QGaussLobatto<1>> gauss_lobatto_rules;
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
       lagrange_bases;
   mutable std::map<std::array<unsigned int, 3>, EdgeTable> edge_tables;

@@ -7,14 +7,16 @@
 namespace hpvi
 {
 /**
- * The rows of `b(v, z) = int z v_t` over the contact boundary, one for each multiplier unknown i with
- * its Lagrange polynomial psi_i: `B_i v = int psi_i v_t`. No bound stands in them, so that they outlive
- * a change of g; |z_i| <= g(x_i) is a matter of the feasible set.
+ * The rows of `b(v, z) = int z_t v_t + int z_n v_n` over the contact boundary, one for each multiplier
+ * unknown i with its basis function psi_i: `B_i v = int psi_i v_t` or `int psi_i v_n`, the latter by the
+ * Gauss-Lobatto rule where pressures stand at nodes. Neither bound nor gap stands in them, so that they
+ * outlive a change of g; |z_i| <= g(x_i) is a matter of the feasible set.
  *
- * Where the multiplier has degree p - 2 and nothing prescribes the tangential displacement, a contact
- * edge has as many interior nodes as Gauss points, p - 1, and they belong to one cell and never hang.
- * There the moments `m_i = B_i u / w_i`, w_i = int psi_i the Gauss weight times length, take the place
- * of the nodal values: as unknowns of the linear system they make B diagonal, `b(u, z) = sum w_i m_i z_i`.
+ * Where a multiplier has degree p - 2 and nothing prescribes the displacement that it works on, a
+ * contact edge has as many interior nodes as Gauss points, p - 1, and they belong to one cell and never
+ * hang. There the moments `m_i = B_i u / w_i`, w_i = int psi_i the Gauss weight times length, take the
+ * place of the nodal values: as unknowns of the linear system they make B diagonal,
+ * `b(u, z) = sum w_i m_i z_i`.
  */
 template <int dim>
 class ContactOperator
@@ -22,9 +24,12 @@ class ContactOperator
   static_assert(dim == 2, "nodes along a straight edge");
 
 public:
+  using Kind = typename ContactMultiplier<dim>::Kind;
+
   /** The spaces must outlive this object. */
   ContactOperator(const DisplacementSpace<dim> &displacement_space,
-                  const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
+                  const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
+                  NormalContact normal);
 
   /** B u: what u does at the contact boundary, by multiplier [length^dim]. */
   dealii::Vector<double> moments(const dealii::Vector<double> &u) const;
@@ -34,21 +39,23 @@ public:
   forces(const dealii::Vector<double> &z,
          dealii::types::boundary_id only = dealii::numbers::invalid_boundary_id) const;
 
-  /** The part of B that belongs to one face, and its way to moments. */
+  /** The part of B that belongs to one face and one direction, and its way to moments. */
   struct Rows
   {
     const ContactFace<dim> *face;
+    typename ContactMultiplier<dim>::Kind kind;
+    std::vector<unsigned int> multipliers; ///< of each row; a vertex may get its row from two faces
     /** Displacement unknowns of its edge, component by component, each along the edge. */
     std::vector<dealii::types::global_dof_index> dofs;
-    dealii::FullMatrix<double> B; ///< n_multipliers x dofs
+    dealii::FullMatrix<double> B; ///< multipliers x dofs
     /**
-     * Tangential displacement at the p-1 interior nodes by the p-1 moments and that at both ends,
-     * `u_t = N (m, u_t(0), u_t(1))`; null where the nodal values stay the unknowns.
+     * The displacement in this direction at the p-1 interior nodes by the p-1 moments and that at both
+     * ends, `u_t = N (m, u_t(0), u_t(1))`; null where the nodal values stay the unknowns.
      */
     const dealii::FullMatrix<double> *nodes;
   };
 
-  /** Of every face with multipliers, in the order of ContactSpace::faces(). */
+  /** Of every face with multipliers, in the order of ContactSpace::faces(); friction first. */
   const std::vector<Rows> &rows() const;
 
   const ContactSpace<dim> &contact_space() const;

@@ -15,8 +15,9 @@
 namespace hpvi
 {
 /**
- * One face of the contact boundary. Its multiplier unknowns are the values of z_N at its Gauss
- * points, in the order of the face's own reference coordinate.
+ * One face of the contact boundary. Its multiplier unknowns are those of friction, the values of z_N
+ * at its Gauss points, then those of normal contact, the pressures at its normal points; both in the
+ * order of the face's own reference coordinate.
  */
 template <int dim>
 struct ContactFace
@@ -28,9 +29,16 @@ struct ContactFace
   CellMap<dim> map;              ///< of the cell
   double length;                 ///< of the face
   unsigned int n_points;         ///< Gauss points: p + offset + 1
-  unsigned int first_multiplier; ///< index of the first unknown
+  unsigned int first_multiplier; ///< index of the first unknown of friction
   unsigned int n_multipliers;    ///< n_points, or 0 where g vanishes on the whole face
-  FrictionRule friction;         ///< for integrals over the face that hold g [stress]
+  /**
+   * Where the pressure has its unknowns, in [0,1]: none without unilateral contact; the Gauss points
+   * of a multiplier; or Gauss-Lobatto points, without those where u_n is prescribed.
+   */
+  std::vector<double> normal_points;
+  std::vector<unsigned int>
+      pressures;         ///< their unknowns: a vertex shares its own with the next face
+  FrictionRule friction; ///< for integrals over the face that hold g [stress]
 
   /** At reference coordinate s in [0,1] of the face. */
   ContactFrame<dim> frame(double s) const;
@@ -38,6 +46,28 @@ struct ContactFace
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;
+};
+
+/** Values at @p s of the polynomials that are 1 at one of @p points and 0 at the others. */
+std::vector<double> lagrange_basis(const std::vector<double> &points, double s);
+
+/** One unknown of the multiplier: a traction at a point, in one direction. */
+template <int dim>
+struct ContactMultiplier
+{
+  enum class Kind
+  {
+    friction, ///< |z| <= g along the tangent
+    pressure  ///< z >= 0 along the normal
+  };
+
+  Kind kind;
+  dealii::Point<dim> x;
+  dealii::Tensor<1, dim> direction; ///< of the displacement that it works on
+  double weight =
+      0; ///< of the quadrature rule, times ds: `int z_N = sum_i weight_i z_i` [length^(dim-1)]
+  double bound = 0; ///< g(x) [stress]; 0 for a pressure
+  double gap = 0;   ///< int psi u_0 with its basis function psi, 0 for friction [length^dim]
 };
 
 /** A jump of g inside an edge, which no polynomial of the discrete problem follows. */
@@ -59,37 +89,46 @@ struct UnresolvedBound
 };
 
 /**
- * The space of friction tractions z_N = g lambda_N: on each contact face where g does not vanish the
- * polynomials of degree p + offset, discontinuous from face to face, Lagrange basis at the
- * p + offset + 1 Gauss points x_i, in the set |z_i| <= g(x_i). For constant g it is g times W_N of
- * (3.58) with the discrete set (3.68), and offset = -2 the thesis's
+ * The space of contact tractions z_N, the multipliers. Friction, T_t = -z: on each contact face where g
+ * does not vanish the polynomials of degree p + offset, discontinuous from face to face, Lagrange basis
+ * at the p + offset + 1 Gauss points x_i, in the set |z_i| <= g(x_i). For constant g it is g times W_N
+ * of (3.58) with the discrete set (3.68), and offset = -2 the thesis's
  * (SolverSettings::multiplier_offset). Where g varies the thesis multiplies the polynomials by g; both
  * are equal once g is resolved, and this one divides by g nowhere (doc/plan.md).
+ *
+ * Pressure, T_n = -z, on faces with unilateral contact: either the same polynomials with z_i >= 0, so
+ * that `u_n <= u_0` holds in their moments; or (NormalContact::nodes) a continuous polynomial of degree
+ * p with z_i >= 0 at the Gauss-Lobatto points and `int z v_n` by the Gauss-Lobatto rule, so that
+ * `u_n <= u_0` holds at these points, (3.67), and the weight times z_i is the reaction of a node.
  */
 template <int dim>
 class ContactSpace
 {
 public:
-  ContactSpace(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space);
+  /** Throws InputError where a prescribed displacement contradicts the gap at a node. */
+  ContactSpace(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
+               const ShapeTables<dim> &tables);
 
   /** Faces along the boundary: one contact boundary after the other, each sorted by position. */
   const std::vector<ContactFace<dim>> &faces() const;
 
   unsigned int n_multipliers() const;
+  const std::vector<ContactMultiplier<dim>> &multipliers() const;
 
-  /** |z_i| <= g(x_i), where x_i = point(i). */
+  /** |z_i| <= g(x_i) of friction, z_i >= 0 of pressures. */
   FeasibleSet feasible_set() const;
 
-  /** Gauss weights times ds by multiplier: `int z_N = sum_i weights_i z_i` [length^(dim-1)]. */
-  const std::vector<double> &weights() const;
-
   /**
-   * Values of the multiplier's Lagrange basis on @p face at reference coordinates @p s in [0,1].
+   * Values of the friction multiplier's Lagrange basis on @p face at reference coordinates @p s in
+   * [0,1].
    */
   std::vector<double> basis_values(const ContactFace<dim> &face, double s) const;
 
-  /** z_N on @p face at s in [0,1]; zero on a face without multipliers [stress]. */
+  /** z_N of friction on @p face at s in [0,1]; zero on a face without multipliers [stress]. */
   double value(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
+
+  /** The pressure -T_n likewise. */
+  double pressure(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
 
   /** int g, all that friction can carry along the contact boundary [stress length^(dim-1)]. */
   double friction_limit() const;
@@ -109,12 +148,17 @@ public:
   std::vector<UnresolvedJump<dim>> unresolved_jumps() const;
 
 private:
-  void number_multipliers();
+  using Kind = typename ContactMultiplier<dim>::Kind;
+
+  void number_friction(ContactFace<dim> &face, const ShapeTables<dim> &tables);
+  void number_pressures(ContactFace<dim> &face, const ShapeTables<dim> &tables);
+  void number_nodes(ContactFace<dim> &face, const DisplacementSpace<dim> &displacement_space,
+                    const ShapeTables<dim> &tables);
 
   std::vector<ContactFace<dim>> contact_faces;
-  std::vector<double> point_weights, bounds; ///< w_i, g(x_i) by multiplier
+  std::vector<ContactMultiplier<dim>> unknowns;
   std::map<unsigned int, dealii::FE_DGQArbitraryNodes<dim - 1>> elements; ///< by n_points
-  unsigned int n_unknowns = 0;
+  std::map<unsigned int, std::vector<unsigned int>> at_vertices; ///< pressures by vertex index
 };
 } // namespace hpvi
 

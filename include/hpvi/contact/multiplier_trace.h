@@ -29,7 +29,9 @@ private:
     dealii::types::boundary_id boundary;
     dealii::Point<dim> begin;
     dealii::Tensor<1, dim> edge;
-    std::vector<double> values; ///< at its Gauss points
+    std::vector<double> values;        ///< of friction at its Gauss points
+    std::vector<double> normal_points; ///< as in ContactFace, along the edge
+    std::vector<double> pressures;     ///< there
   };
 
   std::vector<Piece> pieces; ///< in the order of the faces

@@ -40,10 +40,10 @@ public:
   const Unknowns<dim> unknowns;
   const ConditionRows contact_rows; ///< B
   const Condensation<dim> condensation;
-  const ElasticSystem<dim> system;                   ///< A, f
-  const std::optional<RigidMotion<dim>> free_motion; ///< where friction alone holds the body
+  const ElasticSystem<dim> system;                     ///< A, f
+  const std::optional<RigidMotions<dim>> free_motions; ///< where contact alone holds the body
 
-  /** @p elements remembers element matrices from step to step. Throws what make_translation() throws. */
+  /** @p elements remembers element matrices from step to step. Throws what RigidMotions throws. */
   Discretisation(const Scene<dim> &scene, std::shared_ptr<const Spaces<dim>> spaces,
                  CondensedElements<dim> &elements);
 

@@ -11,9 +11,9 @@ namespace hpvi
 struct ReducedSolution
 {
   dealii::Vector<double> z; ///< multiplier [stress]
-  /** The tangential moments B u that S and d promise: `d - S z`, and what a free motion adds. */
+  /** `B u` less the moments of the gap as S and d promise it: `d - S z`, and what free motions add. */
   dealii::Vector<double> moments;
-  double translation = 0; ///< length by which a body moves that friction alone holds
+  dealii::Vector<double> motion; ///< amounts of the free motions that contact sees (RigidMotions)
   QpReport qp;
   double seconds = 0;          ///< of wall time, for all calls that went on from one another
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
@@ -21,11 +21,11 @@ struct ReducedSolution
 };
 
 /**
- * Minimises `1/2 z'Sz - d'z` over |z_i| <= g(x_i) by the scene's solver, from @p start, whose
- * multiplier fits the contact space; where friction alone holds the body, under the balance of forces
- * along its free motion. @p defect is added to d: by how much `B u` of a corrected displacement differs
+ * Minimises `1/2 z'Sz - d'z` over the feasible set by the scene's solver, from @p start, whose
+ * multiplier fits the contact space; where contact alone holds the body, under the balance of forces
+ * along its free motions. @p defect is added to d: by how much `B u` of a corrected displacement differs
  * from what S and d promised. Throws NumericalFailure where the solver does not converge or where the
- * loads exceed what friction can resist.
+ * loads exceed what contact can resist.
  */
 template <int dim>
 ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,

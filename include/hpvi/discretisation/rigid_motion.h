@@ -3,42 +3,68 @@
 #define hpvi_rigid_motion_h
 
 #include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/solver/balance_solver.h>
 
 namespace hpvi
 {
 /**
- * A motion R that strains nothing and that no support resists. Contact that sees it, B R != 0, holds
- * the body by forces in balance with the loads, `R'(f - B' z) = 0`; then A is stabilised by
- * `c P P'`, where P'u is the mean displacement along R over the contact. A motion that no contact sees is an unknown of its own: A is
- * stabilised by a spring at one unknown, which carries no force, and u is not unique.
+ * The motions R that strain nothing and that no support resists, up to three in the plane. Those that
+ * contact sees, `G = B R != 0`, are held by forces in balance with the loads, `R'(f - B' z) = 0`; A is
+ * stabilised by `c P P'`, where P'u is the mean displacement along R over the contact. Those that no
+ * contact sees are unknowns of their own: A is stabilised by a spring at one unknown, which carries no
+ * force, and u is not unique.
+ *
+ * Motions are chosen so that they are orthogonal over the contact, `G' W^-1 G` diagonal with the weights
+ * W of the multipliers: then seen is an eigenvalue above round-off.
  */
 template <int dim>
-struct RigidMotion
+class RigidMotions
 {
-  dealii::Tensor<1, dim> direction; ///< of the translation, a unit vector
-  dealii::Vector<double> R;         ///< at the unknowns, dimensionless
-  dealii::Vector<double> G;         ///< B R, by multiplier
-  Stabilisation stabilisation;
-  double load = 0; ///< R'f: how hard loads push the body along R [stress length^(dim-1)]
+public:
+  /** @p basis of the motions. Throws NumericalFailure where loads push along one that no contact sees. */
+  RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis, const DisplacementSpace<dim> &space,
+               const Unknowns<dim> &unknowns, const ConditionRows &rows,
+               const std::vector<ContactMultiplier<dim>> &multipliers,
+               const ElasticSystem<dim> &system);
 
-  bool is_seen() const; ///< by any contact
+  unsigned int n_seen() const; ///< by contact
+
+  /** `G' z = e`: the contact balances the loads along each motion that it sees. */
+  const EqualityConstraints &balance() const;
 
   /**
-   * S contains `penalty G G'` and d `penalty load G`, because A^-1 contains `penalty R R'`: the
-   * inverse of c (P'R)^2.
+   * S contains `G penalty G'` and d `G penalty e`, because A^-1 contains `R penalty R'`: the inverse of
+   * c (P'R)^2, by motion.
    */
-  double penalty() const;
-};
+  const dealii::FullMatrix<double> &penalty() const;
 
-/**
- * The translation along @p direction; @p weights are those of the multipliers. Throws NumericalFailure where the loads push the body along it
- * and no contact sees it.
- */
-template <int dim>
-RigidMotion<dim>
-make_translation(const dealii::Tensor<1, dim> &direction, const DisplacementSpace<dim> &space,
-                 const Unknowns<dim> &unknowns, const ConditionRows &rows,
-                 const std::vector<double> &weights, const ElasticSystem<dim> &system);
+  /** What is added to A, motion by motion. */
+  const std::vector<Stabilisation> &stabilisation() const;
+
+  /** The motion with @p amounts of those that contact sees. */
+  RigidBodyMotion<dim> motion(const dealii::Vector<double> &amounts) const;
+
+  /** The same at the unknowns. */
+  dealii::Vector<double> at_unknowns(const dealii::Vector<double> &amounts) const;
+
+  /** Amounts of the motions of the basis, which outlive the mesh, and back. */
+  dealii::Vector<double> in_basis(const dealii::Vector<double> &amounts) const;
+  dealii::Vector<double> from_basis(const dealii::Vector<double> &coefficients) const;
+
+private:
+  void split_by_contact(const dealii::FullMatrix<double> &gram, double smallest);
+  void stabilise_seen(const ConditionRows &rows,
+                      const std::vector<ContactMultiplier<dim>> &multipliers,
+                      const SymmetricMatrix &A);
+  void hold_unseen(const ElasticSystem<dim> &system);
+
+  std::vector<RigidBodyMotion<dim>> basis;
+  std::vector<dealii::Vector<double>> combinations; ///< of the basis: first those that are seen
+  std::vector<dealii::Vector<double>> R;            ///< of each, at the unknowns
+  EqualityConstraints equations;
+  dealii::FullMatrix<double> inverse_stiffness;
+  std::vector<Stabilisation> terms;
+};
 } // namespace hpvi
 
 #endif

@@ -5,6 +5,7 @@
 #include <hpvi/contact/contact_operator.h>
 #include <hpvi/solver/schur_complement.h>
 
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -17,8 +18,8 @@ using Terms = dealii::ArrayView<const std::pair<unsigned int, double>>;
 /**
  * The unknowns x of the linear system: every displacement unknown on the boundary of a cell is
  * `u = T x + h`, with h from prescribed displacements. Unknowns are the free displacements and, in
- * the place of those inside a contact edge, its moments (see ContactOperator); those inside cells are
- * left to Condensation.
+ * the place of those inside a contact edge, its moments (see ContactOperator), beside which a direction
+ * without moments keeps its nodal values; those inside cells are left to Condensation.
  */
 template <int dim>
 class Unknowns
@@ -41,7 +42,10 @@ public:
   dealii::Vector<double> distribute(const dealii::Vector<double> &x) const;   ///< T x + h
   dealii::Vector<double> collect(const dealii::Vector<double> &forces) const; ///< T' forces
 
-  /** The contact conditions in x: a row has one entry where moments are unknowns. */
+  /**
+   * The contact conditions in x, `B x + prescribed = B u - (the gap's moments)`: a row has one entry where
+   * moments are unknowns.
+   */
   ConditionRows contact_rows() const;
 
   /** x of a displacement u that meets all constraints with h = 0. */
@@ -51,9 +55,21 @@ private:
   using Line = std::vector<std::pair<unsigned int, double>>;
   using EdgeRows = typename ContactOperator<dim>::Rows;
 
+  /** The displacement of a node along a direction, as an unknown. */
+  struct NodalValue
+  {
+    unsigned int unknown;
+    std::array<dealii::types::global_dof_index, dim> dofs;
+    dealii::Tensor<1, dim> direction;
+  };
+
   std::vector<unsigned int> number(const ShapeTables<dim> &tables);
-  void express_by_moments(const EdgeRows &rows, const std::vector<unsigned int> &numbers,
-                          std::map<dealii::types::global_dof_index, Line> &lines);
+  std::map<dealii::types::global_dof_index, Line>
+  edges_with_moments(const std::vector<unsigned int> &numbers);
+  void express(const EdgeRows *rows, const std::vector<dealii::types::global_dof_index> &edge_dofs,
+               const dealii::Tensor<1, dim> &direction, unsigned int component,
+               const std::vector<unsigned int> &numbers,
+               std::map<dealii::types::global_dof_index, Line> &lines);
   void add_terms(dealii::types::global_dof_index dof, double weight,
                  const std::vector<unsigned int> &numbers, Line &line, double &offset) const;
 
@@ -61,6 +77,7 @@ private:
   const ContactOperator<dim> &contact_operator;
   std::vector<dealii::types::global_dof_index> dofs;    ///< by unknown
   std::vector<unsigned int> moments;                    ///< by multiplier: its unknown, or none
+  std::vector<NodalValue> rotated;                      ///< unknowns that are no component of u
   std::vector<std::pair<unsigned int, double>> entries; ///< of T, row by row
   std::vector<std::size_t> first_entry;
   dealii::Vector<double> offsets; ///< h

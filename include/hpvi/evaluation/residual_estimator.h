@@ -14,7 +14,11 @@ struct ErrorEstimate
   std::vector<double> volume;  ///< h_K^2/p_K^2 |r_K|^2
   std::vector<double> jumps;   ///< h_K/p_K |R_E|^2 over interior edges
   std::vector<double> neumann; ///< h_K/p_K |R_E|^2 over Gamma_N
-  std::vector<double> contact; ///< h_K/p_K |R_E|^2 over Gamma_C
+  std::vector<double> contact; ///< h_K/p_K |R_E|^2 over Gamma_C, of the tangential traction
+  /** Of unilateral contact, with T_Nn = -lambda_Nn; empty without it: */
+  std::vector<double> normal;      ///< h_K/p_K |sigma_n - G_n + lambda_Nn|^2
+  std::vector<double> penetration; ///< mu^2 p_K/h_K |max(u_Nn - u_0, 0)|^2
+  std::vector<double> tension;     ///< h_K/p_K |min(lambda_Nn, 0)|^2
 
   /** eta_K of (4.50). */
   double indicator(unsigned int cell) const;

@@ -5,6 +5,7 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+#include <deal.II/lac/vector.h>
 
 #include <array>
 #include <string>
@@ -83,6 +84,11 @@ struct RigidBodyMotion
   /** As in "along (1 0)" or "about (0.5 2)". */
   std::string direction() const;
 };
+
+/** The sum of @p motions, which have one centre, times @p coefficients; round-off in these counts as zero. */
+template <int dim>
+RigidBodyMotion<dim> combined(const std::vector<RigidBodyMotion<dim>> &motions,
+                              const dealii::Vector<double> &coefficients);
 } // namespace hpvi
 
 #endif

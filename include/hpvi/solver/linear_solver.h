@@ -13,13 +13,14 @@
 namespace hpvi
 {
 /**
- * `stiffness P P'`, added to a singular matrix A whose null vector R has `P'R != 0`. It carries no
- * force where `R'f = 0`: then A^-1 is a generalised inverse of the matrix without it.
+ * `stiffness P P'`, added to a singular matrix A, one for each of its null vectors R so that `P'R` is
+ * regular. It carries no force where `R'f = 0`: then A^-1 is a generalised inverse of the matrix without
+ * it.
  */
 struct Stabilisation
 {
   std::vector<std::pair<unsigned int, double>> P; ///< entries that are not zero, ascending
-  double stiffness = 0;                           ///< none where it is 0
+  double stiffness = 0;
 };
 
 /**
@@ -37,7 +38,7 @@ public:
    * A is not positive definite or memory does not suffice.
    */
   LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
-               double more_bytes = 0., const Stabilisation &stabilisation = {});
+               double more_bytes = 0., const std::vector<Stabilisation> &stabilisation = {});
   LinearSolver(LinearSolver &&);
   ~LinearSolver();
 

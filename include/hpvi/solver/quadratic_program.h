@@ -2,9 +2,13 @@
 #ifndef hpvi_quadratic_program_h
 #define hpvi_quadratic_program_h
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/solver/feasible_set.h>
+
+#include <utility>
+#include <vector>
 
 namespace hpvi
 {
@@ -27,6 +31,10 @@ struct QuadraticProgram
  * round-off, NaN if the eigenvalues do not exist (NaN in S), one for n = 0. Costs O(n^3).
  */
 double condition_number(const dealii::LAPACKFullMatrix<double> &S);
+
+/** Eigenvalues of a small symmetric matrix, the largest first, with their eigenvectors of length 1. */
+std::vector<std::pair<double, dealii::Vector<double>>>
+eigenpairs(const dealii::FullMatrix<double> &matrix);
 
 /**
  * The factors `S_ii^-1/2` of the diagonal scaling: `z_i = scale_i y_i`. A row whose diagonal is not
