@@ -84,8 +84,17 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   {
     check_equilibrium(*motion, contact_space);
     // The inner problems leave noise of their own tolerance in the balance.
-    result.qp = BalanceSolver(solve, motion->penalty(), 100 * settings.qp_tolerance)
-                    .solve(qp, {motion->G, motion->load}, result.z, result.translation);
+    EqualityConstraints balance{FullMatrix<double>(qp.d.size(), 1), Vector<double>(1)};
+    for (unsigned int i = 0; i < qp.d.size(); ++i)
+      balance.G(i, 0) = motion->G[i];
+    balance.e[0] = motion->load;
+    FullMatrix<double> penalty(1, 1);
+    penalty(0, 0) = motion->penalty();
+    Vector<double> alpha(1);
+    alpha[0] = result.translation;
+    result.qp = BalanceSolver(solve, penalty, 100 * settings.qp_tolerance)
+                    .solve(qp, balance, result.z, alpha);
+    result.translation = alpha[0];
     qp.d.add(result.translation, motion->G);
   }
   else
