@@ -83,9 +83,9 @@ void check_contact(const RigidMotions<dim> &motions, const FeasibleSet &feasible
   const double unit = pushes ? motion.translation.norm() : std::abs(motion.rotation);
   std::ostringstream line;
   line.precision(10);
-  line << "no equilibrium: the loads " << (pushes ? "push" : "turn")
-       << " the body " << motion.direction() << " with " << imbalance->load / unit
-       << ", contact can resist with " << imbalance->resistance / unit
+  line << "no equilibrium: the loads " << (pushes ? "push" : "turn") << " the body "
+       << motion.direction() << " with " << imbalance->load / unit << ", contact can resist with "
+       << imbalance->resistance / unit
        << " at most; add a support, raise Friction bound or change the loads";
   throw NumericalFailure(line.str());
 }
@@ -111,7 +111,7 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
     // The inner problems leave noise of their own tolerance in the balance.
     result.qp = BalanceSolver(solve, motions->penalty(), 100 * settings.qp_tolerance)
                     .solve(qp, motions->balance(), result.z, result.motion);
-    motions->balance().G.vmult_add(qp.d, result.motion);
+    qp.d += motions->balance().along(result.motion);
   }
   else
     result.qp = solve(qp, result.z);

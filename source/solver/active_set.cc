@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/lac/lapack_templates.h>
 #include <hpvi/solver/active_set.h>
+#include <hpvi/solver/newton_system.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,6 @@ public:
 
 private:
   bool follow(const FeasibleSet::Linearisation &prediction);
-  bool solve_along(const std::vector<FeasibleSet::Direction> &directions);
-  double product(const FeasibleSet::Direction &a, const FeasibleSet::Direction &b) const;
   double projected_gradient();
 
   void compute_gradient(const Vector<double> &x);
@@ -80,48 +78,13 @@ bool Newton::follow(const FeasibleSet::Linearisation &prediction)
 {
   z = prediction.base;
   compute_gradient(z);
-  if (!solve_along(prediction.directions))
+  const NewtonSystem system(qp.S, prediction.directions);
+  report.dense_solves += !prediction.directions.empty();
+  if (!system.is_positive_definite())
     return false;
+  z -= system.solve(r);
   compute_gradient(z);
   return true;
-}
-
-/** `z := z - Q (Q'SQ + C)^-1 Q'r`, Q the directions and C their curvatures. */
-bool Newton::solve_along(const std::vector<FeasibleSet::Direction> &directions)
-{
-  const types::blas_int n = directions.size(), one = 1;
-  if (n == 0)
-    return true;
-  std::vector<double> matrix(directions.size() * directions.size()), change(directions.size());
-  for (unsigned int j = 0; j < directions.size(); ++j)
-  {
-    const FeasibleSet::Direction &q = directions[j];
-    for (unsigned int i = j; i < directions.size(); ++i)
-      matrix[i + j * directions.size()] = product(directions[i], q);
-    matrix[j + j * directions.size()] += q.curvature;
-    for (unsigned int k = 0; k < q.size; ++k)
-      change[j] += q.weights[k] * r[q.first + k];
-  }
-  types::blas_int info = 0;
-  potrf("L", &n, matrix.data(), &n, &info);
-  ++report.dense_solves;
-  if (info != 0)
-    return false;
-  potrs("L", &n, &one, matrix.data(), &n, change.data(), &n, &info);
-  for (unsigned int j = 0; j < directions.size(); ++j)
-    for (unsigned int k = 0; k < directions[j].size; ++k)
-      z[directions[j].first + k] -= directions[j].weights[k] * change[j];
-  return true;
-}
-
-/** a'Sb. */
-double Newton::product(const FeasibleSet::Direction &a, const FeasibleSet::Direction &b) const
-{
-  double sum = 0;
-  for (unsigned int i = 0; i < a.size; ++i)
-    for (unsigned int j = 0; j < b.size; ++j)
-      sum += a.weights[i] * qp.S(a.first + i, b.first + j) * b.weights[j];
-  return sum;
 }
 
 void Newton::compute_gradient(const Vector<double> &x)

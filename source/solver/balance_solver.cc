@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <boost/math/tools/toms748_solve.hpp>
+#include <deal.II/lac/lapack_templates.h>
 #include <hpvi/solver/balance_solver.h>
+#include <hpvi/solver/newton_system.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace hpvi
 {
@@ -12,6 +16,10 @@ using namespace dealii;
 
 namespace
 {
+constexpr unsigned int maximum_predictions = 50;  ///< as in ActiveSet
+constexpr unsigned int maximum_minimisations = 200;
+constexpr double flat = 1e-12; ///< relative curvature of phi that is round-off
+
 void add(QpReport &sum, const QpReport &part)
 {
   sum.converged = part.converged;
@@ -23,52 +31,275 @@ void add(QpReport &sum, const QpReport &part)
   sum.fell_back = sum.fell_back || part.fell_back;
   sum.projected_gradient = part.projected_gradient;
 }
+
+/** L of `Gamma = L L'`. */
+FullMatrix<double> root(const FullMatrix<double> &penalty)
+{
+  FullMatrix<double> result(penalty.m());
+  result.cholesky(penalty);
+  return result;
+}
+
+/** One run of the method. */
+class Balance
+{
+public:
+  Balance(const BalanceSolver::Inner &inner, const FullMatrix<double> &penalty, double tolerance,
+          const QuadraticProgram &qp, const EqualityConstraints &constraints, Vector<double> &z,
+          Vector<double> &alpha);
+
+  QpReport run();
+
+private:
+  struct Step
+  {
+    Vector<double> z, alpha;
+  };
+
+  bool predict();
+  void ascend();
+  void minimise();
+  bool step_to(const FeasibleSet::Linearisation &prediction, Step &step);
+  Vector<double> length(const FullMatrix<double> &M, const Vector<double> &gap) const;
+  Vector<double> gradient(const Vector<double> &x);
+  FeasibleSet::Linearisation linearise();
+  bool is_met() const;
+  double size() const;
+
+  const BalanceSolver::Inner &inner;
+  const FullMatrix<double> root_of_penalty;
+  const double tolerance;
+  QuadraticProgram qp;    ///< its d moves with alpha
+  const Vector<double> d; ///< for alpha = 0
+  const EqualityConstraints &constraints;
+  Vector<double> &z, &alpha;
+  Vector<double> scale; ///< of steps along the gradient, 1 / S_ii
+  Vector<double> gap;   ///< e - G'z
+  double smallest = std::numeric_limits<double>::infinity(); ///< gap of all minimisers
+  unsigned int minimisations = 0;
+  QpReport report;
+};
+
+Balance::Balance(const BalanceSolver::Inner &inner, const FullMatrix<double> &penalty,
+                 const double tolerance, const QuadraticProgram &qp,
+                 const EqualityConstraints &constraints, Vector<double> &z, Vector<double> &alpha)
+    : inner(inner), root_of_penalty(root(penalty)), tolerance(tolerance), qp(qp), d(qp.d),
+      constraints(constraints), z(z), alpha(alpha), scale(diagonal_scale(qp.S))
+{
+  qp.feasible_set.make_isotropic(scale);
+  scale.scale(scale);
+}
+
+QpReport Balance::run()
+{
+  const Step start{z, alpha};
+  qp.feasible_set.project(z);
+  if (!predict())
+  {
+    z = start.z;
+    alpha = start.alpha;
+  }
+  minimise();
+  while (report.converged && !is_met() && minimisations < maximum_minimisations)
+    ascend();
+  report.converged = report.converged && is_met();
+  return report;
+}
+
+/**
+ * Newton's method for z and alpha at once. Nothing falls from step to step; false unless a prediction
+ * stays.
+ */
+bool Balance::predict()
+{
+  std::set<std::vector<signed char>> known;
+  std::vector<signed char> last;
+  for (unsigned int steps_left = maximum_predictions; steps_left > 0; --steps_left)
+  {
+    const FeasibleSet::Linearisation next = linearise();
+    if (!known.insert(next.walls).second)
+      return next.walls == last;
+    last = next.walls;
+    Step step;
+    if (!step_to(next, step))
+      return false;
+    z += step.z;
+    alpha += step.alpha;
+  }
+  return false;
+}
+
+/**
+ * From the minimiser of one alpha to that of another, where phi is larger or the gap half of what it
+ * ever was. As phi is concave its slope along the step falls; phi has grown wherever that is positive.
+ */
+void Balance::ascend()
+{
+  Step step;
+  if (!step_to(linearise(), step))
+  {
+    report.converged = false;
+    return;
+  }
+  const double slope_at_start = gap * step.alpha;
+  double low = 0, slope_at_low = slope_at_start, high = std::numeric_limits<double>::infinity();
+  for (double last = 0, here = 1; minimisations < maximum_minimisations;)
+  {
+    z.add(here - last, step.z);
+    alpha.add(here - last, step.alpha);
+    minimise();
+    if (!report.converged || is_met())
+      return;
+    if (size() <= 0.5 * smallest)
+      break;
+    const double slope = gap * step.alpha;
+    const bool is_steep = slope > 0.9 * slope_at_start; // and phi as good as straight
+    if (!(slope < 0 || is_steep) || high - low <= 1e-15 * high)
+      break;
+    last = here;
+    if (slope < 0)
+    {
+      high = here;
+      const double zero = low + (high - low) * slope_at_low / (slope_at_low - slope);
+      here = std::clamp(zero, low + 0.1 * (high - low), high - 0.1 * (high - low));
+    }
+    else
+    {
+      low = here;
+      slope_at_low = slope;
+      here = std::isinf(high) ? 2 * here : 0.5 * (low + high);
+    }
+  }
+  smallest = std::min(smallest, size());
+}
+
+/** z := the minimiser for alpha */
+void Balance::minimise()
+{
+  qp.d = d;
+  qp.d += constraints.along(alpha);
+  add(report, inner(qp, z));
+  gap = constraints.gap(z);
+  ++minimisations;
+}
+
+/**
+ * What leads from z and alpha to r = 0 along the free directions of @p prediction and to `G'z = e`,
+ *
+ *     S_FF dz_F = G_F dalpha - r_F,   G_F'dz_F = e - G'z,
+ *
+ * for singular M as nearly as length() may. False if S_FF is not positive definite.
+ */
+bool Balance::step_to(const FeasibleSet::Linearisation &prediction, Step &step)
+{
+  const NewtonSystem system(qp.S, prediction.directions);
+  report.dense_solves += !prediction.directions.empty();
+  if (!system.is_positive_definite())
+    return false;
+  const unsigned int m = alpha.size();
+  std::vector<Vector<double>> answers; // of z_F to alpha
+  FullMatrix<double> M(m, m);
+  for (unsigned int j = 0; j < m; ++j)
+  {
+    Vector<double> unit(m), forces(m);
+    unit[j] = 1.;
+    answers.push_back(system.solve(constraints.along(unit)));
+    constraints.G.Tvmult(forces, answers.back());
+    for (unsigned int k = 0; k < m; ++k)
+      M(k, j) = forces[k];
+  }
+  step.z = prediction.base;
+  step.z -= system.solve(gradient(prediction.base));
+  step.alpha = length(M, constraints.gap(step.z));
+  for (unsigned int j = 0; j < m; ++j)
+    step.z.add(step.alpha[j], answers[j]);
+  step.z -= z;
+  return true;
+}
+
+/**
+ * `M^-1 gap`. M is never larger than `Gamma^-1 = L^-T L^-1`: the eigenvalues of `L'ML` lie between 0 and 1,
+ * and where one is 0 to round-off, 1 takes its place.
+ */
+Vector<double> Balance::length(const FullMatrix<double> &M, const Vector<double> &gap) const
+{
+  const types::blas_int m = gap.size(), work_size = 102;
+  const FullMatrix<double> &L = root_of_penalty;
+  FullMatrix<double> vectors(m, m);
+  vectors.triple_product(M, L, L, true);
+  std::vector<double> eigenvalues(m), work(work_size);
+  types::blas_int info = 0;
+  syev("V", "L", &m, &vectors(0, 0), &m, eigenvalues.data(), work.data(), &work_size, &info);
+  // LAPACK's columns are rows here.
+  Vector<double> scaled(m), parts(m), result(m);
+  L.Tvmult(scaled, gap);
+  vectors.vmult(parts, scaled);
+  for (unsigned int k = 0; k < gap.size(); ++k)
+    if (eigenvalues[k] > flat)
+      parts[k] /= eigenvalues[k];
+  vectors.Tvmult(scaled, parts);
+  L.vmult(result, scaled);
+  return result;
+}
+
+/** `S x - d - G alpha` */
+Vector<double> Balance::gradient(const Vector<double> &x)
+{
+  Vector<double> r(x.size());
+  qp.S.vmult(r, x);
+  ++report.multiplications;
+  r -= d;
+  r -= constraints.along(alpha);
+  return r;
+}
+
+FeasibleSet::Linearisation Balance::linearise()
+{
+  return qp.feasible_set.linearise(z, gradient(z), scale);
+}
+
+bool Balance::is_met() const
+{
+  const FullMatrix<double> &G = constraints.G;
+  double forces = 0;
+  Vector<double> length(alpha.size());
+  for (unsigned int j = 0; j < alpha.size(); ++j)
+  {
+    double sum = std::abs(constraints.e[j]);
+    for (unsigned int i = 0; i < z.size(); ++i)
+    {
+      length[j] = std::hypot(length[j], G(i, j));
+      sum += std::abs(G(i, j) * z[i]);
+    }
+    if (sum > 0.)
+      forces = std::max(forces, sum / length[j]);
+  }
+  for (unsigned int j = 0; j < alpha.size(); ++j)
+    if (!(std::abs(gap[j]) <= tolerance * length[j] * forces))
+      return false;
+  return true;
+}
+
+/** The gap in units of energy. */
+double Balance::size() const
+{
+  Vector<double> scaled(gap.size());
+  root_of_penalty.Tvmult(scaled, gap);
+  return scaled.l2_norm();
+}
 } // namespace
 
-BalanceSolver::BalanceSolver(Inner inner, const double penalty, const double tolerance)
-    : inner(std::move(inner)), penalty(penalty), tolerance(tolerance)
+BalanceSolver::BalanceSolver(Inner inner, FullMatrix<double> penalty, const double tolerance)
+    : inner(std::move(inner)), penalty(std::move(penalty)), tolerance(tolerance)
 {
 }
 
-QpReport BalanceSolver::solve(QuadraticProgram qp, const EqualityConstraint &constraint,
-                              Vector<double> &z, double &alpha) const
+QpReport BalanceSolver::solve(const QuadraticProgram &qp, const EqualityConstraints &constraints,
+                              Vector<double> &z, Vector<double> &alpha) const
 {
-  const Vector<double> d(qp.d);
-  QpReport report;
-  bool met = false;
-  // e - G'z falls with alpha; zero where it is small enough, or where to go on makes no sense.
-  const auto gap = [&](const double trial)
-  {
-    alpha = trial;
-    qp.d = d;
-    qp.d.add(alpha, constraint.G);
-    add(report, inner(qp, z));
-    const double value = constraint.e - constraint.G * z;
-    met = report.converged && std::abs(value) <= tolerance * constraint.G.l1_norm();
-    return met || !report.converged ? 0. : value;
-  };
-
-  double here = alpha, value = gap(here), last = here, last_value = value;
-  std::uintmax_t evaluations = 100;
-  for (double step = penalty * value; value != 0. && last_value * value >= 0. && evaluations > 0;
-       step *= 2, --evaluations)
-  {
-    last = here;
-    last_value = value;
-    here += step;
-    value = gap(here);
-  }
-  if (value != 0. && last_value * value < 0.)
-  {
-    if (here < last)
-    {
-      std::swap(here, last);
-      std::swap(value, last_value);
-    }
-    boost::math::tools::toms748_solve(gap, last, here, last_value, value,
-                                      boost::math::tools::eps_tolerance<double>(), evaluations);
-  }
-  report.converged = met;
-  return report;
+  qp.assert_size(z);
+  AssertDimension(constraints.G.m(), z.size());
+  AssertDimension(constraints.G.n(), alpha.size());
+  return Balance(inner, penalty, tolerance, qp, constraints, z, alpha).run();
 }
 } // namespace hpvi

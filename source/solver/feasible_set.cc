@@ -75,6 +75,28 @@ void FeasibleSet::project(Vector<double> &z) const
   }
 }
 
+bool FeasibleSet::farthest(const Vector<double> &direction, Vector<double> &z) const
+{
+  AssertDimension(direction.size(), size());
+  z.reinit(size());
+  for (unsigned int i = 0; i < size(); ++i)
+    if (direction[i] != 0.)
+      z[i] = std::copysign(infinity, direction[i]);
+  for (const Disc &disc : discs)
+  {
+    const unsigned int x = disc.first, y = x + 1;
+    const double norm = std::hypot(direction[x], direction[y]);
+    for (const unsigned int i : {x, y})
+      z[i] = norm > 0. ? disc.radius * direction[i] / norm : 0.;
+  }
+  project(z);
+  if (std::all_of(z.begin(), z.end(), [](const double z_i) { return std::isfinite(z_i); }))
+    return true;
+  for (double &z_i : z)
+    z_i = std::isfinite(z_i) ? 0. : std::copysign(1., z_i);
+  return false;
+}
+
 double FeasibleSet::distance_to_wall(const Vector<double> &z, const Vector<double> &p) const
 {
   AssertDimension(z.size(), size());

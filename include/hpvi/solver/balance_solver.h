@@ -2,48 +2,49 @@
 #ifndef hpvi_balance_solver_h
 #define hpvi_balance_solver_h
 
+#include <hpvi/solver/equality_constraints.h>
 #include <hpvi/solver/mprgp.h>
 
 #include <functional>
 
 namespace hpvi
 {
-/** `G'z = e`, one equation. */
-struct EqualityConstraint
-{
-  dealii::Vector<double> G;
-  double e;
-};
-
 /**
- * `min 1/2 z'Sz - d'z` over a box and `G'z = e`, where S and d contain a penalty already:
- * `S = S_0 + c G G'`, `d = d_0 + c e G`. The method of multipliers repeats the problem in the box
- * with `d + alpha G` and moves alpha by `c (e - G'z)` (Dostal, Optimal Quadratic Programming
- * Algorithms, 2009, chapter 6). That is slow where the falling function `e - G'z` of alpha is flat:
- * steps are doubled until its zero is bracketed, then found by Boost's TOMS 748.
+ * `min 1/2 z'Sz - d'z` over a feasible set and `G'z = e`, where S and d contain a penalty already:
+ * `S = S_0 + G Gamma G'`, `d = d_0 + G Gamma e`. For a body that only contact holds, G'z = e is the
+ * balance of forces and moments along its free motions and alpha how far it moves along them.
  *
- * For a body that only friction holds, G'z = e is the balance of forces along its free translation
- * and alpha the length by which it moves.
+ * The dual function `phi(alpha) = min_z 1/2 z'Sz - (d + G alpha)'z + alpha.e` over the feasible set is
+ * concave with gradient `e - G'z(alpha)`, and `-M`, `M = G_F' S_FF^-1 G_F` over the components F that are
+ * free, is its generalised Hessian. Newton's method first predicts what is free for z and alpha at once,
+ * as ActiveSet does for z. Then z is minimised at each alpha, and alpha moved by `M^-1 (e - G'z)`, up to
+ * where phi stops growing. Where nothing free answers M is singular: there alpha moves by
+ * `Gamma (e - G'z)`, the step of the method of multipliers (Dostal, Optimal Quadratic Programming
+ * Algorithms, 2009, chapter 6), which is never too long, and that is doubled.
  */
 class BalanceSolver
 {
 public:
-  /** Solves a problem in the box, from a starting value that receives the minimiser. */
+  /** Solves a problem in the feasible set, from a starting value that receives the minimiser. */
   using Inner = std::function<QpReport(const QuadraticProgram &, dealii::Vector<double> &)>;
 
-  /** @p penalty is c; the equation holds to @p tolerance |G|_1 at the end. */
-  BalanceSolver(Inner inner, double penalty, double tolerance);
+  /**
+   * @p penalty is Gamma, symmetric positive definite. At the end `|e - G'z|_j <= tolerance |G_j| f`
+   * for each column j of G, where f is the largest `(sum_i |G_ij z_i| + |e_j|) / |G_j|` of all.
+   */
+  BalanceSolver(Inner inner, dealii::FullMatrix<double> penalty, double tolerance);
 
   /**
    * z holds the starting value and receives the minimiser; @p alpha likewise. The report adds up
-   * the inner problems.
+   * the inner problems and Newton's steps.
    */
-  QpReport solve(QuadraticProgram qp, const EqualityConstraint &constraint,
-                 dealii::Vector<double> &z, double &alpha) const;
+  QpReport solve(const QuadraticProgram &qp, const EqualityConstraints &constraints,
+                 dealii::Vector<double> &z, dealii::Vector<double> &alpha) const;
 
 private:
   Inner inner;
-  double penalty, tolerance;
+  dealii::FullMatrix<double> penalty;
+  double tolerance;
 };
 } // namespace hpvi
 

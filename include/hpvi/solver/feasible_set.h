@@ -38,6 +38,13 @@ public:
   void project(dealii::Vector<double> &z) const;
 
   /**
+   * z := a point of the set with the largest product with @p direction. Where that has no end z is a
+   * direction that leads there, one component of size 1 in each unbounded interval, and the result is
+   * false.
+   */
+  bool farthest(const dealii::Vector<double> &direction, dealii::Vector<double> &z) const;
+
+  /**
    * Largest alpha >= 0 with `z - alpha p` in the set (infinity if no wall is met). z must be
    * feasible. Zero on the rim of a disc unless p leads into it.
    */
