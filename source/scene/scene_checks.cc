@@ -225,6 +225,7 @@ std::vector<EntryFunctions> functions_of(const Scene<2> &scene)
     const std::string section = "Boundary " + boundary.name;
     result.push_back({section, "Displacement", boundary.displacement, edges[b].sample()});
     result.push_back({section, "Traction", boundary.traction, edges[b].sample()});
+    result.push_back({section, "Gap", {{boundary.gap}}, edges[b].sample()});
   }
   return result;
 }
@@ -255,17 +256,30 @@ void check_finite(const Scene<2> &scene, const EntryFunctions &functions)
                    "; give a function that is finite everywhere it applies");
 }
 
+std::string name_of(const Contact contact)
+{
+  return contact_names[static_cast<unsigned int>(contact)];
+}
+
 void check_friction(const Scene<2> &scene, const std::string &section,
                     const BoundaryCondition<2> &boundary, const std::vector<Point<2>> &points)
 {
-  if (boundary.friction.bound == nullptr)
-    return;
-  if (!boundary.has_contact())
+  if (boundary.friction.bound != nullptr && !boundary.has_contact())
     reject(scene, section, "Friction bound", friction_needs_contact);
+  double largest_bound = 0;
   for (const Point<2> &point : points)
-    if (const double g = boundary.friction.bound->value(point); !(g >= 0 && std::isfinite(g)))
+  {
+    const double g = boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
+    if (!(g >= 0 && std::isfinite(g)))
       reject(scene, section, "Friction bound",
              "is " + to_string(g) + " at " + to_string(point) + "; Tresca's bound needs g >= 0");
+    largest_bound = std::max(largest_bound, g);
+  }
+  if (boundary.contact == Contact::tangential && largest_bound == 0)
+    reject(scene, section, "Contact",
+           "has friction nowhere to act, for Friction bound is 0 all along the boundary; give "
+           "Friction bound > 0 or set Contact = none",
+           name_of(boundary.contact));
 }
 
 /** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
@@ -279,9 +293,11 @@ void check_boundary(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
                  " that Displacement prescribes; make that component 0 here or free "
                  "there");
   check_friction(scene, section, boundary, edge.sample());
+  if (boundary.gap != nullptr && !boundary.is_unilateral())
+    reject(scene, section, "Gap", gap_needs_contact);
   if (boundary.has_contact() && boundary.has_displacement())
     reject(scene, section, "Displacement",
-           "stands beside Contact = bilateral; keep only one of the two");
+           "stands beside Contact = " + name_of(boundary.contact) + "; keep only one of the two");
 }
 
 void check_boundaries(const Scene<2> &scene)
@@ -350,37 +366,68 @@ std::string support_entry(const BoundaryCondition<2> &boundary)
              "; make both agree there or free one component");
 }
 
-/** The largest displacement that any boundary prescribes. */
+/** Where @p boundary prescribes u_n > u_0 at its corner with @p contact. */
+[[noreturn]] void reject_penetration(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
+                                     const BoundaryCondition<2> &contact, const Point<2> &corner,
+                                     const double depth)
+{
+  const std::string limit =
+      contact.gap ? mention(scene, "Boundary " + contact.name, "Gap")
+                  : mention(scene, "Boundary " + contact.name, "Contact", name_of(contact.contact));
+  reject(scene, "Boundary " + boundary.name, support_entry(boundary),
+         "contradicts " + limit + " at their corner " + to_string(corner) +
+             ", for u_n exceeds the gap by " + to_string(depth) +
+             "; let u_n <= u_0 there or free one component");
+}
+
+/** The largest displacement or gap that any boundary prescribes. */
 double largest_displacement(const Scene<2> &scene, const std::vector<Edge> &edges)
 {
   double largest = 0;
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &point : edges[f].sample())
+    {
+      largest = std::max(largest, std::abs(scene.boundaries[f].gap_at(point)));
       for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], point))
         largest = std::max(largest, std::abs(condition.value));
+    }
   return largest;
 }
 
-/** Can all @p conditions at one corner hold together? */
-void check_corner(const Scene<2> &scene, const Point<2> &corner,
-                  const std::vector<PointCondition> &conditions, const double scale)
+/** What @p condition asks for beyond the orthonormal @p basis: no direction if that decides it. */
+PointCondition rest_of(PointCondition condition, const std::vector<PointCondition> &basis)
 {
-  std::vector<PointCondition> basis; // orthonormal directions, by Gram and Schmidt
-  for (PointCondition rest : conditions)
+  for (const PointCondition &q : basis)
   {
-    for (const PointCondition &q : basis)
-    {
-      const double product = rest.direction * q.direction;
-      rest.direction -= product * q.direction;
-      rest.value -= product * q.value;
-    }
+    const double product = condition.direction * q.direction;
+    condition.direction -= product * q.direction;
+    condition.value -= product * q.value;
+  }
+  return condition;
+}
+
+/** Can all @p conditions at one corner hold together, and @p limits `u_n <= u_0` with them? */
+void check_corner(const Scene<2> &scene, const Point<2> &corner,
+                  const std::vector<PointCondition> &conditions,
+                  const std::vector<PointCondition> &limits, const double scale)
+{
+  constexpr double parallel = 1e-6;
+  std::vector<PointCondition> basis; // by Gram and Schmidt
+  for (const PointCondition &condition : conditions)
+  {
+    const PointCondition rest = rest_of(condition, basis);
     const double norm = rest.direction.norm();
-    if (norm > 1e-6)
+    if (norm > parallel)
       basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
     else if (std::abs(rest.value) > 1e-10 * scale)
       reject_corner(scene, scene.boundaries[basis.front().boundary],
                     scene.boundaries[rest.boundary], corner, rest.value);
   }
+  for (const PointCondition &limit : limits)
+    if (const PointCondition rest = rest_of(limit, basis);
+        rest.direction.norm() <= parallel && rest.value < -1e-10 * scale)
+      reject_penetration(scene, scene.boundaries[basis.front().boundary],
+                         scene.boundaries[limit.boundary], corner, -rest.value);
 }
 
 /** The motion `(a - c (y - y_0)/length, b + c (x - x_0)/length)`: its coefficients a, b, c. */
@@ -474,7 +521,10 @@ public:
       if (!boundary.has_contact())
         check_traction(point);
       else
-        check_contact(point);
+      {
+        check_normal_contact(point);
+        check_friction_law(point);
+      }
     }
   }
 
@@ -496,12 +546,35 @@ private:
         contradict("Traction", point, "write exact");
   }
 
-  /** `u_n = 0`, `sigma_t = G_t - g lambda`, `|lambda| <= 1`, `lambda u_t = |u_t|`. */
-  void check_contact(const Point<2> &point) const
+  /**
+   * bilateral: `u_n = 0`; unilateral: `u_n <= u_0`, `p >= 0`, `(u_n - u_0) p = 0`; unilateral and, with
+   * p = 0, tangential: `sigma_n = G_n - p`.
+   */
+  void check_normal_contact(const Point<2> &point) const
+  {
+    const double u_n = exact.displacement(point) * edge.normal;
+    if (boundary.contact == Contact::bilateral)
+    {
+      if (differ(u_n, 0, displacement_scale))
+        contradict("Contact", point, "set Contact = none");
+      return;
+    }
+    const double p = boundary.is_unilateral() ? exact.pressure(point) : 0.;
+    double imbalance = p;
+    for (unsigned int d = 0; d < 2; ++d)
+      imbalance += edge.normal[d] * (stress[d]->value(point) - traction(d, point));
+    if (p < -tolerance * stress_scale || differ(imbalance, 0, stress_scale))
+      contradict_load(point, "Contact", "set Contact = none");
+    const double gap = boundary.gap_at(point) - u_n;
+    const bool closed = p > tolerance * stress_scale;
+    if (boundary.is_unilateral() && differ(closed ? gap : std::min(gap, 0.), 0, displacement_scale))
+      contradict("Gap", point, "give that of the solution");
+  }
+
+  /** `sigma_t = G_t - g lambda`, `|lambda| <= 1`, `lambda u_t = |u_t|`. */
+  void check_friction_law(const Point<2> &point) const
   {
     const Tensor<1, 2> u = exact.displacement(point), n = edge.normal, t({-n[1], n[0]});
-    if (differ(u * n, 0, displacement_scale))
-      contradict("Contact", point, "set Contact = none");
     const double lambda = exact.multiplier(point);
     if (std::abs(lambda) > 1 + tolerance)
       reject(scene, "Exact solution", "Length",
@@ -512,7 +585,7 @@ private:
     for (unsigned int d = 0; d < 2; ++d)
       imbalance += t[d] * (stress[d]->value(point) - traction(d, point));
     if (differ(imbalance, 0, stress_scale))
-      contradict("Traction", point, "leave the contact without traction");
+      contradict_load(point, "Friction bound", "give that of the solution");
     if (g(point) > 0 && differ(lambda * (u * t), std::abs(u * t), displacement_scale))
       reject(scene, "Exact solution", "Length",
              "lets the body slip against its friction at " + to_string(point) +
@@ -532,6 +605,15 @@ private:
   static bool differ(const double a, const double b, const double scale)
   {
     return !(std::abs(a - b) <= tolerance * scale);
+  }
+
+  /** A load on the contact is at fault, or else @p entry. */
+  [[noreturn]] void contradict_load(const Point<2> &point, const std::string &entry,
+                                    const std::string &remedy) const
+  {
+    if (boundary.has_traction())
+      contradict("Traction", point, "leave the contact without traction");
+    contradict(entry, point, remedy);
   }
 
   [[noreturn]] void contradict(const std::string &entry, const Point<2> &point,
@@ -559,12 +641,17 @@ void check_corners(const Scene<2> &scene)
   for (unsigned int c = 0; c < scene.geometry.corners.size(); ++c)
   {
     const Point<2> &corner = scene.geometry.corners[c];
-    std::vector<PointCondition> conditions;
+    std::vector<PointCondition> conditions, limits;
     for (unsigned int f = 0; f < edges.size(); ++f)
       if (edges[f].corners[0] == c || edges[f].corners[1] == c)
-        for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], corner))
+      {
+        const BoundaryCondition<2> &boundary = scene.boundaries[f];
+        for (const PointCondition &condition : conditions_at(boundary, edges[f], corner))
           conditions.push_back(condition);
-    check_corner(scene, corner, conditions, scale);
+        if (boundary.is_unilateral())
+          limits.push_back({edges[f].normal, boundary.gap_at(corner), boundary.id});
+      }
+    check_corner(scene, corner, conditions, limits, scale);
   }
 }
 
@@ -620,9 +707,18 @@ void check_adaptivity(const Scene<2> &scene)
            text(adaptivity.hpa1_raised));
 }
 
+/** Only contact without friction that closes at nodes needs no multiplier. */
+bool needs_multiplier(const Scene<2> &scene, const BoundaryCondition<2> &boundary)
+{
+  return boundary.has_contact() &&
+         (!boundary.is_unilateral() || boundary.friction.bound != nullptr ||
+          scene.solver.normal_contact == NormalContact::multiplier);
+}
+
 void check_multiplier_degree(const Scene<2> &scene, const SceneUse use)
 {
-  if (!scene.has_contact())
+  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
+                   [&](const BoundaryCondition<2> &b) { return needs_multiplier(scene, b); }))
     return;
   const int offset = scene.solver.multiplier_offset;
   // p + 1 multipliers on each edge meet p tangential displacements per edge, and one more at most.
@@ -672,7 +768,7 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
   for (const Point<2> &corner : scene.geometry.corners)
     length = std::max(length, corner.distance(centre));
 
-  std::vector<RigidMotion> held, resisted; // by supports; by supports or friction
+  std::vector<RigidMotion> held, resisted; // by supports; by supports or contact
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &end : edges[f].ends) // rigid-body motions are linear along an edge
     {
@@ -681,10 +777,11 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
       const Tensor<1, 2> &n = edges[f].normal;
       if (scene.boundaries[f].friction.bound) // where it vanishes, the mesh decides
         resisted.push_back(row_of(Tensor<1, 2>({-n[1], n[0]}), end, centre, length));
+      if (scene.boundaries[f].is_unilateral()) // one way; the loads decide
+        resisted.push_back(row_of(n, end, centre, length));
     }
   resisted.insert(resisted.end(), held.begin(), held.end());
-  if (const auto motions = free_motions(resisted);
-      !motions.empty() && !scene.has_unilateral_contact())
+  if (const auto motions = free_motions(resisted); !motions.empty())
     throw InputError(printable(scene.origin(), 400) +
                      ": Boundary left, right, bottom, top/Displacement: the supports leave a "
                      "rigid-body motion free, " +

@@ -76,18 +76,31 @@ void add_problem_entries(std::vector<Entry> &entries)
 void add_exact_entries(std::vector<Entry> &entries)
 {
   const std::string section = "Exact solution";
+  const auto number = matching(Patterns::Double());
+  const auto positive = matching(Patterns::Double(std::numeric_limits<double>::min()));
   entries.insert(
       entries.end(),
-      {{section, "Solution", "none", matching(Patterns::Selection("none|stick-slip|smooth")),
-        "none, stick-slip or smooth",
-        "A closed form to measure errors against, for a body above the contact edge y = 0 with a "
-        "constant friction bound; boundaries take it by the word `exact`. stick-slip: sticks where "
+      {{section, "Solution", "none",
+        matching(Patterns::Selection("none|stick-slip|smooth|hertz|partial-slip")),
+        "none, stick-slip, smooth, hertz or partial-slip",
+        "A closed form to measure errors against, for a body above the contact edge y = 0; "
+        "boundaries take it by the word `exact`. stick-slip: sticks where "
         "x > Transition, lambda = 1 - sqrt((x - Transition)/Length), and slips elsewhere. smooth: "
-        "slips everywhere, u_x = (L/8) exp(s) (1 + kappa - s) on y = 0, s = (x - Transition)/L."},
-       {section, "Transition", "0", matching(Patterns::Double()), "a number",
-        "Where stick meets slip on y = 0 (smooth: the origin of s) [length]."},
-       {section, "Length", "1", matching(Patterns::Double(std::numeric_limits<double>::min())),
-        "a positive number", "The length L over which the exact solution varies [length]."}});
+        "slips everywhere, u_x = (L/8) exp(s) (1 + kappa - s) on y = 0, s = (x - Transition)/L; "
+        "both with a constant friction bound. hertz: Contact = unilateral without friction where "
+        "|d| < L, d = x - Transition, with p = p_0 sqrt(1 - d^2/L^2), under Gap = d^2 p_0 "
+        "(1+kappa)/(8 mu L). partial-slip: Contact = tangential with Friction bound = p_0 "
+        "sqrt(max(0, 1 - d^2/L^2)) sticks where |d| < Stick length and slips around."},
+       {section, "Transition", "0", number, "a number",
+        "Where stick meets slip on y = 0 (smooth: the origin of s; hertz, partial-slip: the centre "
+        "of the contact) [length]."},
+       {section, "Length", "1", positive, "a positive number",
+        "The length L over which the exact solution varies (hertz, partial-slip: half the width of "
+        "the contact) [length]."},
+       {section, "Pressure", "1", positive, "a positive number",
+        "hertz: the largest pressure p_0; partial-slip: the largest friction bound [stress]."},
+       {section, "Stick length", "0.5", positive, "a positive number",
+        "partial-slip: half the length of the stick zone, below Length [length]."}});
 }
 
 void add_boundary_entries(std::vector<Entry> &entries, const std::string &boundary)
@@ -101,10 +114,19 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
        {section, "Traction", "", text, "Gx; Gy or nothing",
         "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
-       {section, "Contact", "none", one_of(contact_names), "none or bilateral",
-        "bilateral: the boundary slides along itself, u_n = 0."},
+       {section, "Contact", "none", one_of(contact_names),
+        "none, bilateral, unilateral or tangential",
+        "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
+        "obstacle, u_n <= u_0, and pull nowhere, T_n <= 0. tangential: nothing in the normal "
+        "direction, friction alone acts. Friction bound may stand beside all three."},
+       {section, "Gap", "", text, "one expression u_0 or nothing",
+        "Distance u_0(x,y) of the obstacle along the outer normal before any displacement "
+        "[length], "
+        "negative: interference; of Contact = unilateral; empty or 0: the body touches it."},
        {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
-        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g; empty or 0: no friction."}});
+        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
+        "empty "
+        "or 0: no friction."}});
 }
 
 void add_method_entries(std::vector<Entry> &entries)
@@ -173,6 +195,10 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),
         "a positive integer", "Products with S before the solver gives up (exit status 2)."},
        {"Solver", "Diagonal scaling", "true", boolean, yes_no, "Scale S by its diagonal."},
+       {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
+        "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
+        "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "
+        "points, the thesis's set."},
        {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
         "an integer from -20 to -1, best -2",
         "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "

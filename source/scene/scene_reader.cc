@@ -102,6 +102,33 @@ double constant_friction_bound(const Parameters &parameters, const ExpressionRea
   return constant ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/** Hertz's contact and partial slip, null for other names; both ask for a kind of contact. */
+std::shared_ptr<const ExactSolution<2>> read_elliptic_solution(const Parameters &parameters,
+                                                               const Material &material,
+                                                               const std::string &solution,
+                                                               const std::string &boundary)
+{
+  const std::string section = "Exact solution",
+                    contact = solution == "hertz" ? "unilateral" : "tangential";
+  if (solution != "hertz" && solution != "partial-slip")
+    return nullptr;
+  if (parameters.text("Boundary " + boundary, "Contact") != contact)
+    parameters.reject("Boundary " + boundary, "Contact",
+                      "is not that of Exact solution/Solution = " + solution +
+                          "; set Contact = " + contact);
+  const double centre = parameters.number(section, "Transition"),
+               half_width = parameters.number(section, "Length"),
+               largest = parameters.number(section, "Pressure"),
+               stick_length = parameters.number(section, "Stick length");
+  if (solution == "hertz")
+    return std::make_shared<Hertz>(material, largest, half_width, centre);
+  if (!(stick_length < half_width))
+    parameters.reject(section, "Stick length",
+                      "leaves no slip within Length = " + parameters.text(section, "Length") +
+                          "; give less");
+  return std::make_shared<PartialSlip>(material, largest, half_width, stick_length, centre);
+}
+
 /** Every one of them slides along the bottom of the body, on y = 0. */
 std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &parameters,
                                                             const ExpressionReader<2> &expressions,
@@ -115,6 +142,9 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
   if (edge.ends[0][1] != 0. || edge.ends[1][1] != 0. || edge.normal[1] > 0)
     parameters.reject(section, "Solution",
                       "slides along y = 0 below the body; put the bottom edge there");
+  if (const auto elliptic =
+          read_elliptic_solution(parameters, scene.materials[0], solution, boundary_names[bottom]))
+    return elliptic;
   const double friction_bound =
       constant_friction_bound(parameters, expressions, boundary_names[bottom], edge);
   if (!(solution == "stick-slip" ? friction_bound > 0 : friction_bound >= 0))
@@ -156,8 +186,12 @@ void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &ex
   boundary.traction =
       expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
+  boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
   boundary.friction.bound = expressions.read_bound(section, "Friction bound", points);
-  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty()) // even a zero
+  // Even a zero is one too many.
+  if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
+    parameters.reject(section, "Gap", gap_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty())
     parameters.reject(section, "Friction bound", friction_needs_contact);
 }
 
@@ -175,6 +209,8 @@ void read_method(Parameters &parameters, Scene<dim> &scene)
   parameters.set("Adaptivity", "Start degree", std::to_string(adaptivity.start_degree));
   scene.solver.qp_solver =
       read_choice<QpSolver>(parameters, "Solver", "QP solver", qp_solver_names);
+  scene.solver.normal_contact =
+      read_choice<NormalContact>(parameters, "Solver", "Normal contact", normal_contact_names);
 }
 } // namespace
 

@@ -21,8 +21,9 @@ TEXTS = ["", " ", "\t", "x", "y", "sin(", ")", "1/x", "1/(x-1)", "log(x)", "sqrt
          "x==1", "if(x<1,2,3)", "x<1?2:3", "(1,2)", "\"a\"", "e", "1e200*x", "free", "exact", "free; free", "exact; exact",
          ";", ";;", ",", "\\", "#", "'", "\u00a0", "\u0085", "\u2028", "\u202e", "é", "\x1b[31m", "\x00", "\x7f",
          "0,\t1", "0\t,1", "0,0;\t1,0; 1,1; 0,1", "0,0; 1,0; 1,1e-9; 0,1", "0,0; 1,0; 1,1; 0,1;", "0,,1", "(" * 300,
-         "1+" * 2000 + "1", "a" * 5000, "{", "true", "false", "none", "bilateral", "quadrilateral", "stick-slip",
-         "smooth", "active set", "hpa1", "pu", "/", "..", "/dev/null", "%s%n", "$(ls)"]
+         "1+" * 2000 + "1", "a" * 5000, "{", "true", "false", "none", "bilateral", "unilateral", "tangential", "quadrilateral",
+         "stick-slip", "smooth", "hertz", "partial-slip", "nodes", "multiplier", "active set", "hpa1", "pu", "/", "..",
+         "/dev/null", "%s%n", "$(ls)"]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 11, 12, 13, 27, 32, 34, 35, 40, 41, 44, 45, 46, 48, 57, 59, 61, 92, 101, 127,
                               128, 133, 192, 237, 244, 255)] + [c.encode() for c in "é\u0085\u2028\u202e😀"]
 

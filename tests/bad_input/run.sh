@@ -187,7 +187,8 @@ invalid "Boundary bottom/Friction bound = -1" "negative at (0, 0)" "g >= 0" -- "
 invalid "Boundary bottom/Friction bound = 1-x" "negative at (" "g >= 0" -- "Boundary bottom/Friction bound=1-x"
 invalid "Boundary bottom/Friction bound = nan" '"nan"' -- "Boundary bottom/Friction bound=nan"
 invalid "Boundary bottom/Friction bound = sqrt(x-1)" "not finite" -- "Boundary bottom/Friction bound=sqrt(x-1)"
-invalid "Boundary bottom/Contact = glue" "none or bilateral" -- "Boundary bottom/Contact=glue"
+invalid "Boundary bottom/Contact = glue" "none, bilateral, unilateral or tangential" -- \
+  "Boundary bottom/Contact=glue"
 invalid "Boundary top/Friction bound = 1" "needs contact" "Contact = bilateral" -- "Boundary top/Friction bound=1"
 invalid "Boundary bottom/Displacement = 0; 0" "Contact = bilateral" "only one" -- "Boundary bottom/Displacement=0; 0"
 invalid "Boundary right/Traction = 1; 0" "component x" "free" -- "Boundary right/Traction=1; 0"
@@ -204,6 +205,39 @@ invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionle
 invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound=" \
   "Geometry/Shape=quadrilateral" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
 
+# --- contact that opens, friction alone
+open=("Boundary bottom/Contact=unilateral")
+invalid "Boundary bottom/Gap = 0.1" "needs contact that can open" "Contact = unilateral" -- "Boundary bottom/Gap=0.1"
+invalid "Boundary bottom/Gap = 0" "needs contact that can open" "Contact = unilateral" -- "Boundary bottom/Gap=0"
+invalid "Boundary top/Gap = 0.1" "needs contact that can open" "remove it" -- "Boundary top/Gap=0.1"
+invalid "Boundary bottom/Gap = 0.1" "needs contact that can open" -- "Boundary bottom/Gap=0.1" "Boundary bottom/Contact=tangential"
+invalid "Boundary bottom/Gap = 1/x" "not finite at (0, 0)" "finite everywhere" -- "${open[@]}" "Boundary bottom/Gap=1/x"
+invalid "Boundary bottom/Gap = nan" '"nan"' -- "${open[@]}" "Boundary bottom/Gap=nan"
+invalid "Boundary bottom/Gap = 0.1; 0" "2 component(s) instead of 1" -- "${open[@]}" "Boundary bottom/Gap=0.1; 0"
+invalid "Boundary bottom/Gap = rand()" "is random" -- "${open[@]}" "Boundary bottom/Gap=rand()"
+for value in 1e101 -1e200 1e-200; do
+  invalid "Boundary bottom/Gap = $value" "of magnitude" "choose other units" -- "${open[@]}" "Boundary bottom/Gap=$value"
+done
+invalid "Boundary bottom/Displacement = free; 0" "Contact = unilateral" "only one" -- "${open[@]}" "Boundary bottom/Displacement=free; 0"
+invalid "Boundary bottom/Displacement = free; 0" "Contact = tangential" "only one" -- \
+  "Boundary bottom/Contact=tangential" "Boundary bottom/Displacement=free; 0"
+invalid "Boundary right/Displacement = 0; 0" "Boundary bottom/Gap = 0.5 - x/5" "corner (4, 0)" "exceeds the gap by 0.3" "u_n <= u_0" -- \
+  "${open[@]}" "Boundary bottom/Gap=0.5 - x/5"
+invalid "Boundary right/Displacement = 0; -0.1" "Boundary bottom/Contact = unilateral" "corner (4, 0)" "by 0.1" "u_n <= u_0" -- \
+  "${open[@]}" "Boundary right/Displacement=0; -0.1"
+for bound in "" 0 "0*x"; do
+  invalid "Boundary bottom/Contact = tangential" "friction nowhere to act" "Contact = none" -- \
+    "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=$bound"
+done
+invalid "Boundary top/Contact = tangential" "friction nowhere to act" "Friction bound > 0" -- "Boundary top/Contact=tangential"
+invalid "rigid-body motion" "translation in x" -- "${open[@]}" "Boundary right/Displacement=" "Boundary bottom/Friction bound="
+invalid "Solver/Normal contact = penalty" "multiplier or nodes" -- "Solver/Normal contact=penalty"
+invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Boundary bottom/Friction bound=" \
+  "Solver/Normal contact=multiplier" "Adaptivity/Start degree=1"
+invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Adaptivity/Start degree=1"
+invalid "Multiplier degree offset = 0" "makes S singular" -- "${open[@]}" "Boundary bottom/Friction bound=" \
+  "Solver/Normal contact=multiplier" "Solver/Multiplier degree offset=0"
+
 # --- the exact solution: named, on y = 0, with a constant bound, and not contradicted
 invalid "Boundary right/Displacement = exact" "the scene has none" "Exact solution/Solution" -- "Boundary right/Displacement=exact"
 invalid "Boundary left/Traction = 0; exact" "the scene has none" -- "Boundary left/Traction=0; exact"
@@ -211,7 +245,25 @@ invalid "Boundary bottom/Friction bound = exact" "not an expression" -- "Boundar
 invalid "Boundary right/Displacement = exact; 0; 0" "3 component(s) instead of 2" -- "Boundary right/Displacement=exact; 0; 0"
 exact=("Exact solution/Solution=stick-slip" "Exact solution/Transition=2" "Boundary left/Traction=exact"
   "Boundary top/Traction=exact" "Boundary right/Displacement=exact")
-invalid "Exact solution/Solution = hertz" "none, stick-slip or smooth" -- "Exact solution/Solution=hertz"
+invalid "Exact solution/Solution = boussinesq" "none, stick-slip, smooth, hertz or partial-slip" -- \
+  "Exact solution/Solution=boussinesq"
+invalid "Exact solution/Pressure = 0" "positive number" -- "Exact solution/Pressure=0"
+invalid "Exact solution/Stick length = -1" "positive number" -- "Exact solution/Stick length=-1"
+invalid "Boundary bottom/Contact = bilateral" "Solution = hertz" "Contact = unilateral" -- "Exact solution/Solution=hertz"
+invalid "Boundary bottom/Contact = unilateral" "Solution = partial-slip" "Contact = tangential" -- \
+  "${open[@]}" "Exact solution/Solution=partial-slip"
+invalid "Exact solution/Stick length = 1" "Length = 1" "give less" -- "Boundary bottom/Contact=tangential" \
+  "Exact solution/Solution=partial-slip" "Exact solution/Stick length=1"
+hertz=("Exact solution/Solution=hertz" "Exact solution/Transition=2" "${open[@]}" "Boundary bottom/Friction bound="
+  "Boundary left/Traction=" "Boundary left/Displacement=exact" "Boundary top/Displacement=exact" "Boundary right/Displacement=exact")
+for gap in "" 0 "0.04*(x-2)^2" "0.01 + (x-2)^2"; do
+  invalid "Boundary bottom/Gap = $gap" "contradicts Exact solution/Solution = hertz" "give that of the solution" -- \
+    "${hertz[@]}" "Boundary bottom/Gap=$gap"
+done
+partial_slip=("Exact solution/Solution=partial-slip" "Exact solution/Transition=2" "Boundary bottom/Contact=tangential"
+  "Boundary left/Traction=" "Boundary left/Displacement=exact" "Boundary top/Displacement=exact" "Boundary right/Displacement=exact")
+invalid "Boundary bottom/Friction bound = 4.5" "contradicts Exact solution/Solution = partial-slip" "give that of the solution" -- \
+  "${partial_slip[@]}"
 invalid "Exact solution/Transition = nan" "give a number" -- "Exact solution/Transition=nan"
 invalid "Exact solution/Length = 0" "positive number" -- "Exact solution/Length=0"
 invalid "Exact solution/Length = 0.4" "|lambda| = 1.0" "> 1 at (3.6" "enlarge" -- "${exact[@]}" "Exact solution/Length=0.4"
@@ -309,6 +361,21 @@ misbehaves 0 "is negative at (" "Boundary bottom/Friction bound=1+1.2*sin(16*pi*
 "$hpvi" --validate "$scenes/base.prm" --set $'Geometry/Subdivisions=2,\t2' --set $'Geometry/Upper corner=4\t, \t4' \
   --set "Material/Poisson's ratio=5e-324" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "tabs beside a comma or a tiny number are rejected"
+valid() { # WHAT ENTRY=VALUE...
+  local what="$1" arguments=() override
+  shift
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  "$hpvi" --validate "$scenes/base.prm" "${arguments[@]}" >"$scratch/stdout" 2>"$scratch/stderr" ||
+    complain "base.prm" "$what is rejected"
+}
+valid "contact that opens" "${open[@]}" "Boundary bottom/Gap=if(abs(x)<=1, 0, x/8)"
+valid "interference beside a free edge" "${open[@]}" "Boundary bottom/Gap=0.01*(x - 3)"
+valid "contact without multiplier of degree 1" "${open[@]}" "Boundary bottom/Friction bound=" "Adaptivity/Start degree=1"
+valid "friction alone" "Boundary bottom/Contact=tangential" "Boundary right/Displacement=0; -0.1"
+valid "Hertz's contact" "${hertz[@]}" "Boundary bottom/Gap=(x-2)^2/E"
+valid "partial slip" "${partial_slip[@]}" "Boundary bottom/Friction bound=sqrt(max(0, 1-(x-2)^2))"
 exact_scene=()
 for override in "${exact[@]}"; do
   exact_scene+=(--set "$override")

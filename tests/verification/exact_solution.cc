@@ -46,11 +46,13 @@ struct Problem
   std::shared_ptr<const ExactSolution<2>> solution;
 };
 
-std::vector<Problem> problems()
+const std::array<Material, 3> materials = {{{1., 0.3, PlaneModel::stress},
+                                            {1., 0.3, PlaneModel::strain},
+                                            {15., 0.4999, PlaneModel::strain}}};
+
+/** Constant bound, u_n = 0. */
+std::vector<Problem> sliding_problems()
 {
-  const std::array<Material, 3> materials = {{{1., 0.3, PlaneModel::stress},
-                                              {1., 0.3, PlaneModel::strain},
-                                              {15., 0.4999, PlaneModel::strain}}};
   std::vector<Problem> result;
   for (const Material &material : materials)
     for (const double origin : {0., 0.1})
@@ -63,6 +65,37 @@ std::vector<Problem> problems()
     }
   return result;
 }
+
+constexpr double half_width = 0.6, stick_length = 0.35; ///< of the elliptic problems
+
+/** @p g is the largest pressure, and the largest bound. */
+std::vector<Problem> elliptic_problems()
+{
+  std::vector<Problem> result;
+  for (const Material &material : materials)
+    for (const double origin : {0., 0.1})
+    {
+      const double g = 0.03 * material.young;
+      result.push_back(
+          {"hertz", material, g, origin, std::make_shared<Hertz>(material, g, half_width, origin)});
+      result.push_back(
+          {"partial_slip", material, g, origin,
+           std::make_shared<PartialSlip>(material, g, half_width, stick_length, origin)});
+    }
+  return result;
+}
+
+std::vector<Problem> all_problems()
+{
+  std::vector<Problem> result = sliding_problems();
+  for (const Problem &problem : elliptic_problems())
+    result.push_back(problem);
+  return result;
+}
+
+class SlidingSolutions : public testing::TestWithParam<Problem>
+{
+};
 
 class ExactSolutions : public testing::TestWithParam<Problem>
 {
@@ -98,7 +131,7 @@ TEST_P(ExactSolutions, StressIsInEquilibriumWithoutBodyForce)
   }
 }
 
-TEST_P(ExactSolutions, ObeysTheFrictionLaw)
+TEST_P(SlidingSolutions, ObeyTheFrictionLaw)
 {
   const Problem &problem = GetParam();
   for (const double x : along_contact)
@@ -132,9 +165,12 @@ TEST_P(ExactSolutions, TractionIsStressTimesNormal)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ExactSolutions, testing::ValuesIn(problems()),
-                         [](const auto &info)
-                         { return info.param.name + std::to_string(info.index); });
+const auto problem_name = [](const auto &info)
+{ return info.param.name + std::to_string(info.index); };
+
+INSTANTIATE_TEST_SUITE_P(All, ExactSolutions, testing::ValuesIn(all_problems()), problem_name);
+INSTANTIATE_TEST_SUITE_P(All, SlidingSolutions, testing::ValuesIn(sliding_problems()),
+                         problem_name);
 
 /** Hooke's law from the gradient against Kolosov's formulas, here with the root of w = -z. */
 TEST(StickSlip, StressIsThatOfThePotentials)
@@ -202,6 +238,167 @@ TEST(StickSlip, EnergyOfTheStandardRun)
   EXPECT_NEAR(energy, 0.37710185557, 1e-11);
 }
 
+// ---------------------------------------------------------------- Hertz, partial slip
+
+/** Points of the contact edge at distances from its centre that never are a or c. */
+std::vector<Point<2>> around(const double centre)
+{
+  std::vector<Point<2>> points;
+  for (const double d : {0., 0.01, 0.2, 0.349, 0.351, 0.5, 0.599, 0.601, 0.8, 5.})
+    for (const double sign : {-1., 1.})
+      points.emplace_back(centre + sign * d, 0.);
+  return points;
+}
+
+double half_ellipse(const double d, const double radius)
+{
+  return d < radius ? std::sqrt(radius * radius - d * d) / half_width : 0.;
+}
+
+TEST(HertzContact, ObeysSignorinisConditions)
+{
+  for (const Problem &problem : elliptic_problems())
+    if (problem.name == "hertz")
+      for (const Point<2> &x : around(problem.origin))
+      {
+        const ExactSolution<2> &exact = *problem.solution;
+        const Material &material = problem.material;
+        const double d = std::abs(x[0] - problem.origin), p = exact.pressure(x);
+        const SymmetricTensor<2, 2> sigma = stress(exact, material, x);
+        EXPECT_NEAR(p, problem.g * half_ellipse(d, half_width), 1e-13 * problem.g);
+        EXPECT_NEAR(-sigma[1][1], p, 1e-12 * material.young);
+        EXPECT_NEAR(sigma[0][1], 0., 1e-12 * material.young);
+        EXPECT_EQ(exact.multiplier(x), 0.);
+        // E* of both plane models, 1/(2R) = p_0/(2 a E*); n = (0, -1).
+        const double stiffness = 8 * material.mu() / (1 + material.kolosov()),
+                     u_0 = problem.g / half_width / stiffness * d * d,
+                     gap = u_0 + exact.displacement(x)[1];
+        if (d < half_width)
+          EXPECT_NEAR(gap, 0., 1e-15);
+        else
+          EXPECT_GT(gap, 1e-7);
+      }
+}
+
+/** E/(1 - nu^2) and E: the elastic modulus under a plane punch. */
+TEST(HertzContact, HasTheRadiusOfTheTextbook)
+{
+  for (const PlaneModel plane : {PlaneModel::strain, PlaneModel::stress})
+  {
+    const Material material{200., 0.3, plane};
+    const double modulus = plane == PlaneModel::strain ? 200. / 0.91 : 200.,
+                 slope = 7. / 0.7 / modulus; // 1/(2R)
+    const Hertz exact(material, 7., 0.7, 0.);
+    EXPECT_NEAR(exact.displacement(Point<2>(0.5, 0.))[1], -0.25 * slope, 1e-15);
+  }
+}
+
+/** `int sigma n . u` over the boundary of (-2,2) x (0,2), by intervals that shrink towards @p ends. */
+double boundary_energy(const ExactSolution<2> &exact, const Material &material,
+                       const std::vector<double> &ends)
+{
+  const QGauss<1> gauss(16);
+  double energy = 0;
+  const auto integrate = [&](const Point<2> &from, const Point<2> &to, const Tensor<1, 2> &normal)
+  {
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const Point<2> x = from + gauss.point(q)[0] * (to - from);
+      energy += gauss.weight(q) * from.distance(to) *
+                (stress(exact, material, x) * normal * exact.displacement(x));
+    }
+  };
+  for (unsigned int k = 0; k < 8; ++k)
+  {
+    const double s = -2 + k / 2., y = k / 4.;
+    integrate({s, 2.}, {s + 0.5, 2.}, Tensor<1, 2>({0., 1.}));
+    integrate({2., y}, {2., y + 0.25}, Tensor<1, 2>({1., 0.}));
+    integrate({-2., y}, {-2., y + 0.25}, Tensor<1, 2>({-1., 0.}));
+  }
+  for (unsigned int e = 0; e + 1 < ends.size(); ++e)
+    for (const double from : {ends[e], ends[e + 1]})
+    {
+      double size = (ends[e] + ends[e + 1]) / 2 - from;
+      for (unsigned int level = 0; level < 50; ++level, size /= 2)
+      {
+        const double a = from + size / 2, b = from + size;
+        integrate({std::min(a, b), 0.}, {std::max(a, b), 0.}, Tensor<1, 2>({0., -1.}));
+      }
+    }
+  return energy;
+}
+
+/** The numbers of an independent program. */
+TEST(HertzContact, EnergyAndResultantOfTheStandardRun)
+{
+  const Material material{200., 0.3, PlaneModel::strain};
+  const Hertz exact(material, 7., 0.7, 0.);
+  EXPECT_NEAR(boundary_energy(exact, material, {-2., -0.7, 0.7, 2.}) / 2, 0.133954906582, 1e-12);
+  double resultant = 0;
+  const QGauss<1> gauss(8);
+  for (unsigned int q = 0; q < gauss.size(); ++q) // by angles: the integrand is a cosine's square
+  {
+    const double angle = numbers::PI * (gauss.point(q)[0] - 0.5);
+    resultant += gauss.weight(q) * numbers::PI * 0.7 * std::cos(angle) *
+                 exact.pressure(Point<2>(0.7 * std::sin(angle), 0.));
+  }
+  EXPECT_NEAR(resultant, 7.6969020013, 1e-9);
+}
+
+TEST(PartialSlip, ObeysTheFrictionLawWithoutNormalTraction)
+{
+  for (const Problem &problem : elliptic_problems())
+    if (problem.name == "partial_slip")
+      for (const Point<2> &x : around(problem.origin))
+      {
+        const ExactSolution<2> &exact = *problem.solution;
+        const double d = std::abs(x[0] - problem.origin), E = problem.material.young,
+                     g = problem.g * half_ellipse(d, half_width), lambda = exact.multiplier(x),
+                     u_t = exact.displacement(x)[0]; // t = (1, 0) below the body
+        const SymmetricTensor<2, 2> sigma = stress(exact, problem.material, x);
+        EXPECT_NEAR(sigma[1][1], 0., 1e-12 * E);
+        EXPECT_NEAR(sigma[0][1], g * lambda, 1e-12 * E); // sigma_t = -sigma_xy = -g lambda
+        EXPECT_NEAR(sigma[0][1], g - problem.g * half_ellipse(d, stick_length), 1e-12 * E);
+        if (d < stick_length)
+        {
+          EXPECT_NEAR(u_t, 0., 1e-16);
+          EXPECT_LT(std::abs(lambda), 1.);
+        }
+        else
+        {
+          EXPECT_GT(u_t, 1e-7);
+          EXPECT_EQ(lambda, 1.);
+        }
+      }
+}
+
+/** Bounded at the ends of the zones, where terms of the formulas are not, and symmetric. */
+TEST(EllipticSolutions, AreFiniteAndSymmetric)
+{
+  for (const Problem &problem : elliptic_problems())
+  {
+    const ExactSolution<2> &exact = *problem.solution;
+    for (const Point<2> &x : exact.singularities())
+    {
+      EXPECT_TRUE(std::isfinite(exact.displacement(x).norm()));
+      EXPECT_LT(exact.gradient(x).norm(), problem.name == "hertz" ? 0.2 : 0.3);
+    }
+    const bool hertz = problem.name == "hertz";
+    EXPECT_EQ(exact.singularities().size(), hertz ? 2U : 4U);
+    ASSERT_EQ(exact.transitions().size(), 2U);
+    const double end = hertz ? half_width : stick_length;
+    EXPECT_EQ(exact.transitions()[0], Point<2>(problem.origin - end, 0.));
+    EXPECT_EQ(exact.transitions()[1], Point<2>(problem.origin + end, 0.));
+    for (const double y : {0., 1e-9, 0.3, 40.})
+    {
+      const Tensor<1, 2> left = exact.displacement(Point<2>(problem.origin - 0.7, y)),
+                         right = exact.displacement(Point<2>(problem.origin + 0.7, y));
+      EXPECT_NEAR(left[0], hertz ? -right[0] : right[0], 1e-15);
+      EXPECT_NEAR(left[1], hertz ? right[1] : -right[1], 1e-15);
+    }
+  }
+}
+
 std::string scene_file(const std::string &name)
 {
   return "prm/" + name;
@@ -221,5 +418,15 @@ TEST(ExactSolution, BoundariesTakeItByName)
   const Scene<2> smooth = read_scene<2>(scene_file("smooth.prm"));
   EXPECT_TRUE(smooth.exact_solution->singularities().empty());
   EXPECT_TRUE(smooth.boundaries[3].has_traction());
+
+  const Scene<2> hertz = read_scene<2>(scene_file("hertz.prm"));
+  ASSERT_NE(hertz.exact_solution, nullptr);
+  EXPECT_EQ(hertz.exact_solution->transitions().at(1), Point<2>(0.7, 0.));
+  EXPECT_NEAR(hertz.exact_solution->pressure(Point<2>(0., 0.)), 7., 1e-14);
+
+  const Scene<2> partial_slip = read_scene<2>(scene_file("partial-slip.prm"));
+  ASSERT_NE(partial_slip.exact_solution, nullptr);
+  EXPECT_EQ(partial_slip.exact_solution->transitions().at(1), Point<2>(0.4, 0.));
+  EXPECT_NEAR(partial_slip.exact_solution->multiplier(Point<2>(0., 0.)), 1 - 4. / 7, 1e-15);
 }
 } // namespace

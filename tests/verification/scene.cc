@@ -287,6 +287,12 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Scene<2> &s) { s.boundary("bottom").friction.bound = expression<2>(nan); }},
         Mistake{"Boundary bottom/Displacement: stands beside Contact = bilateral",
                 [](Scene<2> &s) { s.boundary("bottom").displacement[0] = expression<2>(0.); }},
+        Mistake{"Boundary bottom/Displacement: stands beside Contact = unilateral",
+                [](Scene<2> &s)
+                {
+                  s.boundary("bottom").contact = Contact::unilateral;
+                  s.boundary("bottom").displacement[0] = expression<2>(0.);
+                }},
         Mistake{"Boundary right/Traction: acts on the component x that Displacement prescribes",
                 [](Scene<2> &s) { s.boundary("right").traction[0] = expression<2>(1.); }},
         Mistake{"Boundary right/Displacement: contradicts Boundary bottom/Contact at their corner "
@@ -314,6 +320,59 @@ INSTANTIATE_TEST_SUITE_P(
                   s.boundary("bottom").friction = {};
                 }}));
 
+/** @p make after the bottom may open. */
+Mistake unilateral(const std::string &words, const std::function<void(Scene<2> &)> &make)
+{
+  return {words, [make](Scene<2> &s)
+          {
+            s.boundary("bottom").contact = Contact::unilateral;
+            s.check();
+            make(s);
+          }};
+}
+
+/** u_0 at the bottom. */
+Mistake gap(const std::string &words, const std::function<double(const Point<2> &)> &u_0)
+{
+  return unilateral(words, [u_0](Scene<2> &s) { s.boundary("bottom").gap = expression<2>(u_0); });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Gap, WrongScene,
+    ::testing::Values(
+        Mistake{"Boundary bottom/Gap: needs contact that can open; set Contact = unilateral",
+                [](Scene<2> &s) { s.boundary("bottom").gap = expression<2>(0.); }},
+        Mistake{"Boundary top/Gap: needs contact that can open; set Contact = unilateral",
+                [](Scene<2> &s) { s.boundary("top").gap = expression<2>(0.1); }},
+        gap("Boundary bottom/Gap: is not finite at (0, 0)",
+            [](const Point<2> &x) { return 1 / x[0]; }),
+        gap("Boundary bottom/Gap: has a component of magnitude 1e+200",
+            [](const Point<2> &x) { return 1e200 * (4 - x[0]) / 4; }),
+        gap("Boundary bottom/Gap: has a component of magnitude 1e-200",
+            [](const Point<2> &) { return 1e-200; }),
+        gap("Boundary right/Displacement: contradicts Boundary bottom/Gap at their corner (4, 0), "
+            "for u_n exceeds the gap by 0.25",
+            [](const Point<2> &x) { return (3.5 - x[0]) / 2; }),
+        unilateral("Boundary right/Displacement: contradicts Boundary bottom/Contact = unilateral "
+                   "at their corner (4, 0), for u_n exceeds the gap by 0.1",
+                   [](Scene<2> &s)
+                   { s.boundary("right").displacement[1] = expression<2>(-0.1); })));
+
+INSTANTIATE_TEST_SUITE_P(
+    Tangential, WrongScene,
+    ::testing::Values(Mistake{"Boundary bottom/Contact = tangential: has friction nowhere to act",
+                              [](Scene<2> &s)
+                              {
+                                s.boundary("bottom").contact = Contact::tangential;
+                                s.boundary("bottom").friction = {};
+                              }},
+                      Mistake{"Boundary bottom/Contact = tangential: has friction nowhere to act",
+                              [](Scene<2> &s)
+                              {
+                                s.boundary("bottom").contact = Contact::tangential;
+                                s.boundary("bottom").friction.bound = expression<2>(0.);
+                              }}));
+
 INSTANTIATE_TEST_SUITE_P(
     Method, WrongScene,
     ::testing::Values(
@@ -321,6 +380,20 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Scene<2> &s) { s.adaptivity.start_degree = 0; }},
         Mistake{"Adaptivity/Start degree = 1: is too low for contact",
                 [](Scene<2> &s) { s.adaptivity.start_degree = 1; }},
+        unilateral("Adaptivity/Start degree = 1: is too low for contact",
+                   [](Scene<2> &s)
+                   {
+                     s.boundary("bottom").friction = {};
+                     s.solver.normal_contact = NormalContact::multiplier;
+                     s.adaptivity.start_degree = 1;
+                   }),
+        unilateral("Solver/Multiplier degree offset = 0: makes S singular",
+                   [](Scene<2> &s)
+                   {
+                     s.boundary("bottom").friction = {};
+                     s.solver.normal_contact = NormalContact::multiplier;
+                     s.solver.multiplier_offset = 0;
+                   }),
         Mistake{"Adaptivity/Start degree = 13: exceeds Maximum degree = 12",
                 [](Scene<2> &s) { s.adaptivity.start_degree = 13; }},
         Mistake{
@@ -373,6 +446,149 @@ INSTANTIATE_TEST_SUITE_P(
                   s.materials.resize(2);
                   s.material_at = [](const Point<2> &) { return 0; };
                 }}));
+
+// ---------------------------------------------------------------- contact that opens
+
+/** What of a scene the entries of unilateral contact set. */
+TEST(SceneByCode, HasGapsAsFromAFile)
+{
+  Scene<2> code = pushed_block();
+  BoundaryCondition<2> &bottom = code.boundary("bottom");
+  bottom.contact = Contact::unilateral;
+  bottom.gap = expression<2>([](const Point<2> &x) { return x[0] <= 1 ? -0.25 : 0.5 * x[0]; });
+  code.solver.normal_contact = NormalContact::multiplier;
+  EXPECT_NO_THROW(code.check());
+  const Scene<2> file = shipped_scene("han-6-12", {{"Boundary bottom/Contact", "unilateral"},
+                                                   {"Boundary bottom/Gap", "if(x<=1,-0.25,0.5*x)"},
+                                                   {"Solver/Normal contact", "multiplier"}});
+  EXPECT_EQ(file.boundaries[2].contact, bottom.contact);
+  EXPECT_EQ(file.solver.normal_contact, code.solver.normal_contact);
+  for (const double x : {0., 0.3, 1., 1.1, 4.})
+    EXPECT_EQ(file.boundaries[2].gap_at(Point<2>(x, 0)), bottom.gap_at(Point<2>(x, 0)));
+  EXPECT_TRUE(file.has_unilateral_contact());
+}
+
+TEST(SceneByCode, HasNoGapUnlessItSaysSo)
+{
+  for (const std::string u_0 : {"", "0", "0.0"})
+  {
+    const Scene<2> scene = shipped_scene(
+        "han-6-12", {{"Boundary bottom/Contact", "unilateral"}, {"Boundary bottom/Gap", u_0}});
+    EXPECT_EQ(scene.boundaries[2].gap, nullptr) << u_0;
+    EXPECT_EQ(scene.boundaries[2].gap_at(Point<2>(1, 0)), 0.);
+    EXPECT_EQ(scene.solver.normal_contact, NormalContact::nodes);
+  }
+  EXPECT_EQ(shipped_scene("partial-slip").boundaries[2].contact, Contact::tangential);
+}
+
+/** A corner may lie on the obstacle, lift from it, or be of two edges that both may open. */
+TEST(SceneByCode, MayMeetItsGapAtACorner)
+{
+  Scene<2> scene = pushed_block();
+  scene.boundary("bottom").contact = Contact::unilateral;
+  for (const double u_y : {0., 0.1})
+  {
+    scene.boundary("right").displacement[1] = expression<2>(u_y);
+    EXPECT_NO_THROW(scene.check());
+  }
+  scene.boundary("right").displacement[1] = expression<2>(-0.1); // u_n = 0.1 = u_0 by round-off
+  scene.boundary("bottom").gap = expression<2>(0.1 - 1e-13);
+  EXPECT_NO_THROW(scene.check());
+  scene.boundary("bottom").gap = expression<2>(0.1 - 1e-8);
+  EXPECT_THROW(scene.check(), InputError);
+  scene.boundary("bottom").gap = expression<2>(-1.);
+  scene.boundary("right").displacement[1] = nullptr;
+  EXPECT_NO_THROW(scene.check());
+  scene.boundary("top").contact = Contact::unilateral;
+  for (const Contact contact : {Contact::unilateral, Contact::bilateral})
+  {
+    scene.boundary("left").traction = {};
+    scene.boundary("left").contact = contact;
+    EXPECT_NO_THROW(scene.check());
+  }
+}
+
+/** Without a multiplier any degree will do. */
+TEST(SceneByCode, MayStartAtDegreeOneWhereNodesTouch)
+{
+  Scene<2> scene = pushed_block();
+  scene.boundary("bottom").contact = Contact::unilateral;
+  scene.boundary("bottom").friction = {};
+  scene.adaptivity.start_degree = 1;
+  EXPECT_NO_THROW(scene.check());
+  scene.solver.multiplier_offset = 0;
+  EXPECT_NO_THROW(scene.check());
+  scene.boundary("bottom").friction.bound = expression<2>(1.);
+  EXPECT_THROW(scene.check(), InputError);
+}
+
+/** Contact that opens holds a body up and against turning; it resists no motion along itself. */
+TEST(SceneByCode, LeavesMotionsToContact)
+{
+  Scene<2> scene;
+  scene.body_force[1] = expression<2>(-1.);
+  BoundaryCondition<2> &bottom = scene.boundary("bottom");
+  bottom.contact = Contact::unilateral;
+  EXPECT_THROW(scene.check(), InputError);
+  bottom.friction.bound = expression<2>(1.);
+  EXPECT_NO_THROW(scene.check());
+  EXPECT_EQ(scene.free_motions().size(), 3U);
+  scene.boundary("left").displacement[0] = expression<2>(0.);
+  bottom.friction = {};
+  EXPECT_NO_THROW(scene.check());
+  const auto motions = scene.free_motions();
+  ASSERT_EQ(motions.size(), 1U);
+  EXPECT_EQ(motions[0].at(Point<2>(1, 1)), (Tensor<1, 2>({0., 1.})));
+  EXPECT_EQ(shipped_scene("resting").free_motions().size(), 3U);
+  EXPECT_EQ(shipped_scene("receding").free_motions().size(), 1U);
+  EXPECT_EQ(shipped_scene("punch").free_motions().size(), 0U);
+}
+
+/** Closed forms that are not those of the scene. */
+TEST(SceneByCode, IsComparedWithHertzsContact)
+{
+  const auto message = [](const std::string &name, const std::function<void(Scene<2> &)> &make)
+  {
+    Scene<2> scene = shipped_scene(name);
+    scene.parameters = nullptr;
+    scene.check();
+    make(scene);
+    try
+    {
+      scene.check();
+      return std::string("accepted");
+    }
+    catch (const InputError &error)
+    {
+      return std::string(error.what());
+    }
+  };
+  const auto bottom = [](Scene<2> &s) -> BoundaryCondition<2> & { return s.boundary("bottom"); };
+  const auto starts = [](const std::string &text, const std::string &words)
+  { EXPECT_EQ(text.rfind(words, 0), 0U) << text; };
+  starts(message("hertz", [&](Scene<2> &s) { bottom(s).gap = nullptr; }),
+         "hertz: Boundary bottom/Gap: contradicts Exact solution/Solution at (-2, 0)");
+  starts(message("hertz",
+                 [&](Scene<2> &s) {
+                   bottom(s).gap =
+                       expression<2>([](const Point<2> &x) { return 0.0456 * x[0] * x[0]; });
+                 }),
+         "hertz: Boundary bottom/Gap: contradicts Exact solution/Solution at (-0.625, 0)");
+  starts(message("hertz", [&](Scene<2> &s) { bottom(s).traction[1] = expression<2>(-1.); }),
+         "hertz: Boundary bottom/Traction: contradicts Exact solution/Solution at (-2, 0)");
+  starts(message("hertz", [&](Scene<2> &s) { bottom(s).traction[0] = expression<2>(-1.); }),
+         "hertz: Boundary bottom/Traction: contradicts Exact solution/Solution at (-2, 0)");
+  EXPECT_EQ(message("hertz", [&](Scene<2> &s) { bottom(s).friction.bound = expression<2>(1.); }),
+            "accepted"); // the shear is zero at any bound
+  starts(
+      message("partial-slip", [&](Scene<2> &s) { bottom(s).friction.bound = expression<2>(2.1); }),
+      "partial-slip: Boundary bottom/Friction bound: contradicts Exact solution/Solution at "
+      "(-2, 0); give that of the solution");
+  starts(message("partial-slip", [&](Scene<2> &s) { bottom(s).contact = Contact::bilateral; }),
+         "partial-slip: Boundary bottom/Contact: contradicts Exact solution/Solution at (-2, 0)");
+  starts(message("stick-slip", [&](Scene<2> &s) { bottom(s).contact = Contact::tangential; }),
+         "stick-slip: Boundary bottom/Contact: contradicts Exact solution/Solution at (-1, 0)");
+}
 
 /** The constant is measured where no run can succeed. */
 TEST(SceneByCode, MayHaveTooManyMultipliersToMeasureThem)

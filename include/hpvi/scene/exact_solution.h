@@ -29,20 +29,24 @@ public:
   /** `lambda = -sigma_t/g` on the contact boundary; 0 without friction. */
   virtual double multiplier(const dealii::Point<dim> &x) const;
 
+  /** `-T_n >= 0` [stress] on a contact boundary that may open; 0 where none does. */
+  virtual double pressure(const dealii::Point<dim> &x) const;
+
   /** Points where the stress is not smooth: quadrature is graded towards them. */
   virtual std::vector<dealii::Point<dim>> singularities() const;
 
-  /** Points of the contact boundary where stick meets slip. */
+  /** Points of the contact boundary where its state changes: stick meets slip, contact ends. */
   virtual std::vector<dealii::Point<dim>> transitions() const;
 };
 
 /**
  * Plane fields without body force that slide along y = 0 (the body is above it), from potentials
- * phi and psi that are real on the slip zone (Muskhelishvili 1953, Section 32): with z = x - c + iy
+ * phi and psi (Muskhelishvili 1953, Section 32): with z = x - c + iy
  *
  *     2 mu (u_x + i u_y) = kappa phi - z conj(phi') - conj(psi),     then u_x += (g/mu) y,
  *
- * where the last term adds the constant shear stress g that a slipping contact edge transmits.
+ * where the last term adds a constant shear stress g, that of a contact edge which slips. Potentials
+ * that are real on the slip zone leave `u_y = 0` there.
  */
 class SlidingField : public ExactSolution<2>
 {
@@ -55,9 +59,9 @@ protected:
 
   struct Potentials
   {
-    Complex phi, psi;          ///< [stress * length]
-    Complex phi_1, psi_1;      ///< phi', psi'
-    Complex z_conjugate_phi_2; ///< conj(z) phi'', a product that stays bounded where phi'' is not
+    Complex phi, psi; ///< [stress * length]
+    Complex phi_1;    ///< phi'
+    Complex deviator; ///< `conj(z) phi'' + psi'`, a sum that stays bounded where its terms do not
   };
 
   SlidingField(const Material &material, double friction_bound, double origin);
@@ -118,6 +122,64 @@ protected:
 
 private:
   const double length;
+};
+
+/**
+ * Hertz's contact with a plane, without friction: with half-width a, `p_0 = k a` and the function F
+ * of `F' = z - sqrt(z^2 - a^2)`,
+ *
+ *     phi = -(ik/2) F,  psi = -(ik/2) (F - z F'),
+ *
+ *     contact |x-c| < a:  p = k sqrt(a^2 - (x-c)^2),  u_n = u_0
+ *     open    |x-c| > a:  p = 0,  u_n < u_0 = (1+kappa) k (x-c)^2/(8 mu).
+ *
+ * That gap is the parabola (x-c)^2/(2R) with `p_0 = a E/(2 (1-nu^2) R)` in plane strain.
+ */
+class Hertz : public SlidingField
+{
+public:
+  /** @p largest_pressure is p_0, @p half_width a and @p centre c. */
+  Hertz(const Material &material, double largest_pressure, double half_width, double centre);
+
+  double pressure(const dealii::Point<2> &x) const override;
+  std::vector<dealii::Point<2>> singularities() const override;
+  std::vector<dealii::Point<2>> transitions() const override;
+
+protected:
+  Potentials potentials(const Complex &z) const override;
+
+private:
+  const double slope; ///< k [stress/length]
+  const double half_width;
+};
+
+/**
+ * Partial slip under the bound `g = k sqrt(a^2 - x^2)` for |x| < a, 0 elsewhere, where no normal
+ * traction acts (Cattaneo and Mindlin; their middle half-width c is here the stick length b, x counts
+ * from the origin c): the difference of the fields with half-widths a and b of
+ *
+ *     phi = (k/2) F,  psi = -(k/2) (F + z F'),    F as for Hertz's contact,
+ *
+ *     stick |x| < b:      u_x = 0,  lambda = 1 - sqrt((b^2 - x^2)/(a^2 - x^2))
+ *     slip  b < |x| < a:  u_x > 0,  lambda = 1.
+ */
+class PartialSlip : public SlidingField
+{
+public:
+  /** @p largest_bound is `k a`, the bound in the @p centre; stick_length < half_width. */
+  PartialSlip(const Material &material, double largest_bound, double half_width,
+              double stick_length, double centre);
+
+  double multiplier(const dealii::Point<2> &x) const override;
+  std::vector<dealii::Point<2>> singularities() const override;
+  std::vector<dealii::Point<2>> transitions() const override; ///< not at +-a, where g ends
+
+protected:
+  Potentials potentials(const Complex &z) const override;
+
+private:
+  const double slope; ///< k [stress/length]
+  const double half_width, stick_length;
 };
 
 /** One component of the displacement of an exact solution, for prescribed boundary values. */

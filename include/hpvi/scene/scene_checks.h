@@ -21,9 +21,12 @@ void check_materials(const Scene<2> &scene);
 /** Scene::free_motions(). */
 std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene);
 
-/** What is wrong with a bound where there is no contact. */
+/** What is wrong with a bound where there is no contact, and with a gap where none can open. */
 inline const std::string friction_needs_contact =
-    "needs contact; set Contact = bilateral or remove it";
+                             "needs contact; set Contact = bilateral, unilateral or tangential, or "
+                             "remove it",
+                         gap_needs_contact =
+                             "needs contact that can open; set Contact = unilateral or remove it";
 } // namespace hpvi
 
 #endif
