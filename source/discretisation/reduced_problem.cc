@@ -108,6 +108,8 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
     if (!discretisation.scene.has_unilateral_contact() && motions->n_seen() == 1)
       check_friction(*motions, contact_space); // knows more to say
     check_contact(*motions, qp.feasible_set);
+    if (result.motion.size() == 0)
+      result.motion.reinit(motions->n_seen());
     // The inner problems leave noise of their own tolerance in the balance.
     result.qp = BalanceSolver(solve, motions->penalty(), 100 * settings.qp_tolerance)
                     .solve(qp, motions->balance(), result.z, result.motion);

@@ -92,13 +92,13 @@ TEST(MultiplierTrace, ReproducesPolynomials)
   std::mt19937 random(1);
   RandomMesh coarse(scene, 1, 1, 4, 7); // degree 2 of the multiplier at least
   const DisplacementSpace<2> coarse_space(scene, coarse.mesh, coarse.degrees, tables);
-  const ContactSpace<2> coarse_contact(scene, coarse_space);
+  const ContactSpace<2> coarse_contact(scene, coarse_space, tables);
   const MultiplierTrace<2> trace(coarse_contact, sample(coarse_contact));
 
   refine_at_random(coarse.mesh, 3, random);
   const Degrees degrees = random_degrees(coarse.mesh, 2, 9, random);
   const DisplacementSpace<2> fine_space(scene, coarse.mesh, degrees, tables);
-  const ContactSpace<2> fine_contact(scene, fine_space);
+  const ContactSpace<2> fine_contact(scene, fine_space, tables);
   const Vector<double> found = trace.values(fine_contact, tables), expected = sample(fine_contact);
   ASSERT_GT(found.size(), 10u);
   for (unsigned int i = 0; i < found.size(); ++i)
@@ -111,6 +111,6 @@ TEST(MultiplierTrace, OfNothingIsZero)
   const ShapeTables<2> tables;
   const RandomMesh mesh(scene, 1, 1);
   const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees, tables);
-  EXPECT_TRUE(MultiplierTrace<2>().values(ContactSpace<2>(scene, space), tables).all_zero());
+  EXPECT_TRUE(MultiplierTrace<2>().values(ContactSpace<2>(scene, space, tables), tables).all_zero());
 }
 } // namespace
