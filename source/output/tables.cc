@@ -94,6 +94,7 @@ Record convergence_record(const StepReport<dim> &step)
       {"effectivity", known(step.scaled_estimate / step.errors.energy)},
       {"transitions", transition_list(transitions(step.contact))},
       {"normal_resultant", resultant(step.contact, &ContactState<dim>::normal_resultant)},
+      {"error_pressure", known(step.errors.pressure_l2)},
       {"estimate_normal", root_of_sum(step.estimate.normal)},
       {"estimate_penetration", root_of_sum(step.estimate.penetration)},
       {"estimate_tension", root_of_sum(step.estimate.tension)}};
