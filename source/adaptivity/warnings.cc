@@ -120,18 +120,13 @@ std::string penetration(const Solution<dim> &solution,
                         const std::vector<ContactState<dim>> &contact)
 {
   for (const ContactState<dim> &state : contact)
-  {
-    double largest = 0;
-    for (const ContactPoint<dim> &point : state.points)
-      largest = std::max(largest, std::abs(point.normal_displacement));
-    if (state.deepest_penetration > 0.01 * largest)
+    if (state.deepest_penetration > 0.01 * solution.u.linfty_norm())
       return line("the body penetrates the foundation of ",
                   solution.scene.boundaries[state.boundary].name, " by up to ",
                   labelled(state.deepest_penetration, solution.scene.length_unit), " at (",
                   state.deepest_penetration_point,
-                  "), more than 1 % of its displacement there; "
+                  "), more than 1 % of the largest displacement; "
                   "refine there, or put a vertex where Gap has a kink or a jump");
-  }
   return {};
 }
 
