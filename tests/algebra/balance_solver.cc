@@ -58,7 +58,9 @@ Problem random_problem(const unsigned int n, const unsigned int m, const double 
                        std::mt19937 &random)
 {
   std::uniform_real_distribution<double> uniform(0., 1.);
-  Problem problem{{random_matrix(n, random), random_vector(n, random), {}}, {}, {}};
+  Problem problem{{random_matrix(n, random), random_vector(n, random), {}},
+                  {FullMatrix<double>(), Vector<double>()},
+                  FullMatrix<double>()};
   Vector<double> z(n);
   for (unsigned int i = 0; i < n; ++i)
     if (i % 2 == 0)
@@ -92,7 +94,7 @@ Problem block(const std::vector<double> &points, const double shear, const doubl
   const unsigned int k = points.size();
   Problem problem{{LAPACKFullMatrix<double>(2 * k), Vector<double>(2 * k), {}},
                   {FullMatrix<double>(2 * k, 3), vec({shear, 1., x})},
-                  {}};
+                  FullMatrix<double>()};
   for (unsigned int i = 0; i < 2 * k; ++i)
   {
     problem.qp.S(i, i) = 1.;
