@@ -76,6 +76,7 @@ private:
   Vector<double> scale; ///< of steps along the gradient, 1 / S_ii
   Vector<double> gap;   ///< e - G'z
   double smallest = 0;  ///< gap so far of minimisers
+  double stretch = 1;   ///< of steps along which phi is straight
   unsigned int minimisations = 0;
   QpReport report;
 };
@@ -147,10 +148,12 @@ void Balance::ascend()
   }
   const double slope_at_start = gap * step.alpha;
   double low = 0, slope_at_low = slope_at_start, high = std::numeric_limits<double>::infinity();
-  for (double last = 0, here = 1; minimisations < maximum_minimisations;)
+  double taken = 0;
+  for (double here = 1; minimisations < maximum_minimisations;)
   {
-    z.add(here - last, step.z);
-    alpha.add(here - last, step.alpha);
+    z.add(here - taken, step.z);
+    alpha.add(here - taken, step.alpha);
+    taken = here;
     minimise();
     if (!report.converged || is_met())
       return;
@@ -160,7 +163,6 @@ void Balance::ascend()
     const bool is_steep = slope > 0.9 * slope_at_start; // and phi as good as straight
     if (!(slope < 0 || is_steep) || high <= low * (1 + 1e-14))
       break;
-    last = here;
     if (slope < 0)
     {
       high = here;
@@ -175,6 +177,8 @@ void Balance::ascend()
     }
   }
   smallest = std::min(smallest, size());
+  // Where phi bends in one direction and is straight in another, the bent one ends the doubling.
+  stretch = std::max(1., 2 * taken * stretch);
 }
 
 /** z := the minimiser for alpha */
@@ -223,7 +227,8 @@ bool Balance::step_to(const FeasibleSet::Linearisation &prediction, Step &step)
 
 /**
  * `M^-1 gap`. M is never larger than `Gamma^-1 = L^-T L^-1`: the eigenvalues of `L'ML` lie between 0 and 1,
- * and where one is 0 to round-off, 1 takes its place.
+ * and where one is 0 to round-off the step is that for 1,
+ * stretched.
  */
 Vector<double> Balance::length(const FullMatrix<double> &M, const Vector<double> &gap) const
 {
@@ -239,8 +244,7 @@ Vector<double> Balance::length(const FullMatrix<double> &M, const Vector<double>
   L.Tvmult(scaled, gap);
   vectors.vmult(parts, scaled);
   for (unsigned int k = 0; k < gap.size(); ++k)
-    if (eigenvalues[k] > flat)
-      parts[k] /= eigenvalues[k];
+    parts[k] *= eigenvalues[k] > flat ? 1. / eigenvalues[k] : stretch;
   vectors.Tvmult(scaled, parts);
   L.vmult(result, scaled);
   return result;
