@@ -5,6 +5,7 @@
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/output/output.h>
 
+#include <algorithm>
 #include <ostream>
 
 namespace
@@ -97,6 +98,24 @@ std::vector<Case> cases()
                     "han-6-12",
                     {{"Boundary top/Contact", "bilateral"},
                      {"Boundary top/Friction bound", "if(x < 2, 0, 1 + x)"}}});
+  for (const std::string scene :
+       {"hertz", "punch", "receding", "resting", "han-6-12-unilateral", "partial-slip"})
+    for (const std::string normal : {"nodes", "multiplier"})
+    {
+      std::string name = scene + "_" + normal;
+      std::replace(name.begin(), name.end(), '-', '_');
+      result.push_back({name, scene, {{"Solver/Normal contact", normal}}});
+    }
+  result.push_back({"slanted_unilateral",
+                    "han-6-12-unilateral",
+                    {{"Geometry/Shape", "quadrilateral"},
+                     {"Geometry/Corners", "0, 0; 4, 0.5; 3.5, 4; -0.5, 3.5"},
+                     {"Geometry/Lower corner", "0, 0"},
+                     {"Geometry/Upper corner", "1, 1"},
+                     {"Boundary left/Traction", ""},
+                     {"Boundary left/Contact", "unilateral"},
+                     {"Boundary left/Gap", "-0.01"},
+                     {"Solver/QP solver", "mprgp"}}});
   return result;
 }
 
@@ -135,6 +154,18 @@ TEST(Smoke, InfSup)
   make_mesh(scene, mesh);
   const InfSup result = measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 3));
   EXPECT_GT(result.beta, 0.5);
+}
+
+TEST(Smoke, InfSupOfPressureAndFriction)
+{
+  for (const std::string normal : {"nodes", "multiplier"})
+  {
+    const Scene<2> scene = shipped_scene("resting", {{"Solver/Normal contact", normal}});
+    Triangulation<2> mesh;
+    make_mesh(scene, mesh);
+    const InfSup result = measure_inf_sup(scene, mesh, Degrees(mesh.n_active_cells(), 4));
+    EXPECT_GT(result.beta, 0.5) << normal;
+  }
 }
 
 /** Whether this build would notice at all. */
