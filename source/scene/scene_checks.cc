@@ -780,11 +780,11 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
       const Tensor<1, 2> &n = edges[f].normal;
       if (scene.boundaries[f].friction.bound) // where it vanishes, the mesh decides
         resisted.push_back(row_of(Tensor<1, 2>({-n[1], n[0]}), end, centre, length));
-      if (scene.boundaries[f].is_unilateral()) // one way; the loads decide
-        resisted.push_back(row_of(n, end, centre, length));
     }
   resisted.insert(resisted.end(), held.begin(), held.end());
-  if (const auto motions = free_motions(resisted); !motions.empty())
+  // Unilateral contact holds some motions one way, and what none holds may be in balance.
+  if (const auto motions = free_motions(resisted);
+      !motions.empty() && !scene.has_unilateral_contact())
     throw InputError(printable(scene.origin(), 400) +
                      ": Boundary left, right, bottom, top/Displacement: the supports leave a "
                      "rigid-body motion free, " +

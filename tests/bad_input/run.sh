@@ -230,7 +230,6 @@ for bound in "" 0 "0*x"; do
     "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=$bound"
 done
 invalid "Boundary top/Contact = tangential" "friction nowhere to act" "Friction bound > 0" -- "Boundary top/Contact=tangential"
-invalid "rigid-body motion" "translation in x" -- "${open[@]}" "Boundary right/Displacement=" "Boundary bottom/Friction bound="
 invalid "Solver/Normal contact = penalty" "multiplier or nodes" -- "Solver/Normal contact=penalty"
 invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Boundary bottom/Friction bound=" \
   "Solver/Normal contact=multiplier" "Adaptivity/Start degree=1"

@@ -529,7 +529,7 @@ TEST(SceneByCode, LeavesMotionsToContact)
   scene.body_force[1] = expression<2>(-1.);
   BoundaryCondition<2> &bottom = scene.boundary("bottom");
   bottom.contact = Contact::unilateral;
-  EXPECT_THROW(scene.check(), InputError);
+  EXPECT_NO_THROW(scene.check()); // nothing pushes it along: its place is not unique
   bottom.friction.bound = expression<2>(1.);
   EXPECT_NO_THROW(scene.check());
   EXPECT_EQ(scene.free_motions().size(), 3U);
