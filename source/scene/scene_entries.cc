@@ -121,12 +121,11 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "direction, friction alone acts. Friction bound may stand beside all three."},
        {section, "Gap", "", text, "one expression u_0 or nothing",
         "Distance u_0(x,y) of the obstacle along the outer normal before any displacement "
-        "[length], "
-        "negative: interference; of Contact = unilateral; empty or 0: the body touches it."},
+        "[length], negative: interference; of Contact = unilateral; empty or 0: the body touches "
+        "it."},
        {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
         "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
-        "empty "
-        "or 0: no friction."}});
+        "empty or 0: no friction."}});
 }
 
 void add_method_entries(std::vector<Entry> &entries)

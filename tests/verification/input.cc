@@ -133,6 +133,26 @@ TEST(Expressions, AFrictionBoundIsNegativeNowhere)
       << result.message;
 }
 
+/** Tried at multiples of 1/8, asked for between them. */
+TEST(Expressions, AGapIsFiniteEverywhere)
+{
+  const Scene<2> scene = shipped_scene("han-6-12", {{"Boundary bottom/Contact", "unilateral"},
+                                                    {"Boundary bottom/Gap", "1/(x-0.1)^2"}});
+  EXPECT_NEAR(scene.boundaries[2].gap_at(Point<2>(1.1, 0.)), 1., 1e-14);
+  try
+  {
+    scene.boundaries[2].gap_at(Point<2>(0.1, 0.));
+    ADD_FAILURE() << "is accepted";
+  }
+  catch (const InputError &error)
+  {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("prm/han-6-12.prm (--set): Boundary bottom/Gap = 1/(x-0.1)^2: ", 0), 0U)
+        << message;
+    EXPECT_NE(message.find("is not finite at (0.1, 0): inf;"), std::string::npos) << message;
+  }
+}
+
 TEST(Expressions, RoundOffBelowAZeroBoundIsZero)
 {
   const Scene<2> scene =
