@@ -156,7 +156,9 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector
     }
   }
   u = best;
-  error.relative = std::sqrt(least / error.energy_product);
+  // What is left of a body that is only moved is round-off, of which there is no part.
+  if (error.energy_product > round_off_energy(u))
+    error.relative = std::sqrt(least / error.energy_product);
   return error;
 }
 

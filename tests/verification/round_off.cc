@@ -274,6 +274,29 @@ TEST(FarDisplacement, DoesNotDrownTheEnergy)
 }
 
 /** Tension along the foundation presses nothing and pulls nothing: 1e-16 is no warning. */
+TEST(FarDisplacement, OfABodyThatIsOnlyMovedIsASolution)
+{
+  const Overrides moved = {{"Boundary left/Traction", ""},
+                           {"Boundary right/Displacement", "0.01; -0.02"},
+                           {"Boundary top/Displacement", "0.01; -0.02"},
+                           {"Boundary bottom/Contact", "none"},
+                           {"Boundary bottom/Friction bound", ""},
+                           {"Geometry/Upper corner", "2, 2"},
+                           {"Geometry/Subdivisions", "2, 3"},
+                           {"Material/Young's modulus", "221.725"}};
+  unsigned int steps = 0;
+  AdaptiveSolver<2>(shipped_scene("han-6-12", moved))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ++steps;
+            EXPECT_LE(step.energies.norm, 1e-13);
+            EXPECT_EQ(step.algebraic.relative, 0.);
+            EXPECT_EQ(step.stopped_by, "round-off");
+          });
+  EXPECT_EQ(steps, 1u);
+}
+
 TEST(Floor, NoWarningsAboutNothing)
 {
   const Scene<2> scene = scene_of({{"Material/Plane", "stress"},
