@@ -95,7 +95,7 @@ class Run:
         with open(table) as file:
             rows = list(csv.DictReader(file))
         return {name: np.array([float(row[name]) for row in rows])
-                for name in (rows[0] if rows else []) if name != "state"}
+                for name in (rows[0] if rows else []) if name not in ("boundary", "state")}
 
 
 class Laboratory:
@@ -165,26 +165,29 @@ def warned(run, pattern):
                      for m in found if m) or "-"
 
 
-def put_table(name, rows, hidden=()):
-    """Replace the table between the marker comments of doc/stability.md, and write its CSV.
-
-    The page leaves out hidden columns, those of dashes alone, and exit statuses where all are 0.
-    """
-    with open(GALLERY / f"{name}.csv", "w", newline="") as file:
+def write_csv(path, rows):
+    with open(path, "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def put_table(name, rows, hidden=(), page="stability"):
+    """Replace the table between the marker comments of doc/PAGE.md, and write its CSV to doc/PAGE.
+
+    The page leaves out hidden columns, those of dashes alone, and exit statuses where all are 0.
+    """
+    write_csv(HERE / page / f"{name}.csv", rows)
     head = [c for c in rows[0] if c not in hidden and
             {str(r[c]) for r in rows} not in ([{"-"}, {"0"}] if c == "ended" else [{"-"}])]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     lines += ["| " + " | ".join(str(r[c]) for c in head) + " |" for r in rows]
-    page = HERE / "stability.md"
     text, count = re.subn(rf"(<!-- {name}: begin[^\n]*\n).*?(<!-- {name}: end)",
-                          lambda m: m[1] + "\n".join(lines) + "\n" + m[2], page.read_text(),
-                          flags=re.S)
+                          lambda m: m[1] + "\n".join(lines) + "\n" + m[2],
+                          (HERE / f"{page}.md").read_text(), flags=re.S)
     if count != 1:
-        sys.exit(f"{page} has no place for the table {name}")
-    page.write_text(text)
+        sys.exit(f"doc/{page}.md has no place for the table {name}")
+    (HERE / f"{page}.md").write_text(text)
 
 
 def chart(columns, title, width=None, height=4.2, sharey=False):
@@ -205,8 +208,8 @@ def legend(axes, **options):
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), **options)
 
 
-def save(figure, name):
-    figure.savefig(GALLERY / name, dpi=100)
+def save(figure, name, page="stability"):
+    figure.savefig(HERE / page / name, dpi=100)
     plt.close(figure)
 
 
@@ -533,11 +536,14 @@ def edges_of_points(x, start):
     groups, k = [], 0
     while k < len(x):
         for n in range(min(19, len(x) - k), 0, -1):
-            h = (x[k] - start) / GAUSS[n][0]
-            if np.max(np.abs(start + h * GAUSS[n] - x[k:k + n])) < 1e-9 * h + 1e-15:
-                break  # one point always fits
-        groups.append((slice(k, k + n), start, h))
-        k, start = k + n, start + h
+            # The first and last point give an edge of any other number of points: no error adds up.
+            h = (x[k + n - 1] - x[k]) / (GAUSS[n][-1] - GAUSS[n][0]) if n > 1 else 2 * (x[k] - start)
+            begin = x[k] - h * GAUSS[n][0]
+            if abs(begin - start) < 1e-6 * h and \
+                    np.max(np.abs(begin + h * GAUSS[n] - x[k:k + n])) < 1e-7 * h:
+                break
+        groups.append((slice(k, k + n), begin, h))
+        k, start = k + n, begin + h
     return groups
 
 
