@@ -92,6 +92,49 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
               "); it obeys |lambda| <= 1 at the Gauss points only: ", remedy);
 }
 
+/** Pressures are positive at the points of the multiplier, the polynomial through them need not be. */
+template <int dim>
+std::string pulling_pressure(const Solution<dim> &solution,
+                             const std::vector<ContactState<dim>> &contact)
+{
+  const ContactState<dim> *worst = nullptr;
+  double share = 0.05;
+  for (const ContactState<dim> &state : contact)
+    if (solution.scene.boundaries[state.boundary].is_unilateral() &&
+        state.highest_tension > share * state.highest_pressure)
+    {
+      worst = &state;
+      share = state.highest_tension / state.highest_pressure;
+    }
+  if (!worst)
+    return {};
+  return line("contact pulls between the points of its multiplier, with up to ",
+              labelled(worst->highest_tension, solution.scene.stress_unit), " at (",
+              worst->highest_tension_point, "), ", 100 * share,
+              " % of the largest pressure; refine there");
+}
+
+/** The foundation holds the body at points or in moments only. */
+template <int dim>
+std::string penetration(const Solution<dim> &solution,
+                        const std::vector<ContactState<dim>> &contact)
+{
+  for (const ContactState<dim> &state : contact)
+  {
+    double largest = 0;
+    for (const ContactPoint<dim> &point : state.points)
+      largest = std::max(largest, std::abs(point.normal_displacement));
+    if (state.deepest_penetration > 0.01 * largest)
+      return line("the body penetrates the foundation of ",
+                  solution.scene.boundaries[state.boundary].name, " by up to ",
+                  labelled(state.deepest_penetration, solution.scene.length_unit), " at (",
+                  state.deepest_penetration_point,
+                  "), more than 1 % of its displacement there; "
+                  "refine there, or put a vertex where Gap has a kink or a jump");
+  }
+  return {};
+}
+
 template <int dim>
 std::string coarse_transition(const Solution<dim> &solution,
                               const std::vector<ContactState<dim>> &contact)
@@ -110,7 +153,9 @@ std::string coarse_transition(const Solution<dim> &solution,
       }
   if (list.empty())
     return {};
-  return "stick and slip meet at " + list +
+  return (solution.scene.has_unilateral_contact() ? "zones of contact meet at "
+                                                  : "stick and slip meet at ") +
+         list +
          " only: more than 1 % of the contact boundary; take more steps of an adaptive method";
 }
 
@@ -349,6 +394,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
   std::vector<std::string> result;
   for (const std::string &warning :
        {tensile_contact(solution, contact), overshooting_multiplier(solution),
+        pulling_pressure(solution, contact), penetration(solution, contact),
         coarse_transition(solution, contact), stagnating_estimate(history),
         rising_estimate(history), round_off(algebraic), elongated_elements(solution),
         sharp_corners(solution.scene.geometry), locking(solution), rich_multiplier(solution),

@@ -199,6 +199,19 @@ std::pair<Point<dim>, Point<dim>> ends_of(const ContactFace<dim> &face)
 }
 } // namespace
 
+std::string mode_name(const ContactMode mode)
+{
+  switch (mode)
+  {
+  case ContactMode::open:
+    return "open";
+  case ContactMode::slip:
+    return "slip";
+  default:
+    return "stick";
+  }
+}
+
 template <int dim>
 std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
 {

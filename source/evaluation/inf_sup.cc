@@ -56,9 +56,9 @@ Degrees make_reference_mesh(const Triangulation<dim> &coarse, const Degrees &deg
 }
 
 /**
- * T, n_multipliers x n_multipliers of the fine space, with `psi_m = sum_k T_mk phi_k` for the
- * coarse basis psi and the fine phi: the values of psi_m at the fine Gauss points. On one half of
- * an edge psi_m has degree p + offset and phi_k the degree p + 4 + offset, so it is exact.
+ * T, n_multipliers x n_multipliers of the fine space, with `psi_m = sum_k T_mk phi_k` for the coarse
+ * basis psi and the fine phi: the values of psi_m at the points of the fine unknowns. On one half of an
+ * edge psi_m has the degree of the coarse multiplier and phi_k four more, so it is exact.
  */
 template <int dim>
 FullMatrix<double> embedding(const ContactSpace<dim> &coarse, const ContactSpace<dim> &fine)
@@ -69,16 +69,22 @@ FullMatrix<double> embedding(const ContactSpace<dim> &coarse, const ContactSpace
   {
     // Both spaces sort their faces along the boundary, so the two halves of a face come together.
     const ContactFace<dim> &half = fine.faces()[k], &face = coarse.faces()[k / 2];
-    const QGauss<1> gauss(std::max(1U, half.n_multipliers));
     const Tensor<1, dim> along = face.point(1.) - face.point(0.);
+    const auto place = [&](const unsigned int unknown)
+    { return (fine.multipliers()[unknown].x - face.point(0.)) * along / along.norm_square(); };
     for (unsigned int i = 0; i < half.n_multipliers; ++i)
     {
-      const double s =
-          (half.point(gauss.point(i)[0]) - face.point(0.)) * along / along.norm_square();
+      const double s = place(half.first_multiplier + i);
       Assert(s > 0. && s < 1., ExcMessage("This is no half of the face."));
       const std::vector<double> psi = coarse.basis_values(face, s);
       for (unsigned int m = 0; m < psi.size(); ++m)
         T(face.first_multiplier + m, half.first_multiplier + i) = psi[m];
+    }
+    for (const unsigned int i : half.pressures)
+    {
+      const std::vector<double> psi = lagrange_basis(face.normal_points, place(i));
+      for (unsigned int m = 0; m < psi.size(); ++m)
+        T(face.pressures[m], i) = psi[m]; // a vertex between two edges has one value from both
     }
   }
   return T;
@@ -155,7 +161,7 @@ InfSup measure_inf_sup(const Scene<dim> &scene, const Triangulation<dim> &triang
   if (result.n_multipliers == 0)
     return result;
   for (const ContactFace<dim> &face : contact_space.faces())
-    if (face.n_multipliers > 0)
+    if (face.n_multipliers > 0 || !face.pressures.empty())
     {
       result.highest_degree = std::max(result.highest_degree, face.degree);
       result.lowest_degree =

@@ -250,6 +250,21 @@ double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &
                          });
 }
 
+/** |p - lambda_Nn|^2 over one contact face. */
+template <int dim>
+double pressure_square(const Solution<dim> &solution, const ContactFace<dim> &face,
+                       const ExactSolution<dim> &exact)
+{
+  return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
+                         [&](const double s, const Point<dim> &x)
+                         {
+                           const double difference =
+                               exact.pressure(x) -
+                               solution.contact_space.pressure(face, solution.z, s);
+                           return difference * difference;
+                         });
+}
+
 /** -L(u) + int g |u_t| of the exact solution on one edge of the boundary. */
 template <int dim>
 double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<dim> &a,
@@ -341,10 +356,16 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
             map_of<dim>(cell).normal(f, point_on_face<dim>(f, Point<dim - 1>(0.5))), exact);
   if (solution.contact_space.n_multipliers() == 0)
     return;
-  double square = 0;
+  double friction = 0, pressure = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
-    square += multiplier_square(solution, face, exact);
-  errors.multiplier_l2 = std::sqrt(square);
+  {
+    friction += scene.has_friction() ? multiplier_square(solution, face, exact) : 0.;
+    pressure += face.condition->is_unilateral() ? pressure_square(solution, face, exact) : 0.;
+  }
+  if (scene.has_friction())
+    errors.multiplier_l2 = std::sqrt(friction);
+  if (scene.has_unilateral_contact())
+    errors.pressure_l2 = std::sqrt(pressure);
   errors.transition = transition_error(transitions(contact), exact);
 }
 

@@ -8,7 +8,7 @@ namespace hpvi
 namespace
 {
 template <int dim>
-Record row(const ContactPoint<dim> &point)
+Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundary)
 {
   Record record;
   for (unsigned int d = 0; d < dim; ++d)
@@ -18,20 +18,22 @@ Record row(const ContactPoint<dim> &point)
   record.emplace_back("multiplier", text(point.lambda));
   record.emplace_back("normal_traction", text(point.normal_traction));
   record.emplace_back("tangential_traction", text(point.tangential_traction));
-  record.emplace_back("state", point.slips ? "slip" : "stick");
+  record.emplace_back("state", mode_name(point.mode()));
+  record.emplace_back("boundary", boundary.name);
+  record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(point.gap));
   return record;
 }
 } // namespace
 
 template <int dim>
-std::string contact_table(const std::vector<ContactState<dim>> &contact)
+std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact)
 {
   std::vector<Record> rows;
   for (const ContactState<dim> &state : contact)
     for (const ContactPoint<dim> &point : state.points)
-      rows.push_back(row(point));
+      rows.push_back(row(point, scene.boundaries[state.boundary]));
   return csv(rows);
 }
 
-template std::string contact_table(const std::vector<ContactState<2>> &);
+template std::string contact_table(const Scene<2> &, const std::vector<ContactState<2>> &);
 } // namespace hpvi

@@ -88,7 +88,7 @@ template <int dim>
 void Output<dim>::write_step(const StepReport<dim> &step)
 {
   if (scene.output.contact && scene.has_contact())
-    write(numbered("contact", step.number, ".csv"), contact_table(step.contact));
+    write(numbered("contact", step.number, ".csv"), contact_table(scene, step.contact));
   if constexpr (dim == 2)
     if (scene.output.mesh_picture)
       write(numbered("mesh", step.number, ".svg"), mesh_picture(step));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
+#include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 
@@ -11,18 +12,9 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-std::string json_point(const Tensor<1, dim> &x)
-{
-  std::string list;
-  for (unsigned int d = 0; d < dim; ++d)
-    list += (d > 0 ? ", " : "") + text(x[d]);
-  return "[" + list + "]";
-}
-
-template <int dim>
 std::string json_force(const BoundaryForce<dim> &force)
 {
-  return json_string(force.boundary) + ": {\"force\": " + json_point(force.force) +
+  return json_string(force.boundary) + ": {\"force\": " + json_point<dim>(force.force) +
          ", \"moment\": " + text(force.moment) + "}";
 }
 
@@ -59,6 +51,7 @@ void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
   stopped_by = step.stopped_by;
   warnings = step.warnings;
   equilibrium = step.equilibrium;
+  contact = step.contact;
 }
 
 template <int dim>
@@ -78,7 +71,9 @@ std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::stri
          ",\n    \"stress\": " + json_string(scene.stress_unit) +
          "\n  },\n  \"steps\": " + std::to_string(steps) +
          ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
-         (stopped_by.empty() ? "" : json_equilibrium(equilibrium)) +
+         (stopped_by.empty() ? ""
+                             : json_equilibrium(equilibrium) + "  \"contact\": " +
+                                   contact_json(scene, contact, equilibrium) + ",\n") +
          "  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
          json_lines(warnings) + "],\n  \"files\": [" + json_lines(files) + "]\n}\n";
 }

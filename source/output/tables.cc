@@ -39,11 +39,12 @@ std::string transition_list(const std::vector<Point<dim>> &points)
   return list;
 }
 
-/** One direction has the friction force where there is one contact boundary alone; else empty. */
+/** Directions are the same all along one contact boundary alone; else empty. */
 template <int dim>
-std::string friction_resultant(const std::vector<ContactState<dim>> &contact)
+std::string resultant(const std::vector<ContactState<dim>> &contact,
+                      double ContactState<dim>::*const component)
 {
-  return contact.size() == 1 ? text(contact.front().friction_resultant) : "";
+  return contact.size() == 1 ? text(contact.front().*component) : "";
 }
 
 /** The row of convergence.csv. */
@@ -54,43 +55,49 @@ Record convergence_record(const StepReport<dim> &step)
   const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
   const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
   const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
-  Record record{{"step", text(step.number)},
-                {"elements", text(space.triangulation().n_active_cells())},
-                {"dofs", text(space.n_dofs())},
-                {"dofs_free", text(space.n_free_dofs())},
-                {"multipliers", text(step.solution.contact_space.n_multipliers())},
-                {"p_min", text(*p_min)},
-                {"p_max", text(*p_max)},
-                {"estimate", text(step.estimate.total())},
-                {"lagrangian", text(step.energies.lagrangian)},
-                {"energy", text(step.energies.energy)},
-                {"slack", text(step.energies.slack)},
-                {"qp_multiplications", text(step.qp.multiplications)},
-                {"seconds", text(step.seconds, 6)},
-                {"estimate_volume", root_of_sum(step.estimate.volume)},
-                {"estimate_jumps", root_of_sum(step.estimate.jumps)},
-                {"estimate_neumann", root_of_sum(step.estimate.neumann)},
-                {"estimate_contact", root_of_sum(step.estimate.contact)},
-                {"qp_cg", text(step.qp.cg_steps)},
-                {"qp_expansion", text(step.qp.expansion_steps)},
-                {"qp_proportioning", text(step.qp.proportioning_steps)},
-                {"qp_dense_solves", text(step.qp.dense_solves)},
-                {"qp_fell_back", text(static_cast<unsigned int>(step.qp.fell_back))},
-                {"qp_projected_gradient", text(step.qp.projected_gradient)},
-                {"condition_raw", condition(step.condition_raw)},
-                {"condition_scaled", condition(step.condition_scaled)},
-                {"estimate_scaled", text(step.scaled_estimate)},
-                {"estimate_relative", known(step.relative_estimate)},
-                {"energy_norm", text(step.energies.norm)},
-                {"friction_resultant", friction_resultant(step.contact)},
-                {"error_energy", known(step.errors.energy)},
-                {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
-                {"error_l2", known(step.errors.l2)},
-                {"error_multiplier", known(step.errors.multiplier_l2)},
-                {"error_transition", known(step.errors.transition)},
-                {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
-                {"effectivity", known(step.scaled_estimate / step.errors.energy)},
-                {"transitions", transition_list(transitions(step.contact))}};
+  Record record{
+      {"step", text(step.number)},
+      {"elements", text(space.triangulation().n_active_cells())},
+      {"dofs", text(space.n_dofs())},
+      {"dofs_free", text(space.n_free_dofs())},
+      {"multipliers", text(step.solution.contact_space.n_multipliers())},
+      {"p_min", text(*p_min)},
+      {"p_max", text(*p_max)},
+      {"estimate", text(step.estimate.total())},
+      {"lagrangian", text(step.energies.lagrangian)},
+      {"energy", text(step.energies.energy)},
+      {"slack", text(step.energies.slack)},
+      {"qp_multiplications", text(step.qp.multiplications)},
+      {"seconds", text(step.seconds, 6)},
+      {"estimate_volume", root_of_sum(step.estimate.volume)},
+      {"estimate_jumps", root_of_sum(step.estimate.jumps)},
+      {"estimate_neumann", root_of_sum(step.estimate.neumann)},
+      {"estimate_contact", root_of_sum(step.estimate.contact)},
+      {"qp_cg", text(step.qp.cg_steps)},
+      {"qp_expansion", text(step.qp.expansion_steps)},
+      {"qp_proportioning", text(step.qp.proportioning_steps)},
+      {"qp_dense_solves", text(step.qp.dense_solves)},
+      {"qp_fell_back", text(static_cast<unsigned int>(step.qp.fell_back))},
+      {"qp_projected_gradient", text(step.qp.projected_gradient)},
+      {"condition_raw", condition(step.condition_raw)},
+      {"condition_scaled", condition(step.condition_scaled)},
+      {"estimate_scaled", text(step.scaled_estimate)},
+      {"estimate_relative", known(step.relative_estimate)},
+      {"energy_norm", text(step.energies.norm)},
+      {"friction_resultant", resultant(step.contact, &ContactState<dim>::friction_resultant)},
+      {"error_energy", known(step.errors.energy)},
+      {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
+      {"error_l2", known(step.errors.l2)},
+      {"error_multiplier", known(step.errors.multiplier_l2)},
+      {"error_transition", known(step.errors.transition)},
+      {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
+      {"effectivity", known(step.scaled_estimate / step.errors.energy)},
+      {"transitions", transition_list(transitions(step.contact))},
+      {"normal_resultant", resultant(step.contact, &ContactState<dim>::normal_resultant)},
+      {"error_pressure", known(step.errors.pressure_l2)},
+      {"estimate_normal", root_of_sum(step.estimate.normal)},
+      {"estimate_penetration", root_of_sum(step.estimate.penetration)},
+      {"estimate_tension", root_of_sum(step.estimate.tension)}};
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);
   return record;

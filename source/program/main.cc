@@ -6,6 +6,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/base/version.h>
 #include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/output/contact_report.h>
 #include <hpvi/output/output.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/interruption.h>
@@ -167,7 +168,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
-  std::pair<std::string, std::string> balance;
+  std::string closing_words; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
   print_table_head(scene.has_known_solution());
@@ -181,8 +182,11 @@ void run(const Scene<dim> &scene, const std::string &directory)
           times += step.times;
           stopped_by = step.stopped_by;
           warnings = step.warnings;
-          balance = {text(step.equilibrium.force_imbalance, 2),
-                     text(step.equilibrium.moment_imbalance, 2)};
+          if (!step.stopped_by.empty())
+            closing_words = contact_in_words(scene, step.contact, step.equilibrium) +
+                            "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
+                            ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
+                            " of their absolute sums\n";
           output.write_step(step);
         },
         [&](const Progress &stage)
@@ -205,8 +209,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   }
   output.finish();
   print_stages(times);
-  std::cout << "\nbalance: forces to " << balance.first << ", moments to " << balance.second
-            << " of their absolute sums\n";
+  std::cout << closing_words;
   for (const std::string &warning : warnings)
     std::cout << "\nwarning: " << warning;
   std::cout << (warnings.empty() ? "" : "\n") << '\n'
@@ -247,11 +250,12 @@ std::string multiplier_degree(const int offset)
 
 void print_inf_sup(const Scene<dim> &scene)
 {
-  if (!scene.has_friction())
+  if (!scene.has_friction() && !scene.has_unilateral_contact())
     throw InputError(scene.origin() +
                      ": Boundary left, right, bottom, top/Friction bound: no boundary "
                      "names one, so there is no multiplier to measure the inf-sup "
-                     "constant of; name a contact with a bound or remove --inf-sup");
+                     "constant of; name a contact with a bound, or a unilateral one, or remove "
+                     "--inf-sup");
   const Scene<dim> refining = refining_scene(scene);
   AdaptiveSolver<dim> solver(refining);
   note_interruptions();

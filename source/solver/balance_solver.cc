@@ -16,7 +16,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int maximum_predictions = 50;  ///< as in ActiveSet
+constexpr unsigned int maximum_predictions = 50; ///< as in ActiveSet
 constexpr unsigned int maximum_minimisations = 200;
 constexpr double flat = 1e-12; ///< relative curvature of phi that is round-off
 
@@ -75,7 +75,7 @@ private:
   Vector<double> &z, &alpha;
   Vector<double> scale; ///< of steps along the gradient, 1 / S_ii
   Vector<double> gap;   ///< e - G'z
-  double smallest = std::numeric_limits<double>::infinity(); ///< gap of all minimisers
+  double smallest = 0;  ///< gap so far of minimisers
   unsigned int minimisations = 0;
   QpReport report;
 };
@@ -100,6 +100,7 @@ QpReport Balance::run()
     alpha = start.alpha;
   }
   minimise();
+  smallest = size();
   while (report.converged && !is_met() && minimisations < maximum_minimisations)
     ascend();
   report.converged = report.converged && is_met();
@@ -108,7 +109,7 @@ QpReport Balance::run()
 
 /**
  * Newton's method for z and alpha at once. Nothing falls from step to step; false unless a prediction
- * stays.
+ * stays that meets the equations.
  */
 bool Balance::predict()
 {
@@ -118,7 +119,10 @@ bool Balance::predict()
   {
     const FeasibleSet::Linearisation next = linearise();
     if (!known.insert(next.walls).second)
-      return next.walls == last;
+    {
+      gap = constraints.gap(z);
+      return next.walls == last && is_met();
+    }
     last = next.walls;
     Step step;
     if (!step_to(next, step))
@@ -154,7 +158,7 @@ void Balance::ascend()
       break;
     const double slope = gap * step.alpha;
     const bool is_steep = slope > 0.9 * slope_at_start; // and phi as good as straight
-    if (!(slope < 0 || is_steep) || high - low <= 1e-15 * high)
+    if (!(slope < 0 || is_steep) || high <= low * (1 + 1e-14))
       break;
     last = here;
     if (slope < 0)

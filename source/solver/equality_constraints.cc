@@ -149,11 +149,10 @@ void Nearest::minimise()
 /** Sets the residual of the nearest point of the affine span and returns that point's weights. */
 std::vector<double> Nearest::minimise_on_span()
 {
-  const auto base = std::max_element(corners.begin(), corners.end(),
-                                     [](const Corner &a, const Corner &b) {
-                                       return (a.extreme.is_ray ? -1. : a.weight) <
-                                              (b.extreme.is_ray ? -1. : b.weight);
-                                     });
+  const auto base = std::max_element(
+      corners.begin(), corners.end(),
+      [](const Corner &a, const Corner &b)
+      { return (a.extreme.is_ray ? -1. : a.weight) < (b.extreme.is_ray ? -1. : b.weight); });
   residual = resultants.e - base->extreme.place;
   std::vector<Force> basis;
   std::vector<std::vector<double>> R; // columns of the triangle in edges = basis R

@@ -256,10 +256,13 @@ invalid "Exact solution/Stick length = 1" "Length = 1" "give less" -- "Boundary 
   "Exact solution/Solution=partial-slip" "Exact solution/Stick length=1"
 hertz=("Exact solution/Solution=hertz" "Exact solution/Transition=2" "${open[@]}" "Boundary bottom/Friction bound="
   "Boundary left/Traction=" "Boundary left/Displacement=exact" "Boundary top/Displacement=exact" "Boundary right/Displacement=exact")
-for gap in "" 0 "0.04*(x-2)^2" "0.01 + (x-2)^2"; do
+for gap in "if(x<1|x>3, 1, 0)" "0.04*(x-2)^2" "0.01 + (x-2)^2"; do
   invalid "Boundary bottom/Gap = $gap" "contradicts Exact solution/Solution = hertz" "give that of the solution" -- \
     "${hertz[@]}" "Boundary bottom/Gap=$gap"
 done
+invalid "Boundary left/Displacement = exact" "Boundary bottom/Contact = unilateral" "exceeds the gap by" -- "${hertz[@]}"
+invalid "Boundary bottom/Friction bound = 1" "contradicts Exact solution/Solution = hertz" "without friction" -- \
+  "${hertz[@]}" "Boundary bottom/Gap=(x-2)^2/E" "Boundary bottom/Friction bound=1"
 partial_slip=("Exact solution/Solution=partial-slip" "Exact solution/Transition=2" "Boundary bottom/Contact=tangential"
   "Boundary left/Traction=" "Boundary left/Displacement=exact" "Boundary top/Displacement=exact" "Boundary right/Displacement=exact")
 invalid "Boundary bottom/Friction bound = 4.5" "contradicts Exact solution/Solution = partial-slip" "give that of the solution" -- \

@@ -101,6 +101,92 @@ def uniform_stress(home, slip, tau, bound, along=0., up=0., pressure=0.2):
     expect("estimate", steps[0]["estimate"], 0)
 
 
+UNILATERAL = """
+subsection Geometry
+  set Upper corner = 2, 1
+  set Subdivisions = 2, 1
+end
+subsection Material
+  set Young's modulus = 10
+  set Poisson's ratio = 0
+end
+subsection Units
+  set Length = mm
+  set Stress = MPa
+end
+subsection Boundary top
+  set Displacement = 0; {down}
+end
+subsection Boundary bottom
+  set Contact = unilateral
+  set Gap     = {gap}
+end
+subsection Adaptivity
+  set Method        = hup3
+  set Maximum steps = 1
+end
+subsection Solver
+  set Normal contact = {kind}
+end
+"""
+
+
+def words(home):
+    return subprocess.run([sys.argv[1], "--output", str(home / "out"), str(home / "scene-file.prm")],
+                          check=True, capture_output=True, text=True).stdout
+
+
+def unilateral(home, kind):
+    """A block pressed down by 0.3 over a gap of 0.1: T_n = -10 (0.3 - 0.1), all of it slips."""
+    points, steps, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap=0.1))
+    for point in points:
+        expect("normal_displacement", point["normal_displacement"], 0.1)
+        expect("gap", point["gap"], 0)
+        expect("normal_traction", point["normal_traction"], -2)
+        if (point["state"], point["boundary"]) != ("slip", "bottom"):
+            sys.exit(f"state is {point['state']} on {point['boundary']}, expected slip on bottom")
+    expect("normal_resultant", steps[0]["normal_resultant"], -4)
+    for part in ("normal", "penetration", "tension"):
+        expect(part, steps[0]["estimate_" + part], 0)
+    contact = summary["contact"]["bottom"]
+    for name, value in (("force", (0, 4)), ("through", (1, 0))):
+        for found, expected in zip(contact[name], value):
+            expect(name, found, expected)
+    expect("largest_pressure", contact["largest_pressure"], 2)
+    expect("length", contact["length"], 2)
+    expect("zone", contact["zones"][0]["length"], 2)
+    if [zone["state"] for zone in contact["zones"]] != ["slip"]:
+        sys.exit(f"zones are {contact['zones']}")
+    text = words(home)
+    for line in ("contact bottom: force (0 4) through (1 0)", "pressure up to 2 MPa at (",
+                 "slip from (0 0) to (2 0), length 2 mm", "support top: force (0 -4), moment"):
+        if line not in text:
+            sys.exit(f"the console does not say: {line}\n{text}")
+
+    # It does not reach the plane: open, and exactly without traction.
+    points, steps, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap=0.4))
+    for point in points:
+        expect("gap", point["gap"], 0.1)
+        if (point["state"], float(point["normal_traction"])) != ("open", 0):
+            sys.exit(f"state is {point['state']} with {point['normal_traction']}, expected open with 0")
+    expect("normal_resultant", steps[0]["normal_resultant"], 0, 0)
+    contact = summary["contact"]["bottom"]
+    if contact["through"] is not None or contact["largest_pressure_at"] is not None:
+        sys.exit(f"a force where there is none: {contact}")
+    text = words(home)
+    for line in ("contact bottom: no force", "open from (0 0) to (2 0), length 2 mm"):
+        if line not in text:
+            sys.exit(f"the console does not say: {line}\n{text}")
+
+    # Half of it: the block stands on x < 1 and its pressure pushes off centre.
+    _, _, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap="if(x<1,0.1,0.4)"))
+    contact = summary["contact"]["bottom"]
+    if [zone["state"] for zone in contact["zones"]] != ["slip", "open"]:
+        sys.exit(f"zones are {contact['zones']}")
+    if not contact["through"][0] < 0.8 or contact["force"][1] <= 0:
+        sys.exit(f"the force does not act on the left: {contact}")
+
+
 with tempfile.TemporaryDirectory() as directory:
     home = pathlib.Path(directory)
     for sign in (1, -1):
@@ -109,10 +195,17 @@ with tempfile.TemporaryDirectory() as directory:
         uniform_stress(home, slip=0, tau=sign * 0.1, bound=0.4, along=sign * 0.2, up=0.5)
         uniform_stress(home, slip=sign * 0.05, tau=sign * 0.1, bound=0.05, along=-sign * 0.05)
 
+    for kind in ("nodes", "multiplier"):
+        unilateral(home, kind)
+
     # Two contact boundaries have no tangent in common.
     points, steps, summary = run(home, CORNER)
     if steps[-1]["friction_resultant"] != "" or summary["final"]["friction_resultant"] is not None:
         sys.exit("two contact boundaries share a friction_resultant")
+    if steps[-1]["normal_resultant"] != "":
+        sys.exit("two contact boundaries share a normal_resultant")
+    if list(summary["contact"]) != ["left", "bottom"]:
+        sys.exit(f"the summary has the contact boundaries {list(summary['contact'])}")
     left = [p for p in points if float(p["x"]) == 0]
     bottom = [p for p in points if float(p["y"]) == 0]
     if left + bottom != points:

@@ -4,6 +4,7 @@
 
 #include <hpvi/discretisation/solution.h>
 
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -18,6 +19,8 @@ enum class ContactMode
   slip, ///< |lambda| = 1 or g = 0
   stick
 };
+
+std::string mode_name(ContactMode mode); ///< open, slip, stick
 
 /** What u_N, z_N do at one Gauss point of the contact boundary. Tractions are the contact's alone. */
 template <int dim>

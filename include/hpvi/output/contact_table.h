@@ -11,7 +11,7 @@ namespace hpvi
 {
 /** `contact-NN.csv`: the points of each contact boundary, along its tangent. */
 template <int dim>
-std::string contact_table(const std::vector<ContactState<dim>> &contact);
+std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact);
 } // namespace hpvi
 
 #endif

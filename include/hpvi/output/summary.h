@@ -22,6 +22,7 @@ struct Summary
   StageTimes times;               ///< sums over them
   std::string stopped_by;         ///< the limit that ended the run
   std::vector<std::string> warnings;
+  std::vector<ContactState<dim>> contact; ///< of the last step
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
   /** Count a finished step, whose row is @p row. */

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_contact_report_h
+#define hpvi_contact_report_h
+
+#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/evaluation/equilibrium.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A point of the line along which the force of @p boundary acts, `(x - c) x F = M` with the moment M
+ * about @p centre: where it meets the contact edge, or nearest to c where it is parallel to it. Null where
+ * there is no force beyond round-off beside @p scale [stress length^(dim-1)].
+ */
+template <int dim>
+std::optional<dealii::Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
+                                                 const dealii::Point<dim> &centre,
+                                                 const ContactState<dim> &contact, double scale);
+
+/** What each contact boundary and each support does to the body, in words, line by line. */
+template <int dim>
+std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                             const Equilibrium<dim> &equilibrium);
+
+/** The contact boundaries as the object of JSON with their names. */
+template <int dim>
+std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                         const Equilibrium<dim> &equilibrium);
+
+/** A point or vector as an array of JSON. */
+template <int dim>
+std::string json_point(const dealii::Tensor<1, dim> &x);
+} // namespace hpvi
+
+#endif

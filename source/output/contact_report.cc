@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/output/contact_report.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr int digits = 6;
+
+/** As in "(0 7.6969)". */
+template <int dim>
+std::string point_text(const Tensor<1, dim> &x)
+{
+  std::string list;
+  for (unsigned int d = 0; d < dim; ++d)
+    list += (d > 0 ? " " : "") + text(x[d], digits);
+  return "(" + list + ")";
+}
+
+/** A number with its unit, unless that is 1. */
+std::string labelled(const double value, const std::string &unit)
+{
+  return text(value, digits) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+template <int dim>
+const BoundaryForce<dim> &force_of(const Equilibrium<dim> &equilibrium, const std::string &boundary)
+{
+  return *std::find_if(equilibrium.reactions.begin(), equilibrium.reactions.end(),
+                       [&](const BoundaryForce<dim> &force) { return force.boundary == boundary; });
+}
+
+/** Forces below a part of this are round-off. */
+template <int dim>
+double largest_force(const Equilibrium<dim> &equilibrium)
+{
+  double largest = equilibrium.loads.force.norm();
+  for (const BoundaryForce<dim> &force : equilibrium.reactions)
+    largest = std::max(largest, force.force.norm());
+  return largest;
+}
+
+/** Without the round-off of a component. */
+template <int dim>
+Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(x[d]) < 1e-12 * scale)
+      x[d] = 0;
+  return x;
+}
+
+template <int dim>
+std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
+                     const Equilibrium<dim> &equilibrium)
+{
+  const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
+  const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
+  const double scale = largest_force(equilibrium);
+  std::string words = "\ncontact " + boundary.name + ": ";
+  if (const auto line = line_of_action(force, equilibrium.centre, state, scale))
+    words += "force " + point_text(clean(force.force, scale)) + " through " +
+             point_text<dim>(clean<dim>(*line, state.length));
+  else
+    words += "no force";
+  if (state.highest_pressure > 0)
+    words += "\n  pressure up to " + labelled(state.highest_pressure, scene.stress_unit) + " at " +
+             point_text<dim>(state.highest_pressure_point);
+  for (const ContactZone<dim> &zone : state.zones)
+    words += "\n  " + mode_name(zone.mode) + " from " + point_text<dim>(zone.begin) + " to " +
+             point_text<dim>(zone.end) + ", length " +
+             labelled(zone.begin.distance(zone.end), scene.length_unit);
+  if (state.deepest_penetration > 0)
+    words += "\n  penetration between points up to " +
+             labelled(state.deepest_penetration, scene.length_unit) + " at " +
+             point_text<dim>(state.deepest_penetration_point);
+  return words + "\n";
+}
+
+template <int dim>
+std::string json_zone(const ContactZone<dim> &zone)
+{
+  return "{\"state\": " + json_string(mode_name(zone.mode)) +
+         ", \"from\": " + json_point<dim>(zone.begin) + ", \"to\": " + json_point<dim>(zone.end) +
+         ", \"length\": " + text(zone.begin.distance(zone.end)) + "}";
+}
+
+/** "at" is null where the value is zero. */
+template <int dim>
+std::string json_extreme(const std::string &name, const double value, const Point<dim> &x)
+{
+  return ",\n      " + json_string(name) + ": " + text(value) + ", " + json_string(name + "_at") +
+         ": " + (value > 0 ? json_point<dim>(x) : "null");
+}
+
+template <int dim>
+std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
+                 const Equilibrium<dim> &equilibrium)
+{
+  const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
+  const auto line = line_of_action(force, equilibrium.centre, state, largest_force(equilibrium));
+  std::string zones;
+  for (const ContactZone<dim> &zone : state.zones)
+    zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
+  return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
+         ",\n      \"through\": " + (line ? json_point<dim>(*line) : "null") +
+         ",\n      \"normal_resultant\": " + text(state.normal_resultant) +
+         ",\n      \"friction_resultant\": " + text(state.friction_resultant) +
+         json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
+         json_extreme("largest_penetration", state.deepest_penetration,
+                      state.deepest_penetration_point) +
+         ",\n      \"length\": " + text(state.length) + ",\n      \"zones\": [" + zones +
+         "\n      ]\n    }";
+}
+} // namespace
+
+template <int dim>
+std::string json_point(const Tensor<1, dim> &x)
+{
+  std::string list;
+  for (unsigned int d = 0; d < dim; ++d)
+    list += (d > 0 ? ", " : "") + text(x[d]);
+  return "[" + list + "]";
+}
+
+template <int dim>
+std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
+                                         const Point<dim> &centre, const ContactState<dim> &contact,
+                                         const double scale)
+{
+  static_assert(dim == 2, "a moment is a number");
+  const Tensor<1, dim> &F = boundary.force;
+  if (!(F.norm() > 1e-12 * scale))
+    return std::nullopt;
+  const auto cross = [](const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+  { return a[0] * b[1] - a[1] * b[0]; };
+  const Point<dim> &begin = contact.zones.front().begin;
+  const Tensor<1, dim> edge = contact.zones.back().end - begin;
+  // (begin + s edge - c) x F = M
+  if (std::abs(cross(edge, F)) > 1e-6 * edge.norm() * F.norm())
+    return begin + (boundary.moment - cross(begin - centre, F)) / cross(edge, F) * edge;
+  return centre + boundary.moment / F.norm_square() * Tensor<1, dim>({F[1], -F[0]});
+}
+
+template <int dim>
+std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                             const Equilibrium<dim> &equilibrium)
+{
+  std::string words;
+  for (const ContactState<dim> &state : contact)
+    words += in_words(scene, state, equilibrium);
+  const double scale = largest_force(equilibrium);
+  bool first = true;
+  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
+    if (std::none_of(contact.begin(), contact.end(),
+                     [&](const ContactState<dim> &state)
+                     { return scene.boundaries[state.boundary].name == reaction.boundary; }))
+    {
+      words += (first ? "\nsupport " : "support ") + reaction.boundary + ": force " +
+               point_text(clean(reaction.force, scale)) + ", moment " +
+               text(reaction.moment, digits) + " about " + point_text<dim>(equilibrium.centre) +
+               "\n";
+      first = false;
+    }
+  return words;
+}
+
+template <int dim>
+std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                         const Equilibrium<dim> &equilibrium)
+{
+  std::string list;
+  for (const ContactState<dim> &state : contact)
+    list += (list.empty() ? "\n    " : ",\n    ") + json(scene, state, equilibrium);
+  return "{" + list + (list.empty() ? "}" : "\n  }");
+}
+
+template std::string json_point(const Tensor<1, 2> &);
+template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const Point<2> &,
+                                                const ContactState<2> &, double);
+template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,
+                                      const Equilibrium<2> &);
+template std::string contact_json(const Scene<2> &, const std::vector<ContactState<2>> &,
+                                  const Equilibrium<2> &);
+} // namespace hpvi
