@@ -9,14 +9,13 @@ doc/contact.md, between its marker comments.
 import argparse
 import os
 import pathlib
-import statistics
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from stability import (COLOURS, ERROR_LABEL, GAUSS, N_LABEL, Laboratory, chart, edges_of_points,
-                       ended, legend, number, plain, progress, put_table, save, write_csv)
+from stability import (COLOURS, ERROR_LABEL, N_LABEL, Laboratory, chart, number, plain, progress,
+                       put_table, save, write_csv)
 
 HERE = pathlib.Path(__file__).resolve().parent
 GALLERY = HERE / "contact"
@@ -69,21 +68,14 @@ def references(lab):
     return against
 
 
-def pressure_errors(contact):
-    """Relative L2 error and largest value of Hertz's pressure, by the Gauss points of a table."""
-    x, pressure = contact["x"], -contact["normal_traction"]
-    exact = P0 * np.sqrt(np.maximum(1 - (x / A) ** 2, 0))
-    weights = np.zeros_like(x)
-    for points, _, h in edges_of_points(x, -2.):
-        n = points.stop - points.start
-        weights[points] = h * np.polynomial.legendre.leggauss(n)[1] / 2
-    error = np.sqrt(np.sum(weights * (pressure - exact) ** 2) / (P0 ** 2 * 4 * A / 3))
-    return error, abs(np.max(pressure - exact + P0) / P0 - 1), np.min(pressure) / P0
+def seconds_of_steps(runs):
+    """Seconds up to each step: the least time of each over several runs, summed."""
+    return np.cumsum(np.min([np.diff(r.column("seconds"), prepend=0) for r in runs], axis=0))
 
 
 def measure(lab, against):
     """Both discretisations by each method: errors from one run, times the median of several."""
-    table, runs = [], {}
+    table = []
     for scene in PROBLEMS:
         for kind in KINDS:
             for method in METHODS:
@@ -91,13 +83,11 @@ def measure(lab, against):
                 one = settings(method, kind, 40000)
                 timed = [solved(lab.run(scene, f"{scene}-{kind}-{method}", *one))
                          for _ in range(REPEATS)]
-                run = runs[scene, kind, method] = solved(
-                    lab.run(scene, f"{scene}-{kind}-{method}", *one,
-                            "Output/Contact tables=true", *against[scene]))
-                contacts = run.contacts() if scene == "hertz" else [None] * len(run.rows)
-                for k, (row, contact) in enumerate(zip(run.rows, contacts)):
-                    seconds = statistics.median(t.value("seconds", k) for t in timed)
-                    pressure = pressure_errors(contact) if contact else [np.nan] * 3
+                run = solved(lab.run(scene, f"{scene}-{kind}-{method}", *one, *against[scene]))
+                pressure = run.column("error_pressure") / (P0 * np.sqrt(4 * A / 3))
+                resultant = np.abs(run.column("normal_resultant") / (-np.pi / 2 * A * P0) - 1)
+                for k, (row, seconds) in enumerate(zip(run.rows, seconds_of_steps(timed))):
+                    exact = scene == "hertz"
                     table.append({"problem": scene, "normal contact": kind, "method": method,
                                   "step": row["step"], "dofs_free": row["dofs_free"],
                                   "contact unknowns": row["multipliers"],
@@ -105,14 +95,13 @@ def measure(lab, against):
                                   "error_relative": row["error_relative"],
                                   "effectivity": row["effectivity"],
                                   "energy_difference": row["energy_difference"],
-                                  "error_half_width": row["error_transition"],
-                                  "pressure_l2": number(pressure[0], 5),
-                                  "pressure_largest": number(pressure[1], 5),
-                                  "pressure_least": number(pressure[2], 5),
+                                  "pressure_l2": number(pressure[k], 5) if exact else "-",
+                                  "resultant": number(resultant[k], 5) if exact else "-",
+                                  "half_width": row["error_transition"] if exact else "-",
                                   "qp_dense_solves": row["qp_dense_solves"],
                                   "qp_fell_back": row["qp_fell_back"]})
     write_csv(GALLERY / "methods.csv", table)
-    return table, runs
+    return table
 
 
 def select(table, scene, kind, method, column):
@@ -171,22 +160,49 @@ def compared(table):
     put_table("compared", rows, page=PAGE)
 
 
-def pressures(table):
-    """What Hertz's contact looks like for about the same number of unknowns."""
+def factors(table):
+    """Error of the multiplier over error of nodes for the same number of unknowns."""
+    sizes = (300, 1000, 3000, 10000, 30000)
+    cases = [(scene, method, "error_relative", "energy norm")
+             for scene in PROBLEMS for method in METHODS]
+    cases += [("hertz", method, "pressure_l2", "pressure, L2") for method in METHODS]
     rows = []
-    for target in (1000, 3000, 10000, 30000, 60000):
+    for scene, method, column, name in cases:
+        errors = []
+        for kind in KINDS:
+            n = select(table, scene, kind, method, "dofs_free")
+            errors.append(np.interp(np.cbrt(sizes), np.cbrt(n),
+                                    np.log(select(table, scene, kind, method, column)),
+                                    left=np.nan, right=np.nan))
+        ratios = np.exp(errors[1] - errors[0])
+        rows.append({"problem": PROBLEMS[scene], "method": method, "error": name,
+                     **{f"N = {n}": plain(r) for n, r in zip(sizes, ratios)},
+                     "mean": plain(np.exp(np.nanmean(np.log(ratios))))})
+    put_table("factors", rows, page=PAGE)
+
+
+def pressures(lab, table):
+    """What is read off Hertz's contact for about the same number of unknowns."""
+    rows = []
+    for target in (1000, 3000, 10000, 30000):
         for kind in KINDS:
             n = select(table, "hertz", kind, "hpa3", "dofs_free")
             k = int(np.argmin(np.abs(np.log(n / target))))
-            value = {c: select(table, "hertz", kind, "hpa3", c)[k] for c in
-                     ("error_relative", "pressure_l2", "pressure_largest", "pressure_least",
-                      "error_half_width")}
+            run = solved(lab.run("hertz", "pressures", *settings("hpa3", kind, 1000000),
+                                 f"Adaptivity/Maximum steps={k + 1}"))
+            contact = run.summary["contact"]["bottom"]
+            touching = sum(z["length"] for z in contact["zones"] if z["state"] != "open")
+            value = {c: select(table, "hertz", kind, "hpa3", c)[k]
+                     for c in ("error_relative", "pressure_l2", "resultant")}
             rows.append({"normal contact": kind, "N": int(n[k]),
                          "energy norm": number(value["error_relative"], 2),
                          "pressure, L2": number(value["pressure_l2"], 2),
-                         "largest pressure": number(value["pressure_largest"], 2),
-                         "least pressure / p_0": number(min(value["pressure_least"], 0.), 2),
-                         "half-width [mm]": number(value["error_half_width"], 2)})
+                         "largest pressure":
+                             number(abs(contact["largest_pressure"] / P0 - 1), 2),
+                         "resultant": number(value["resultant"], 2),
+                         "width": number(abs(touching / (2 * A) - 1), 2),
+                         "largest penetration / a":
+                             number(contact["largest_penetration"] / A, 2)})
     put_table("pressures", rows, page=PAGE)
 
 
@@ -216,9 +232,9 @@ def draw_chart(table, scene):
 def draw_pressure_errors(table):
     figure, panels = chart(3, "Hertz, hpa3: errors of what is read off the contact", 13)
     for axes, column, label in zip(
-            panels, ("pressure_l2", "pressure_largest", "error_half_width"),
-            ("pressure, relative error in $L_2$ [-]", "largest pressure, relative error [-]",
-             "half-width, distance [mm]")):
+            panels, ("pressure_l2", "resultant", "half_width"),
+            ("pressure, relative error in $L_2$ [-]", "resultant, relative error [-]",
+             "ends of the contact, largest distance [mm]")):
         for kind, (colour, marker) in KINDS.items():
             axes.loglog(select(table, "hertz", kind, "hpa3", "dofs_free"),
                         select(table, "hertz", kind, "hpa3", column), color=colour, marker=marker,
@@ -296,13 +312,14 @@ def main():
     draw_gap(lab)
     draw_scenes(lab)
     against = references(lab)
-    table, _ = measure(lab, against)
+    table = measure(lab, against)
     for scene in PROBLEMS:
         draw_chart(table, scene)
     draw_pressure_errors(table)
     fits(table)
     compared(table)
-    pressures(table)
+    factors(table)
+    pressures(lab, table)
     progress(f"charts and tables: {GALLERY}")
 
 
