@@ -95,7 +95,7 @@ class Run:
         with open(table) as file:
             rows = list(csv.DictReader(file))
         return {name: np.array([float(row[name]) for row in rows])
-                for name in (rows[0] if rows else []) if name != "state"}
+                for name in (rows[0] if rows else []) if name not in ("boundary", "state")}
 
 
 class Laboratory:
@@ -165,26 +165,29 @@ def warned(run, pattern):
                      for m in found if m) or "-"
 
 
-def put_table(name, rows, hidden=()):
-    """Replace the table between the marker comments of doc/stability.md, and write its CSV.
-
-    The page leaves out hidden columns, those of dashes alone, and exit statuses where all are 0.
-    """
-    with open(GALLERY / f"{name}.csv", "w", newline="") as file:
+def write_csv(path, rows):
+    with open(path, "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def put_table(name, rows, hidden=(), page="stability"):
+    """Replace the table between the marker comments of doc/PAGE.md, and write its CSV to doc/PAGE.
+
+    The page leaves out hidden columns, those of dashes alone, and exit statuses where all are 0.
+    """
+    write_csv(HERE / page / f"{name}.csv", rows)
     head = [c for c in rows[0] if c not in hidden and
             {str(r[c]) for r in rows} not in ([{"-"}, {"0"}] if c == "ended" else [{"-"}])]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     lines += ["| " + " | ".join(str(r[c]) for c in head) + " |" for r in rows]
-    page = HERE / "stability.md"
     text, count = re.subn(rf"(<!-- {name}: begin[^\n]*\n).*?(<!-- {name}: end)",
-                          lambda m: m[1] + "\n".join(lines) + "\n" + m[2], page.read_text(),
-                          flags=re.S)
+                          lambda m: m[1] + "\n".join(lines) + "\n" + m[2],
+                          (HERE / f"{page}.md").read_text(), flags=re.S)
     if count != 1:
-        sys.exit(f"{page} has no place for the table {name}")
-    page.write_text(text)
+        sys.exit(f"doc/{page}.md has no place for the table {name}")
+    (HERE / f"{page}.md").write_text(text)
 
 
 def chart(columns, title, width=None, height=4.2, sharey=False):
@@ -205,8 +208,8 @@ def legend(axes, **options):
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), **options)
 
 
-def save(figure, name):
-    figure.savefig(GALLERY / name, dpi=100)
+def save(figure, name, page="stability"):
+    figure.savefig(HERE / page / name, dpi=100)
     plt.close(figure)
 
 
@@ -533,11 +536,15 @@ def edges_of_points(x, start):
     groups, k = [], 0
     while k < len(x):
         for n in range(min(19, len(x) - k), 0, -1):
-            h = (x[k] - start) / GAUSS[n][0]
-            if np.max(np.abs(start + h * GAUSS[n] - x[k:k + n])) < 1e-9 * h + 1e-15:
-                break  # one point always fits
-        groups.append((slice(k, k + n), start, h))
-        k, start = k + n, start + h
+            # The first and last point give an edge of any other number of points: no error adds up.
+            h = 2 * (x[k] - start) if n == 1 else \
+                (x[k + n - 1] - x[k]) / (GAUSS[n][-1] - GAUSS[n][0])
+            begin = x[k] - h * GAUSS[n][0]
+            if abs(begin - start) < 1e-6 * h and \
+                    np.max(np.abs(begin + h * GAUSS[n] - x[k:k + n])) < 1e-7 * h:
+                break
+        groups.append((slice(k, k + n), begin, h))
+        k, start = k + n, begin + h
     return groups
 
 
@@ -935,6 +942,265 @@ def determinism(lab):
     put_table("determinism", table)
 
 
+# ---------------------------------------------------------------- contact that opens and closes
+
+
+KINDS = ("nodes", "multiplier")
+
+
+def normal(kind):
+    return f"Solver/Normal contact={kind}"
+
+
+def hertz(a, k=10., centre="0"):
+    """Hertz's contact of half-width a under the same gap: p_0 = k a."""
+    return [f"Exact solution/Length={a!r}", f"Exact solution/Pressure={k * a!r}",
+            f"Exact solution/Transition={centre}",
+            f"Boundary bottom/Gap={k * 0.00455!r}*(x - {centre})^2"]
+
+
+def bottom(run):
+    """What summary.json says of the contact boundary."""
+    return run.summary.get("contact", {}).get("bottom", {})
+
+
+def touching(run):
+    return sum(z["length"] for z in bottom(run).get("zones", []) if z["state"] != "open")
+
+
+def qp(run):
+    """How hard the quadratic programs were."""
+    if not run.rows:
+        return {"dense solves, most": "-", "all": "-", "steps that fell back": "-"}
+    solves = run.column("qp_dense_solves")
+    return {"dense solves, most": plain(np.max(solves), 0), "all": plain(np.sum(solves), 0),
+            "steps that fell back": plain(np.sum(run.column("qp_fell_back")), 0)}
+
+
+def off(value, exact, digits=2):
+    """Relative distance, 0 for round-off."""
+    return small(abs(value / exact - 1)) if value is not None else "-"
+
+
+def row_18(lab):
+    figure, panels = chart(2, "Hertz, hpa3: the contact ends at a vertex, and inside an edge", 11,
+                           sharey=True)
+    table = []
+    lengths = {"1, a vertex": 1., "1 - 1e-9": 1 - 1e-9, "1/2, a vertex later": 0.5, "0.7": 0.7,
+               "1/3": 1 / 3}
+    methods = {"hpa3": ["Adaptivity/Maximum unknowns=15000", "Adaptivity/Maximum steps=40"],
+               "pu": ["Adaptivity/Maximum steps=12", "Adaptivity/Maximum degree=14",
+                      "Adaptivity/Start degree=2"]}
+    for (name, a), method in ((one, m) for m in methods for one in lengths.items()):
+        for axes, kind in zip(panels, KINDS):
+            run = lab.run("hertz", "vertex", *hertz(a), normal(kind), f"Adaptivity/Method={method}",
+                          *methods[method])
+            error = run.column("error_relative")
+            if method == "hpa3":
+                axes.loglog(run.column("dofs_free"), error,
+                            **style(list(lengths).index(name)), label=f"a = {name}")
+            table.append({"a": name, "method": method, "normal contact": kind, "ended": ended(run),
+                          "N": run.last.get("dofs_free", "-"),
+                          "error_relative": number(run.value("error_relative"), 2),
+                          "pressure, L2": number(run.value("error_pressure") / (
+                              10 * a * math.sqrt(4 * a / 3)), 2),
+                          "ends off by": small(run.value("error_transition")),
+                          "rises in steps": int(np.sum(error[1:] > error[:-1])),
+                          "least effectivity": plain(np.min(run.column("effectivity"))),
+                          **qp(run)})
+    for axes, kind in zip(panels, KINDS):
+        axes.set_title(kind)
+        axes.set_xlabel(N_LABEL)
+        axes.legend(fontsize=8)
+    panels[0].set_ylabel(ERROR_LABEL)
+    save(figure, "opening.png")
+    put_table("opening", table, hidden=["all"])
+
+
+CARE = "(the error indicator rose|contact pulls|.lambda. reaches|its place is not unique)"
+
+
+def row_19(lab):
+    table = []
+    cases = {f"a = {a}, centre {centre}": (float(a), centre)
+             for centre in ("0", "0.3") for a in ("0.07", "7e-3", "7e-4", "7e-6")}
+    for case, (a, centre) in cases.items():
+        for kind in KINDS:
+            run = lab.run("hertz", "point", *hertz(a, centre=centre), normal(kind),
+                          "Adaptivity/Maximum steps=40", "Adaptivity/Maximum unknowns=30000")
+            table.append({"case": case, "normal contact": kind, "ended": ended(run),
+                          "steps": len(run.rows), "N": run.last.get("dofs_free", "-"),
+                          "first step that touches": first_touch(run),
+                          "relative indicator": number(run.value("estimate_relative"), 2),
+                          "error_relative": number(run.value("error_relative"), 2),
+                          "resultant off by": off(run.value("normal_resultant"),
+                                                  -math.pi / 2 * a * 10 * a),
+                          "largest pressure off by": off(bottom(run).get("largest_pressure"),
+                                                         10 * a),
+                          "width off by": off(touching(run), 2 * a), **qp(run),
+                          "warning": warned(run, CARE)})
+    still = ["Exact solution/Solution=none", *(f"Boundary {side}/Displacement=0; 0"
+                                               for side in ("left", "right", "top"))]
+    for case, scene, settings in (
+            ("no load, one point touches", "hertz", still),
+            ("no load, one point touches, not a node", "hertz",
+             [*still, "Boundary bottom/Gap=0.0455*(x - 0.3)^2"]),
+            ("weight on a curved support", "resting",
+             ["Boundary left/Traction=0; 0", "Boundary bottom/Gap=10*(x - 1)^2"]),
+            ("weight on a tip", "resting",
+             ["Boundary left/Traction=0; 0", "Boundary bottom/Gap=10*abs(x - 1)"]),
+            ("weight on a tip beside the middle", "resting",
+             ["Boundary left/Traction=0; 0", "Boundary bottom/Gap=10*abs(x - 1.25)"])):
+        for kind in KINDS:
+            run = lab.run(scene, "point", *settings, normal(kind))
+            table.append({"case": case, "normal contact": kind, "ended": ended(run),
+                          "steps": len(run.rows) or "-", "N": run.last.get("dofs_free", "-"),
+                          "first step that touches": first_touch(run),
+                          "relative indicator": number(run.value("estimate_relative"), 2),
+                          "error_relative": "-",
+                          "resultant off by": off(run.value("normal_resultant"), -4.)
+                          if scene == "resting" and run.rows else "-",
+                          "largest pressure off by": "-", "width off by": "-", **qp(run),
+                          "warning": warned(run, CARE)})
+    put_table("point", table, hidden=["all"])
+
+
+def first_touch(run):
+    pressed = np.flatnonzero(np.abs(run.column("normal_resultant")) > 0)
+    return int(pressed[0]) + 1 if len(pressed) else "-"
+
+
+BLOCK = ["Adaptivity/Maximum steps=8", "Exact solution/Solution=none",
+         "Geometry/Lower corner=0, 0", "Geometry/Upper corner=2, 1", "Geometry/Subdivisions=3, 2",
+         "Output/Contact tables=true"]  # uneven: bisection meets no special point
+MODULUS, LAME = 200 / 1.3 * 0.7 / 0.4, 200 / 1.3 * 0.3 / 0.4  # lambda + 2 mu, lambda; nu = 0.3
+
+
+def patch_row(run, u_n, pressure):
+    """Distance of a run from a constant strain."""
+    contact = run.contact()
+    row = {"ended": ended(run), "steps": len(run.rows) or "-",
+           "N": run.last.get("dofs_free", "-"),
+           "pressure": number(pressure, 3) if pressure > 1e-16 else "0"}
+    if contact:
+        row.update({"u_n off by": number(float(np.max(np.abs(
+                        contact["normal_displacement"] - u_n))), 2),
+                    "pressure off by": number(float(np.max(np.abs(
+                        contact["normal_traction"] + pressure))), 2)})
+    else:
+        row.update({"u_n off by": "-", "pressure off by": "-"})
+    return {**row, "open": plain(bottom(run).get("length", math.nan) - touching(run), 3),
+            **qp(run), "warning": "; ".join(run.warnings) or "-"}
+
+
+def row_20(lab):
+    """A block pressed between two plates bulges towards the plane and just reaches it."""
+    table = []
+    squeeze = 0.01  # strain
+    reach = LAME / MODULUS * squeeze  # the bottom comes down by this if nothing stops it
+    for text, factor in (("1 - 1e-3", 1 - 1e-3), ("1 - 1e-9", 1 - 1e-9), ("1 - 1e-14", 1 - 1e-14),
+                         ("1", 1.), ("1 + 1e-14", 1 + 1e-14), ("1 + 1e-9", 1 + 1e-9),
+                         ("1 + 1e-3", 1 + 1e-3)):
+        for kind in KINDS:
+            gap = reach * factor
+            run = lab.run("hertz", "grazing", *BLOCK, normal(kind),
+                          "Boundary left/Displacement=0; free", "Boundary top/Displacement=free; 0",
+                          f"Boundary right/Displacement=-{2 * squeeze}; free",
+                          f"Boundary bottom/Gap={gap!r}")
+            table.append({"gap / reach": text, "normal contact": kind,
+                          **patch_row(run, min(gap, reach),
+                                      max(0., MODULUS * reach * (1 - factor)))})
+    put_table("grazing", table, hidden=["all"])
+
+
+def row_21(lab):
+    """Press fit: the plane stands higher than the body's bottom."""
+    table = []
+    for gap in ("-1e-9", "-0.01", "-0.5", "-1e6"):
+        for kind in KINDS:
+            run = lab.run("hertz", "interference", *BLOCK, normal(kind),
+                          "Boundary left/Displacement=0; free", "Boundary top/Displacement=free; 0",
+                          "Boundary right/Displacement=0; free", f"Boundary bottom/Gap={gap}")
+            table.append({"case": f"gap {gap}", "normal contact": kind,
+                          **patch_row(run, float(gap), -MODULUS * float(gap))})
+    free = ["Boundary left/Displacement=0; free", "Boundary top/Displacement=free; 0",
+            "Boundary right/Displacement=", "Boundary bottom/Friction bound="]
+    others = {"a hump of 0.1": "-0.1*exp(-4*x^2)",
+              "a step, on a vertex": "if(x < 2/3, -0.1, 0.1)",
+              "a step, inside an edge": "if(x < 0.5, -0.1, 0.1)",
+              "a tilt": "0.05 - 0.1*x"}
+    for case, gap in others.items():
+        for kind in KINDS:
+            run = lab.run("hertz", "interference", *BLOCK, normal(kind), *free,
+                          "Adaptivity/Maximum steps=14", f"Boundary bottom/Gap={gap}")
+            row = {"case": case, "normal contact": kind, **patch_row(run, 0., 0.)}
+            row.update({"pressure": number(bottom(run).get("largest_pressure", math.nan), 3),
+                        "u_n off by": "-", "pressure off by": "-"})
+            table.append(row)
+    for kind in KINDS:
+        run = lab.run("hertz", "interference", *BLOCK, normal(kind), *free[1:],
+                      "Boundary left/Displacement=0; 0", "Boundary bottom/Gap=-0.01")
+        row = {"case": "against a clamp", "normal contact": kind, **patch_row(run, 0., 0.)}
+        row.update({"pressure": "-", "u_n off by": "-", "pressure off by": "-"})
+        table.append(row)
+    put_table("interference", table, hidden=["all"])
+
+
+def row_22(lab):
+    table = []
+    for load in ("1e-12", "1e-6", "1", "1e6"):
+        for kind in KINDS:
+            run = lab.run("receding", "receding", normal(kind),
+                          f"Boundary top/Traction=0; if(x < 0.5, -{load}, 0)")
+            table.append({"load": load, "normal contact": kind, "ended": ended(run),
+                          "N": run.last.get("dofs_free", "-"),
+                          "touches up to x": f"{touching(run):.8f}",
+                          "J / load^2": f"{run.value('energy') / float(load) ** 2:.10e}",
+                          "resultant / load": f"{run.value('normal_resultant') / float(load):.12f}",
+                          "relative indicator": number(run.value("estimate_relative"), 2),
+                          **qp(run), "warning": "; ".join(run.warnings) or "-"})
+    put_table("receding", table)
+
+
+def row_23(lab):
+    table = []
+    cases = {"Hertz, %d levels": ("hertz", "-0.7, 0; 0.7, 0"),
+             "Hertz, %d levels beside the end": ("hertz", "-0.69, 0; 0.71, 0"),
+             "Flat punch, %d levels": ("punch", "1, 0"),
+             "Receding, %d levels": ("receding", "1.0, 0"),
+             "Example 5.2 unilateral, %d levels": ("han-6-12-unilateral", "0.6714, 0")}
+    for case, (scene, towards) in cases.items():
+        for levels in (10, 40):
+            for kind in KINDS:
+                run = lab.run(scene, "chatter", normal(kind), "Adaptivity/Method=pu",
+                              "Adaptivity/Start degree=2", "Adaptivity/Maximum steps=7",
+                              f"Geometry/Graded towards={towards}",
+                              f"Geometry/Grading levels={levels}")
+                table.append(chatter_row(case % levels + ", p = 2..8", kind, run))
+    for scene in ("hertz", "punch", "receding", "resting", "han-6-12-unilateral"):
+        for name, settings in {"hpa3": [], "hpa3, each step from zero":
+                               ["Solver/QP warm start=false"], "hpa3, MPRGP":
+                               ["Solver/QP solver=mprgp"]}.items():
+            for kind in KINDS:
+                run = lab.run(scene, "chatter", normal(kind), "Adaptivity/Method=hpa3",
+                              "Adaptivity/Smoothness reading=plain", "Adaptivity/Maximum steps=20",
+                              "Adaptivity/Maximum unknowns=30000", *settings)
+                table.append(chatter_row(f"{scene}, {name}", kind, run))
+    put_table("chatter", table)
+
+
+def chatter_row(name, kind, run):
+    return {"run": name, "normal contact": kind, "ended": ended(run), "steps": len(run.rows),
+            "N": run.last.get("dofs_free", "-"),
+            "contact unknowns": run.last.get("multipliers", "-"), **qp(run),
+            "products, most": plain(np.max(run.column("qp_multiplications")), 0)
+            if run.rows else "-",
+            "projected gradient, most": number(np.max(run.column("qp_projected_gradient")), 2)
+            if run.rows else "-",
+            "last J": f"{run.value('energy'):.10g}",
+            "relative error": number(run.value("error_relative"), 2)}
+
+
 ROWS = {"1": ("locking", row_01), "2": ("inf-sup constant", row_02),
         "3": ("contact meets a clamp; 12: high degrees", rows_03_and_12),
         "4": ("semicoercive", row_04), "5": ("limits of the friction bound", row_05),
@@ -942,7 +1208,10 @@ ROWS = {"1": ("locking", row_01), "2": ("inf-sup constant", row_02),
         "8": ("deep meshes", row_08), "9": ("conditioning", row_09),
         "11": ("aspect ratio and distortion", row_11), "14": ("tension on the contact", row_14),
         "15": ("effectivity along uniform p", row_15), "16": ("determinism", determinism),
-        "17": ("solvers of the quadratic program", solvers)}
+        "17": ("solvers of the quadratic program", solvers),
+        "18": ("opening at a vertex", row_18), "19": ("one point touches", row_19),
+        "20": ("grazing contact", row_20), "21": ("interference", row_21),
+        "22": ("contact that recedes", row_22), "23": ("chattering active sets", row_23)}
 
 
 def main():
