@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies that contact alone holds: what holds them, and what no contact can hold.
+#include "opening_contact.h"
+
+#include <hpvi/base/numerical_failure.h>
+
+namespace
+{
+using namespace verification;
+
+const Material material{100., 0.3, PlaneModel::strain};
+const double lambda = material.lambda(2), mu = material.mu();
+// Strains of plane strain from stresses without shear: eps_x = along sigma_x + across sigma_y.
+const double along = (1 - 0.3 * 0.3) / 100, across = -0.3 * 1.3 / 100;
+
+Turned rectangle(const double width, const double height, const double angle = 0)
+{
+  return {"Rectangle", {{{0, 0}, {width, 0}, {width, height}, {0, height}}}, angle};
+}
+
+Scene<2> scene_of_body(const Turned &body, const NormalContact normal)
+{
+  Scene<2> scene;
+  scene.geometry = body.geometry(2, 2);
+  scene.materials = {material};
+  scene.solver.normal_contact = normal;
+  scene.adaptivity.maximum_steps = 1;
+  return scene;
+}
+
+struct Outcome
+{
+  std::vector<ContactState<2>> contact;
+  Equilibrium<2> equilibrium;
+  std::vector<std::string> warnings;
+  Vector<double> u, z;
+  double norm;
+};
+
+/** The last step of a run. */
+Outcome run(const Scene<2> &scene)
+{
+  Outcome last;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        last = {step.contact,    step.equilibrium, step.warnings,
+                step.solution.u, step.solution.z,  step.energies.norm};
+      });
+  return last;
+}
+
+std::string failure_of(const Scene<2> &scene)
+{
+  try
+  {
+    run(scene);
+  }
+  catch (const NumericalFailure &failure)
+  {
+    return failure.what();
+  }
+  return "a body without equilibrium passed as a result";
+}
+
+/** On a random mesh: u to the round-off that a soft spring leaves, and all conditions. */
+Outcome expect_field(const Scene<2> &scene, const Turned &body,
+                     const std::function<Tensor<1, 2>(const Point<2> &)> &field)
+{
+  scene.check();
+  const RandomMesh mesh(scene, 8, 2);
+  const Laboratory discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  EXPECT_LE(
+      nodal_error(solution, [&](const Point<2> &x) { return body.turned(field(body.own(x))); }),
+      1e-9);
+  expect_complementary(solution);
+  expect_equilibrium(solution, discrete.system.loads());
+  const Equilibrium<2> balance = equilibrium(solution, discrete.system);
+  EXPECT_LE(balance.force_imbalance, 1e-10);
+  EXPECT_LE(balance.moment_imbalance, 1e-10);
+  return {contact_states(solution), balance, {}, solution.u, solution.z, 0.};
+}
+
+/**
+ * Weight rho on a curved floor that fits the block as it widens towards its foot: sigma_y = -rho (H - y)
+ * alone, u quadratic, the same pressure rho H everywhere.
+ */
+void expect_uniform_pressure(const NormalContact normal, const double angle)
+{
+  const double rho = 2, H = 1;
+  const Turned body = rectangle(2, H, angle);
+  Scene<2> scene = scene_of_body(body, normal);
+  scene.body_force = body.field([=](const Point<2> &) { return Point<2>(0, -rho); });
+  scene.boundary("bottom").contact = Contact::unilateral;
+  const auto bend = [=](const double x) { return across * rho * (x - 1) * (x - 1) / 2; };
+  scene.boundary("bottom").gap = body.scalar([=](const Point<2> &x) { return bend(x[0]); });
+  scene.boundary("bottom").friction.bound = expression<2>(0.); // no floor without friction is whole
+  const auto field = [=](const Point<2> &x)
+  {
+    return Point<2>(-across * rho * (H - x[1]) * (x[0] - 1),
+                    -along * rho * (H * x[1] - x[1] * x[1] / 2) - bend(x[0]));
+  };
+  const RandomMesh mesh(scene, 8, 2);
+  const Laboratory discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  expect_complementary(solution);
+  expect_equilibrium(solution, discrete.system.loads());
+  for (unsigned int i = 0; i < solution.z.size(); ++i)
+    if (discrete.contact_space.multipliers()[i].kind == ContactMultiplier<2>::Kind::pressure)
+    {
+      EXPECT_NEAR(solution.z[i], rho * H, 1e-9 * rho * H);
+    }
+  // Its place along the floor is anywhere: that of its foot tells where.
+  const Tensor<1, 2> floor = body.turned(Point<2>(1, 0));
+  const ContactPoint<2> point = contact_states(solution).at(0).points.front();
+  const double moved = point.tangential_displacement - field(body.own(point.x))[0];
+  EXPECT_LE(nodal_error(solution, [&](const Point<2> &x)
+                        { return body.turned(field(body.own(x))) + moved * floor; }),
+            1e-9);
+  EXPECT_TRUE(mentions(run(scene).warnings, "not unique"));
+}
+
+class HeldByContact : public ::testing::TestWithParam<std::tuple<NormalContact, double>>
+{
+protected:
+  const NormalContact normal = std::get<0>(GetParam());
+  const double angle = std::get<1>(GetParam());
+
+  /** A block 2 x 1 with the stress (-s, -p; tau), s such that nothing is strained along the plane. */
+  Scene<2> pushed_block(const double p, const double tau, const double g) const
+  {
+    const Turned body = rectangle(2, 1, angle);
+    Scene<2> scene = scene_of_body(body, normal);
+    scene.boundary("bottom").contact = Contact::unilateral;
+    scene.boundary("bottom").friction.bound = expression<2>(g);
+    SymmetricTensor<2, 2> sigma;
+    sigma[0][0] = -lambda / (lambda + 2 * mu) * p;
+    sigma[1][1] = -p;
+    sigma[0][1] = tau;
+    for (const unsigned int k : {1U, 2U, 3U})
+      scene.boundary(sides[k]).traction = body.traction(k, [=](const Point<2> &) { return sigma; });
+    return scene;
+  }
+
+  /** A block 2 x 2 of weight 4, pushed by @p push in the middle of its left edge. */
+  Scene<2> resting_block(const double push, const double lift = 0) const
+  {
+    const Turned body = rectangle(2, 2, angle);
+    Scene<2> scene = scene_of_body(body, normal);
+    scene.body_force = body.field([=](const Point<2> &) { return Point<2>(0, lift - 1); });
+    scene.boundary("left").traction =
+        body.field([=](const Point<2> &) { return Point<2>(push / 2, 0); });
+    scene.boundary("bottom").contact = Contact::unilateral;
+    scene.boundary("bottom").friction.bound = expression<2>(1.5);
+    return scene;
+  }
+};
+
+// ---------------------------------------------------------------- closed forms
+
+TEST_P(HeldByContact, ABlockUnderItsWeightPressesUniformly)
+{
+  if (normal == NormalContact::nodes || angle == 0.)
+    expect_uniform_pressure(normal, angle);
+}
+
+/**
+ * Round-off of the eigenvalues of RigidMotions' Gram matrix, 1e-16 of the largest, lies above the 1e-20
+ * below which a motion counts as unseen: the stiffness matrix gets a spring of 1e31 and no factor.
+ */
+TEST(HeldByContactTurned, DISABLED_SeesNoMotionAlongAFloorWithoutFriction)
+{
+  expect_uniform_pressure(NormalContact::multiplier, numbers::PI / 6);
+}
+
+/** A square stands on its corner in a trough that fits it: both sides press alike, all motions are held. */
+TEST_P(HeldByContact, ASquareInATroughPressesBothSides)
+{
+  const double b = 3;
+  const Turned body{"Square", {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, numbers::PI / 4 + angle};
+  Scene<2> scene = scene_of_body(body, normal);
+  scene.body_force = body.field([=](const Point<2> &) { return Point<2>(-b, -b); });
+  for (const unsigned int k : {0U, 1U})
+  {
+    BoundaryCondition<2> &side = scene.boundary(k == 0 ? "bottom" : "left");
+    side.contact = Contact::unilateral;
+    side.gap = body.scalar([=](const Point<2> &x) { return across * b * x[k] * x[k] / 2; });
+  }
+  const Outcome outcome = expect_field(scene, body,
+                                       [=](const Point<2> &x)
+                                       {
+                                         Tensor<1, 2> u;
+                                         for (unsigned int k = 0; k < 2; ++k)
+                                           u[k] = -along * b * (x[k] - x[k] * x[k] / 2) -
+                                                  across * b * (1 - x[1 - k]) * x[k] -
+                                                  across * b * x[1 - k] * x[1 - k] / 2;
+                                         return u;
+                                       });
+  for (const double z : outcome.z)
+    EXPECT_NEAR(z, b, 1e-9 * b);
+  EXPECT_FALSE(mentions(run(scene).warnings, "not unique"));
+}
+
+/** Friction and contact share the loads of a uniform stress: the foot stays where it was. */
+TEST_P(HeldByContact, APushedBlockSticksAndStays)
+{
+  const double p = 2, tau = 0.5;
+  const Scene<2> scene = pushed_block(p, tau, 0.6);
+  const Outcome outcome = expect_field(
+      scene, rectangle(2, 1, angle),
+      [&](const Point<2> &x) { return Point<2>(tau / mu * x[1], -p / (lambda + 2 * mu) * x[1]); });
+  const ContactState<2> &state = outcome.contact.at(0);
+  EXPECT_NEAR(state.normal_resultant, -2 * p, 1e-9);
+  EXPECT_NEAR(state.friction_resultant, -2 * tau, 1e-9);
+  for (const ContactPoint<2> &point : state.points)
+  {
+    EXPECT_EQ(point.mode(), ContactMode::stick);
+    EXPECT_NEAR(point.normal_traction, -p, 1e-9);
+    EXPECT_NEAR(point.tangential_traction, -tau, 1e-9);
+  }
+  EXPECT_FALSE(mentions(run(scene).warnings, "not unique"));
+}
+
+// ---------------------------------------------------------------- limits
+
+TEST_P(HeldByContact, AtTheFrictionLimitThePlaceIsNotUnique)
+{
+  const Outcome last = run(pushed_block(2, 0.6, 0.6));
+  EXPECT_TRUE(mentions(last.warnings, "not unique"));
+  EXPECT_NEAR(last.contact.at(0).friction_resultant, -1.2, 1e-9);
+  EXPECT_NEAR(last.contact.at(0).normal_resultant, -4, 1e-9);
+}
+
+TEST_P(HeldByContact, BeyondTheFrictionLimitBothForcesAreNamed)
+{
+  const std::string line = failure_of(pushed_block(2, 0.7, 0.6));
+  EXPECT_NE(line.find("no equilibrium: the loads push the body along ("), std::string::npos)
+      << line;
+  EXPECT_NE(line.find(" with 1.4,"), std::string::npos) << line;
+  EXPECT_NE(line.find("resist with 1.2 at most"), std::string::npos) << line;
+  if (angle == 0.)
+  {
+    EXPECT_NE(line.find("along (1 0)"), std::string::npos) << line;
+  }
+  EXPECT_NO_THROW(run(pushed_block(2, 0.6 * (1 - 1e-6), 0.6)));
+  EXPECT_NE(failure_of(pushed_block(2, 0.6 * (1 + 1e-6), 0.6)).find("no equilibrium"),
+            std::string::npos);
+}
+
+TEST_P(HeldByContact, LoadsThatLiftTheBodyAreNamed)
+{
+  const std::string line = failure_of(resting_block(0, 1.25));
+  EXPECT_NE(line.find("no equilibrium: the loads push the body along ("), std::string::npos)
+      << line;
+  EXPECT_NE(line.find(" with 1,"), std::string::npos) << line; // a quarter of the weight is left
+  EXPECT_NE(line.find("resist with 0 at most"), std::string::npos) << line;
+}
+
+/** About the corner at its foot: the push has the moment P * 1 there, the weight 4 * 1. */
+TEST_P(HeldByContact, ABlockTipsAboutItsCorner)
+{
+  if (normal != NormalContact::nodes)
+    GTEST_SKIP() << "Gauss points do not reach the corner";
+  const Turned body = rectangle(2, 2, angle);
+  Scene<2> scene = resting_block(5);
+  scene.boundary("bottom").friction.bound = expression<2>(10.);
+  const std::string line = failure_of(scene);
+  const std::string words = "no equilibrium: the loads turn the body about (";
+  ASSERT_NE(line.find(words), std::string::npos) << line;
+  std::istringstream place(line.substr(line.find(words) + words.size()));
+  Point<2> pivot;
+  place >> pivot[0] >> pivot[1];
+  EXPECT_LE(pivot.distance(Point<2>(body.turned(Point<2>(2, 0)))), 1e-4) << line;
+  EXPECT_NE(line.find(" with 1,"), std::string::npos) << line;
+  EXPECT_NE(line.find("resist with 0 at most"), std::string::npos) << line;
+  scene = resting_block(3.9);
+  scene.boundary("bottom").friction.bound = expression<2>(10.);
+  EXPECT_NO_THROW(run(scene));
+}
+
+// ---------------------------------------------------------------- statics
+
+/** The resultant of the contact passes through the point where that of the loads meets the plane. */
+TEST_P(HeldByContact, ContactBalancesWeightAndPush)
+{
+  for (const double push : {0., 1., 2., -2.})
+  {
+    Scene<2> scene = resting_block(push);
+    scene.adaptivity.maximum_steps = 6;
+    const Outcome last = run(scene);
+    EXPECT_LE(last.equilibrium.force_imbalance, 1e-8);
+    EXPECT_LE(last.equilibrium.moment_imbalance, 1e-8);
+    const ContactState<2> &state = last.contact.at(0);
+    EXPECT_NEAR(state.normal_resultant, -4, 1e-8);
+    EXPECT_NEAR(state.friction_resultant, -push, 1e-8);
+    ASSERT_EQ(last.equilibrium.reactions.size(), 1u);
+    EXPECT_NEAR(last.equilibrium.reactions[0].moment, 0.,
+                1e-8); // weight and push act in the centre
+  }
+}
+
+// ---------------------------------------------------------------- the way there
+
+void expect_same(const Outcome &one, const Outcome &other, const double tolerance)
+{
+  ASSERT_EQ(one.u.size(), other.u.size());
+  ASSERT_EQ(one.z.size(), other.z.size());
+  Vector<double> u = one.u, z = one.z;
+  u -= other.u;
+  z -= other.z;
+  EXPECT_LE(u.linfty_norm(), tolerance * one.u.linfty_norm());
+  EXPECT_LE(z.linfty_norm(), tolerance * one.z.linfty_norm());
+}
+
+TEST_P(HeldByContact, StartsAndSolversLeadToOneSolution)
+{
+  Scene<2> scene = resting_block(2);
+  scene.adaptivity.maximum_steps = 6;
+  const Outcome warm = run(scene);
+  scene.solver.qp_warm_start = false;
+  expect_same(warm, run(scene), 1e-9);
+  scene.solver.qp_solver = QpSolver::mprgp;
+  expect_same(warm, run(scene), 1e-9);
+  scene.solver.qp_warm_start = true;
+  expect_same(warm, run(scene), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(, HeldByContact,
+                         ::testing::Combine(::testing::ValuesIn(both_discretisations),
+                                            ::testing::Values(0., numbers::PI / 6)),
+                         [](const auto &info) {
+                           return name_of(std::get<0>(info.param)) +
+                                  (std::get<1>(info.param) == 0. ? "" : "Turned");
+                         });
+
+/** Turned by 30 degrees the block has the same tractions and energy. */
+TEST(HeldByContactTurned, DoesNotDependOnTheAxes)
+{
+  for (const std::string normal : {"nodes", "multiplier"})
+  {
+    const Overrides few = {{"Adaptivity/Method", "hap3"}, // no decay rates of components
+                           {"Adaptivity/Maximum steps", "4"},
+                           {"Solver/Normal contact", normal}};
+    const double c = std::cos(numbers::PI / 6), s = std::sin(numbers::PI / 6);
+    const auto vector = [&](const double x, const double y, const std::string &separator)
+    { return text(c * x - s * y) + separator + text(s * x + c * y); };
+    Overrides turned = few;
+    turned.insert(turned.end(),
+                  {{"Geometry/Shape", "quadrilateral"},
+                   {"Geometry/Corners", vector(0, 0, ", ") + "; " + vector(2, 0, ", ") + "; " +
+                                            vector(2, 2, ", ") + "; " + vector(0, 2, ", ")},
+                   {"Body force/Expression", vector(0, -1, "; ")},
+                   {"Boundary left/Traction", vector(1, 0, "; ")}});
+    const Outcome one = run(shipped_scene("resting", few)),
+                  other = run(shipped_scene("resting", turned));
+    ASSERT_EQ(one.z.size(), other.z.size());
+    EXPECT_NEAR(one.norm, other.norm, 1e-10 * one.norm);
+    for (unsigned int i = 0; i < one.z.size(); ++i)
+      EXPECT_NEAR(one.z[i], other.z[i], 1e-8);
+  }
+}
+} // namespace
