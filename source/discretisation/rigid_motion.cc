@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/discretisation/rigid_motion.h>
-#include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace hpvi
 {
@@ -108,14 +108,14 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
     B_columns.push_back(apply(rows, columns.back()));
   }
   double contact = 0;
-  for (const ContactMultiplier<dim> &multiplier : multipliers)
-    contact += multiplier.weight;
-  FullMatrix<double> gram(n, n);
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int i = 0; i < multipliers.size(); ++i)
-        gram(j, k) += B_columns[j][i] * B_columns[k][i] / multipliers[i].weight;
-  split_by_contact(gram, 1e-20 * contact);
+  std::vector<Vector<double>> weighted = B_columns;
+  for (unsigned int i = 0; i < multipliers.size(); ++i)
+  {
+    contact += multipliers[i].weight;
+    for (Vector<double> &column : weighted)
+      column[i] /= std::sqrt(multipliers[i].weight);
+  }
+  split_by_contact(std::move(weighted), 1e-20 * contact);
   equations.G.reinit(multipliers.size(), n_seen());
   equations.e.reinit(n_seen());
   for (unsigned int m = 0; m < n; ++m)
@@ -134,18 +134,53 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
   hold_unseen(system);
 }
 
-/** Eigenvectors of the Gram matrix, those with the largest eigenvalues first. */
+/**
+ * Combinations of @p columns that are orthogonal, the longest first, by Jacobi's rotations of pairs: one
+ * that ought to vanish is left with round-off, where an eigenvalue of the Gram matrix would have its root.
+ */
 template <int dim>
-void RigidMotions<dim>::split_by_contact(const FullMatrix<double> &gram, const double smallest)
+void RigidMotions<dim>::split_by_contact(std::vector<Vector<double>> columns, const double smallest)
 {
-  unsigned int n_seen = 0;
-  for (auto [eigenvalue, combination] : eigenpairs(gram))
+  const unsigned int n = columns.size();
+  for (unsigned int j = 0; j < n; ++j)
   {
-    if (*std::max_element(combination.begin(), combination.end()) < combination.linfty_norm())
-      combination *= -1.; // the largest coefficient is positive
-    combinations.push_back(combination);
-    n_seen += eigenvalue > smallest ? 1 : 0;
+    combinations.emplace_back(n);
+    combinations[j][j] = 1;
   }
+  const unsigned int sweeps = 20;
+  for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int k = j + 1; k < n; ++k)
+      {
+        const double a = dot(columns[j], columns[j]), b = dot(columns[k], columns[k]),
+                     c = dot(columns[j], columns[k]);
+        if (std::abs(c) <= 1e-15 * std::sqrt(a * b))
+          continue;
+        const double zeta = (b - a) / (2 * c),
+                     tangent = std::copysign(1 / (std::abs(zeta) + std::hypot(1, zeta)), zeta),
+                     cosine = 1 / std::hypot(1, tangent), sine = cosine * tangent;
+        for (auto *vectors : {&columns, &combinations})
+        {
+          const Vector<double> first = (*vectors)[j];
+          (*vectors)[j].sadd(cosine, -sine, (*vectors)[k]);
+          (*vectors)[k].sadd(cosine, sine, first);
+        }
+      }
+  std::vector<unsigned int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const unsigned int a, const unsigned int b)
+                   { return columns[a].norm_sqr() > columns[b].norm_sqr(); });
+  std::vector<Vector<double>> sorted;
+  unsigned int n_seen = 0;
+  for (const unsigned int m : order)
+  {
+    sorted.push_back(combinations[m]);
+    if (*std::max_element(sorted.back().begin(), sorted.back().end()) < sorted.back().linfty_norm())
+      sorted.back() *= -1.; // the largest coefficient is positive
+    n_seen += columns[m].norm_sqr() > smallest ? 1 : 0;
+  }
+  combinations = sorted;
   equations.e.reinit(n_seen);
 }
 

@@ -15,7 +15,7 @@ namespace hpvi
  * force, and u is not unique.
  *
  * Motions are chosen so that they are orthogonal over the contact, `G' W^-1 G` diagonal with the weights
- * W of the multipliers: then seen is an eigenvalue above round-off.
+ * W of the multipliers: then one is seen where its entry is above round-off.
  */
 template <int dim>
 class RigidMotions
@@ -52,7 +52,7 @@ public:
   dealii::Vector<double> from_basis(const dealii::Vector<double> &coefficients) const;
 
 private:
-  void split_by_contact(const dealii::FullMatrix<double> &gram, double smallest);
+  void split_by_contact(std::vector<dealii::Vector<double>> columns, double smallest);
   void stabilise_seen(const ConditionRows &rows,
                       const std::vector<ContactMultiplier<dim>> &multipliers,
                       const SymmetricMatrix &A);
