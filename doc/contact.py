@@ -26,7 +26,7 @@ KINDS = {"nodes": ("#0072b2", "o"), "multiplier": ("#d55e00", "s")}
 METHODS = {"hpa3": "-", "hpa2": ":"}
 HPA = ["Adaptivity/Smoothness reading=plain", "Adaptivity/Start degree=0",
        "Adaptivity/Maximum degree=14", "Adaptivity/Maximum steps=60"]
-REPEATS = 5
+REPEATS = 3
 A, P0 = 0.7, 7.  # half-width and largest pressure of prm/hertz.prm
 
 
