@@ -268,7 +268,7 @@ def draw_gap(lab):
                                     "$T_t$ [kN/mm$^2$]")):
         axes.set_xlabel("x along the bottom [mm]")
         axes.set_ylabel(label)
-    panels[1].set_ylim(-15, 5)
+    panels[1].set_ylim(-3, 5)
     panels[0].legend()
     save(figure, "gap.png", PAGE)
     return facts
