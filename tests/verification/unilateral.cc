@@ -107,39 +107,36 @@ TEST_P(UnilateralPatch, IsExact)
   const Patch &patch = given.patch;
   const Scene<2> scene = make_scene(given);
   scene.check();
-  for (const unsigned int seed : {1u, 2u})
+  const RandomMesh mesh(scene, 1 + given.first, 2, 2, 7);
+  const Laboratory discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  EXPECT_EQ(discrete.algebraic.corrections, 0u);
+  EXPECT_LE(nodal_error(solution, [&](const Point<2> &x)
+                        { return given.body.turned(patch.displacement(given.body.own(x))); }),
+            1e-11);
+  const double p = patch.pressure();
+  unsigned int n_pressures = 0;
+  for (unsigned int i = 0; i < solution.z.size(); ++i)
   {
-    const RandomMesh mesh(scene, seed, 2);
-    const Laboratory discrete(scene, mesh);
-    const Solution<2> solution = discrete.solve();
-    EXPECT_EQ(discrete.algebraic.corrections, 0u);
-    EXPECT_LE(nodal_error(solution, [&](const Point<2> &x)
-                          { return given.body.turned(patch.displacement(given.body.own(x))); }),
-              1e-11);
-    const double p = patch.pressure();
-    unsigned int n_pressures = 0;
-    for (unsigned int i = 0; i < solution.z.size(); ++i)
-    {
-      const ContactMultiplier<2> &unknown = discrete.contact_space.multipliers()[i];
-      const bool is_pressure = unknown.kind == ContactMultiplier<2>::Kind::pressure;
-      EXPECT_NEAR(solution.z[i], is_pressure ? p : patch.friction(), 1e-9 * p);
-      n_pressures += is_pressure;
-    }
-    EXPECT_GT(n_pressures, 3u);
-    const ContactState<2> state = contact_states(solution).at(0);
-    for (const ContactPoint<2> &point : state.points)
-    {
-      EXPECT_FALSE(point.is_open);
-      EXPECT_NEAR(point.gap, 0., 1e-13);
-      EXPECT_NEAR(point.normal_traction, -p, 1e-9 * p);
-    }
-    EXPECT_NEAR(state.normal_resultant, -p * state.length, 1e-10 * p);
-    EXPECT_NEAR(state.highest_pressure, p, 1e-9 * p);
-    EXPECT_EQ(state.highest_tension, 0.);
-    EXPECT_LE(state.deepest_penetration, 1e-13);
-    expect_equilibrium(solution, discrete.system.loads());
-    expect_complementary(solution);
+    const ContactMultiplier<2> &unknown = discrete.contact_space.multipliers()[i];
+    const bool is_pressure = unknown.kind == ContactMultiplier<2>::Kind::pressure;
+    EXPECT_NEAR(solution.z[i], is_pressure ? p : patch.friction(), 1e-9 * p);
+    n_pressures += is_pressure;
   }
+  EXPECT_GT(n_pressures, 3u);
+  const ContactState<2> state = contact_states(solution).at(0);
+  for (const ContactPoint<2> &point : state.points)
+  {
+    EXPECT_FALSE(point.is_open);
+    EXPECT_NEAR(point.gap, 0., 1e-13);
+    EXPECT_NEAR(point.normal_traction, -p, 1e-9 * p);
+  }
+  EXPECT_NEAR(state.normal_resultant, -p * state.length, 1e-10 * p);
+  EXPECT_NEAR(state.highest_pressure, p, 1e-9 * p);
+  EXPECT_EQ(state.highest_tension, 0.);
+  EXPECT_LE(state.deepest_penetration, 1e-13);
+  expect_equilibrium(solution, discrete.system.loads());
+  expect_complementary(solution);
 }
 
 std::vector<PatchScene> all_patches()
