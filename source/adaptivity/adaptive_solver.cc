@@ -9,6 +9,7 @@
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
+#include <hpvi/evaluation/unseen_contact.h>
 
 #include <cmath>
 #include <numeric>
@@ -167,6 +168,8 @@ Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
   {
     for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps())
       refinement.bisect[jump.face->cell->active_cell_index()] = true;
+    for (const UnseenContact<dim> &contact : unseen_contacts(solution))
+      refinement.bisect[contact.face->cell->active_cell_index()] = true;
     for (const UnresolvedBound<dim> &bound : solution.contact_space.unresolved_bounds())
       refinement.bisect[bound.face->cell->active_cell_index()] = true;
   }

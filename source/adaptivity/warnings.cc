@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
@@ -131,6 +132,21 @@ std::string penetration(const Solution<dim> &solution,
 }
 
 template <int dim>
+std::string unseen_contact(const Solution<dim> &solution)
+{
+  const std::vector<UnseenContact<dim>> places = unseen_contacts(solution);
+  if (places.empty())
+    return {};
+  const auto &worst = *std::max_element(
+      places.begin(), places.end(), [](const auto &a, const auto &b) { return a.depth < b.depth; });
+  return line(
+      "contact is smaller than the mesh sees: the body passes through the foundation by ",
+      labelled(worst.depth, solution.scene.length_unit), " at (", worst.where,
+      "), between points that nothing presses; set Geometry/Graded towards that point, or take "
+      "more steps of an adaptive method that bisects");
+}
+
+template <int dim>
 std::string coarse_transition(const Solution<dim> &solution,
                               const std::vector<ContactState<dim>> &contact)
 {
@@ -169,14 +185,18 @@ std::string stagnating_estimate(const History &history)
 }
 
 /** Refinement lowers the indicator of any load with finite energy; a factor 4 upwards is none. */
-std::string rising_estimate(const History &history)
+std::string rising_estimate(const History &history, const bool contact_opens)
 {
+  // Contact that is found late lifts the indicator once, and then it falls again.
+  const auto falls_below = [&](const unsigned int k)
+  { return contact_opens && history.back().estimate < history[k].estimate; };
   for (unsigned int k = 1, least = 0; k < history.size(); ++k)
   {
-    if (history[k].estimate > 4 * history[least].estimate)
+    if (history[k].estimate > 4 * history[least].estimate && !falls_below(least))
       return line("the error indicator rose from ", history[least].estimate, " in step ", least + 1,
                   " to ", history[k].estimate, " in step ", k + 1,
-                  ": a load or a prescribed displacement may be unbounded; look for poles");
+                  ": a load or a prescribed displacement may be unbounded; look for poles",
+                  contact_opens ? ", or for contact that coarse meshes missed" : "");
     if (history[k].estimate < history[least].estimate)
       least = k;
   }
@@ -391,10 +411,11 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
        {tensile_contact(solution, contact), overshooting_multiplier(solution),
         pulling_pressure(solution, contact), penetration(solution, contact),
         coarse_transition(solution, contact), stagnating_estimate(history),
-        rising_estimate(history), round_off(algebraic), elongated_elements(solution),
-        sharp_corners(solution.scene.geometry), locking(solution), rich_multiplier(solution),
-        whole_body_slips(solution, contact), free_place(solution, contact), coarse_bound(solution),
-        unresolved_jump(solution), no_condition_number(history)})
+        rising_estimate(history, solution.scene.has_unilateral_contact()), unseen_contact(solution),
+        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
+        locking(solution), rich_multiplier(solution), whole_body_slips(solution, contact),
+        free_place(solution, contact), coarse_bound(solution), unresolved_jump(solution),
+        no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

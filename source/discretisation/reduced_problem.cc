@@ -72,12 +72,17 @@ void check_friction(const RigidMotions<dim> &motions, const ContactSpace<dim> &c
 
 /** The same for what friction and contact that can only press may do together. */
 template <int dim>
-void check_contact(const RigidMotions<dim> &motions, const FeasibleSet &feasible_set)
+void check_contact(const Scene<dim> &scene, const RigidMotions<dim> &motions,
+                   const FeasibleSet &feasible_set)
 {
   const std::optional<Imbalance> imbalance = find_imbalance(feasible_set, motions.balance());
   if (!imbalance)
     return;
-  const RigidBodyMotion<dim> motion = motions.motion(imbalance->motion);
+  RigidBodyMotion<dim> motion = motions.motion(imbalance->motion);
+  // A rotation about a far point is one more to read than a sliding body.
+  if (std::abs(motion.rotation) * scene.geometry.corners[0].distance(motion.centre) <
+      0.1 * motion.translation.norm())
+    motion.rotation = 0;
   const bool pushes = motion.is_translation();
   // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
   const double unit = pushes ? motion.translation.norm() : std::abs(motion.rotation);
@@ -107,7 +112,7 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   {
     if (!discretisation.scene.has_unilateral_contact() && motions->n_seen() == 1)
       check_friction(*motions, contact_space); // knows more to say
-    check_contact(*motions, qp.feasible_set);
+    check_contact(discretisation.scene, *motions, qp.feasible_set);
     if (result.motion.size() == 0)
       result.motion.reinit(motions->n_seen());
     // The inner problems leave noise of their own tolerance in the balance.

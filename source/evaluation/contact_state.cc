@@ -21,9 +21,17 @@ bool differ(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
                                   b.friction_bound != 0. && a.lambda * b.lambda < 0.);
 }
 
+/** Does contact end between the two? */
+template <int dim>
+bool opens(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
+{
+  return a.is_open != b.is_open;
+}
+
 /**
- * Where the exact multiplier only just reaches 1, states may alternate from point to point: an odd
- * number of changes within two edges counts as one, in their middle, an even one as none.
+ * Where the exact multiplier only just reaches 1, stick and slip may alternate from point to point: an
+ * odd number of changes within two edges counts as one, in their middle, an even one as none. Each end
+ * of contact counts, however small the contact.
  */
 template <int dim>
 std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>> &points)
@@ -36,12 +44,15 @@ std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>>
     for (unsigned int i = k; i < points.size(); ++i)
       if (differ(points[i - 1], points[i]))
       {
-        if (n_changes > 0 && points[i].x.distance(points[last].x) >
-                                 2 * std::max(points[i].face_length, points[last].face_length))
+        if (n_changes > 0 && (opens(points[i - 1], points[i]) ||
+                              points[i].x.distance(points[last].x) >
+                                  2 * std::max(points[i].face_length, points[last].face_length)))
           break;
         sum += 0.5 * (points[i - 1].x + Tensor<1, dim>(points[i].x));
         ++n_changes;
         last = i;
+        if (opens(points[i - 1], points[i]))
+          break;
       }
     if (n_changes == 0)
       break;

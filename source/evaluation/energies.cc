@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/energies.h>
 
 #include <boost/math/tools/roots.hpp>
@@ -38,42 +39,9 @@ std::vector<double> zeros(const F &function, const unsigned int n_samples)
   return result;
 }
 
-/** u_Nt along one contact face: the polynomial through its values at p+1 Gauss points. */
-template <int dim>
-class TangentialDisplacement
-{
-public:
-  TangentialDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution)
-      : basis(solution.tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
-  {
-    const ShapeTables<dim> &tables = solution.tables;
-    const std::vector<double> values =
-        evaluate(tables.face(face.degree, face.face_no, face.degree + 1).values,
-                 solution.coefficients(face.cell->active_cell_index()));
-    for (unsigned int k = 0; k < nodal.size(); ++k)
-    {
-      const Tensor<1, dim> tangent = face.frame(tables.gauss(nodal.size()).point(k)[0]).tangent;
-      for (unsigned int c = 0; c < dim; ++c)
-        nodal[k] += tangent[c] * values[c * nodal.size() + k];
-    }
-  }
-
-  double operator()(const double s) const
-  {
-    double sum = 0;
-    for (unsigned int k = 0; k < nodal.size(); ++k)
-      sum += nodal[k] * basis[k].value(s);
-    return sum;
-  }
-
-private:
-  const std::vector<Polynomials::Polynomial<double>> &basis;
-  std::vector<double> nodal;
-};
-
 /** int g |u_t| over one face: the pieces of its rule are cut further where u_t changes sign. */
 template <int dim>
-double friction_work(const ContactFace<dim> &face, const TangentialDisplacement<dim> &u_t,
+double friction_work(const ContactFace<dim> &face, const EdgeDisplacement<dim> &u_t,
                      const QGauss<1> &gauss)
 {
   std::vector<double> cuts = zeros(u_t, 8 * face.degree);
@@ -96,8 +64,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
   double friction = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
-      friction += friction_work(face, TangentialDisplacement<dim>(face, solution),
-                                solution.tables.gauss(face.degree + 2));
+      friction +=
+          friction_work(face, EdgeDisplacement<dim>(face, solution, &ContactFrame<dim>::tangent),
+                        solution.tables.gauss(face.degree + 2));
   const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
   double coupling = 0;
   for (unsigned int i = 0; i < moments.size(); ++i)

@@ -20,12 +20,6 @@ Overrides with(Overrides entries, const Overrides &more)
   return entries;
 }
 
-bool mentions(const std::vector<std::string> &warnings, const std::string &words)
-{
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &w) { return w.find(words) != std::string::npos; });
-}
-
 // ---------------------------------------------------------------- the rule of one edge
 
 FrictionRule rule_of(const std::function<double(double)> &g, const unsigned int p)

@@ -7,6 +7,7 @@
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/scene/scene_reader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -166,6 +167,14 @@ public:
 private:
   mutable std::unique_ptr<const LinearSolver> solver;
 };
+
+/** Does any of the warnings hold these words? */
+inline bool mentions(const std::vector<std::string> &warnings, const std::string &words)
+{
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string &warning)
+                     { return warning.find(words) != std::string::npos; });
+}
 } // namespace verification
 
 #endif

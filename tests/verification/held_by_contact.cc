@@ -252,7 +252,13 @@ TEST_P(HeldByContact, LoadsThatLiftTheBodyAreNamed)
 TEST_P(HeldByContact, ABlockTipsAboutItsCorner)
 {
   if (normal != NormalContact::nodes)
-    GTEST_SKIP() << "Gauss points do not reach the corner";
+  {
+    // Gauss points do not reach the corner: the pivot is the last of them.
+    Scene<2> scene = resting_block(3.9);
+    scene.boundary("bottom").friction.bound = expression<2>(10.);
+    EXPECT_NE(failure_of(scene).find("no equilibrium: the loads turn"), std::string::npos);
+    return;
+  }
   const Turned body = rectangle(2, 2, angle);
   Scene<2> scene = resting_block(5);
   scene.boundary("bottom").friction.bound = expression<2>(10.);

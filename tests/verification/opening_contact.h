@@ -269,12 +269,6 @@ inline double nodal_error(const Solution<2> &solution,
   return error / largest;
 }
 
-inline bool mentions(const std::vector<std::string> &warnings, const std::string &words)
-{
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &warning)
-                     { return warning.find(words) != std::string::npos; });
-}
 } // namespace verification
 
 #endif

@@ -35,13 +35,6 @@ LastStep run(const Scene<2> &scene)
   return last;
 }
 
-bool mentions(const std::vector<std::string> &warnings, const std::string &words)
-{
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &warning)
-                     { return warning.find(words) != std::string::npos; });
-}
-
 /** A block on friction g = 0.3 in pure shear tau, by tractions on the three other sides. */
 Scene<2> sheared_block(const double tau, const Overrides &more = {})
 {

@@ -269,4 +269,35 @@ TEST(SameRun, GivesTheSameBits)
     }
   }
 }
+/** Half-width 7e-4 in an edge of length 1, away from all points: found, not passed over in silence. */
+TEST(TinyContact, IsFoundBetweenPoints)
+{
+  const Overrides tiny = {{"Exact solution/Length", "7e-4"},
+                          {"Exact solution/Pressure", "7e-3"},
+                          {"Exact solution/Transition", "0.3"},
+                          {"Boundary bottom/Gap", "0.0455*(x - 0.3)^2"}};
+  for (const std::string normal : {"nodes", "multiplier"})
+    for (const std::string steps : {"3", "24"})
+    {
+      Overrides overrides = tiny;
+      overrides.push_back({"Solver/Normal contact", normal});
+      overrides.push_back({"Adaptivity/Maximum steps", steps});
+      double error = 1;
+      std::vector<std::string> warnings;
+      AdaptiveSolver<2>(shipped_scene("hertz", overrides))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                error = step.errors.energy / step.errors.energy_norm;
+                warnings = step.warnings;
+              });
+      if (steps == "3")
+        EXPECT_TRUE(mentions(warnings, "contact is smaller than the mesh sees")) << normal;
+      else
+      {
+        EXPECT_LT(error, 1e-4) << normal;
+        EXPECT_TRUE(warnings.empty()) << warnings.front();
+      }
+    }
+}
 } // namespace

@@ -57,6 +57,41 @@ private:
   const ShapeTable<dim> &table;
   std::vector<double> values, derivatives; ///< component by component
 };
+
+/** u_N in one direction along a straight contact face: the polynomial through its values at p+1 Gauss points. */
+template <int dim>
+class EdgeDisplacement
+{
+public:
+  EdgeDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution,
+                   dealii::Tensor<1, dim> ContactFrame<dim>::*const direction)
+      : basis(solution.tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
+  {
+    const ShapeTables<dim> &tables = solution.tables;
+    const std::vector<double> values =
+        evaluate(tables.face(face.degree, face.face_no, face.degree + 1).values,
+                 solution.coefficients(face.cell->active_cell_index()));
+    for (unsigned int k = 0; k < nodal.size(); ++k)
+    {
+      const ContactFrame<dim> frame = face.frame(tables.gauss(nodal.size()).point(k)[0]);
+      for (unsigned int c = 0; c < dim; ++c)
+        nodal[k] += (frame.*direction)[c] * values[c * nodal.size() + k];
+    }
+  }
+
+  /** At reference coordinate s in [0,1] of the face. */
+  double operator()(const double s) const
+  {
+    double sum = 0;
+    for (unsigned int k = 0; k < nodal.size(); ++k)
+      sum += nodal[k] * basis[k].value(s);
+    return sum;
+  }
+
+private:
+  const std::vector<dealii::Polynomials::Polynomial<double>> &basis;
+  std::vector<double> nodal;
+};
 } // namespace hpvi
 
 #endif
