@@ -111,6 +111,7 @@ TEST(MultiplierTrace, OfNothingIsZero)
   const ShapeTables<2> tables;
   const RandomMesh mesh(scene, 1, 1);
   const DisplacementSpace<2> space(scene, mesh.mesh, mesh.degrees, tables);
-  EXPECT_TRUE(MultiplierTrace<2>().values(ContactSpace<2>(scene, space, tables), tables).all_zero());
+  EXPECT_TRUE(
+      MultiplierTrace<2>().values(ContactSpace<2>(scene, space, tables), tables).all_zero());
 }
 } // namespace
