@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_coulomb_solver_h
+#define hpvi_coulomb_solver_h
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+#include <hpvi/solver/equality_constraints.h>
+#include <hpvi/solver/friction_cones.h>
+#include <hpvi/solver/mprgp.h>
+
+#include <string>
+
+namespace hpvi
+{
+/**
+ * Find z in its own Tresca set `K(z) = set.at(z)` so that it minimises `1/2 y'Sy - (d + G alpha)'y` over
+ * the y of K(z), and `G'z = e`. With the residual `r = S z - d - G alpha`,
+ *
+ *     r_t = 0 where |z_t| < mu max(0, z_n),   z_t = +-mu max(0, z_n) with -+r_t >= 0 elsewhere,
+ *
+ * and the other components as in a QuadraticProgram. S is symmetric positive definite and contains, like
+ * d, the penalty `G Gamma G'` and `G Gamma e`, as in BalanceSolver. No minimum stands behind this: for
+ * large mu there may be several solutions.
+ */
+struct ConeProgram
+{
+  dealii::LAPACKFullMatrix<double> S;
+  dealii::Vector<double> d;
+  FrictionCones set;
+  EqualityConstraints balance;        ///< without columns where there are no free motions
+  dealii::FullMatrix<double> penalty; ///< Gamma
+};
+
+struct CoulombReport
+{
+  QpReport qp;                        ///< the sum; fell_back: it took more than Newton's method
+  unsigned int newton_steps = 0;      ///< each one LU factorisation
+  unsigned int fixed_point_steps = 0; ///< each one Tresca problem
+  double contraction = 0;             ///< of the fixed point, as far as seen; 0 if it did not run
+  double residual = 0;                ///< what is compared with the tolerance
+  std::string method;                 ///< what ended it
+};
+
+/**
+ * Semismooth Newton's method on the whole problem: a step predicts which walls hold, which points are
+ * closed, and which of them stick or slip, puts `z_t = +-mu z_n` for those that slip, and solves `r = 0`
+ * for the rest, together with the balance, by a dense LU factorisation (Alart & Curnier 1991,
+ * doi:10.1016/0045-7825(91)90022-X). A point never slips the other way without a step of stick in
+ * between. Nothing falls from step to step; where a state comes again without being right there follow:
+ *
+ * 1. "newton from frictionless": all that frictionless contact closes sticks at first;
+ * 2. "line search": steps are halved until the residual falls;
+ * 3. "anderson": Newton's method from a few steps of the fixed point;
+ * 4. "continuation": from a small coefficient upwards.
+ *
+ * The fixed point solves Tresca problems, each with the pressures of the one before, with Anderson's
+ * acceleration. It contracts where mu times the coupling is small, and there the solution is unique.
+ */
+class CoulombSolver
+{
+public:
+  enum class Method
+  {
+    newton,     ///< with its fallbacks
+    fixed_point ///< alone
+  };
+
+  /** @p first_rung leaves out what comes before it in the list above: for tests and measurements. */
+  CoulombSolver(const Mprgp::Settings &settings, Method method, unsigned int first_rung = 0);
+
+  /**
+   * @p z holds the starting value if it is @p warm, else all points begin closed and stick, and receives
+   * the solution or the best that was seen; @p alpha likewise. Converged if `|nu| <= tolerance max(|d|,
+   * |S z_0|)` for the projected gradient nu in K(z), in scaled variables as in Mprgp, and the balance
+   * holds to 100 times the tolerance in the sense of BalanceSolver. Slipping points have `z_t = +-mu z_n`
+   * exactly. Never throws for lack of convergence; all work is bounded.
+   */
+  CoulombReport solve(const ConeProgram &program, dealii::Vector<double> &z,
+                      dealii::Vector<double> &alpha, bool warm) const;
+
+private:
+  Mprgp::Settings settings;
+  Method method;
+  unsigned int first_rung;
+};
+} // namespace hpvi
+
+#endif
