@@ -162,7 +162,7 @@ public:
             Vector<double> &alpha);
 
   CoulombReport newton(bool warm, unsigned int first_rung);
-  CoulombReport fixed_point();
+  CoulombReport fixed_point(bool warm);
 
 private:
   CoulombReport finish();
@@ -252,9 +252,11 @@ CoulombReport Iteration::newton(const bool warm, const unsigned int first_rung)
   return finish();
 }
 
-CoulombReport Iteration::fixed_point()
+CoulombReport Iteration::fixed_point(const bool warm)
 {
   report.method = "fixed point";
+  if (!warm)
+    minimise_without_friction(); // sides of zero may leave no balance
   iterate_on_pressures(maximum_fixed_points);
   return finish();
 }
@@ -545,8 +547,14 @@ bool Iteration::minimise(const FeasibleSet &feasible_set)
   if (!tresca)
     tresca = QuadraticProgram{program.S, program.d, {}};
   tresca->feasible_set = feasible_set;
+  Mprgp::Settings exact = settings; // their noise limits how far the fixed point gets
+  exact.tolerance *= 0.01;
   const BalanceSolver::Inner inner = [&](const QuadraticProgram &qp, Vector<double> &y)
-  { return ActiveSet(settings).solve(qp, y); };
+  {
+    QpReport part = ActiveSet(exact).solve(qp, y);
+    part.converged = part.projected_gradient <= settings.tolerance;
+    return part;
+  };
   const QpReport part =
       alpha.size() == 0 ? inner(*tresca, z)
                         : BalanceSolver(inner, program.penalty, balance_noise * settings.tolerance)
@@ -584,7 +592,9 @@ void Iteration::put_on_cones(const FeasibleSet &tresca)
   {
     const unsigned int t = cone.tangential;
     const double bound = cone.mu * std::max(0., z[cone.normal]);
-    if (z[t] >= upper[t])
+    if (lower[t] == upper[t]) // new pressure: friction resists
+      z[t] = std::copysign(bound, -r[t]);
+    else if (z[t] >= upper[t])
       z[t] = bound;
     else if (z[t] <= lower[t])
       z[t] = -bound;
@@ -704,6 +714,7 @@ CoulombReport CoulombSolver::solve(const ConeProgram &program, Vector<double> &z
     return report;
   }
   Iteration iteration(program, settings, z, alpha);
-  return method == Method::newton ? iteration.newton(warm, first_rung) : iteration.fixed_point();
+  return method == Method::newton ? iteration.newton(warm, first_rung)
+                                  : iteration.fixed_point(warm);
 }
 } // namespace hpvi
