@@ -140,7 +140,9 @@ Vector<double> Anderson::next(const Vector<double> &x, const Vector<double> &f)
       matrix(i, j) = df[j][i];
   Vector<double> weights(df.size());
   Householder<double>(matrix).least_squares(weights, f);
-  if (!(weights.linfty_norm() < 1e3)) // the columns are as good as dependent
+  // NaN fails too: columns that are as good as dependent
+  if (!std::all_of(weights.begin(), weights.end(),
+                   [](const double weight) { return std::abs(weight) < 1e3; }))
   {
     dx.clear();
     df.clear();
