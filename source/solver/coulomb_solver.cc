@@ -549,14 +549,8 @@ bool Iteration::minimise(const FeasibleSet &feasible_set)
   if (!tresca)
     tresca = QuadraticProgram{program.S, program.d, {}};
   tresca->feasible_set = feasible_set;
-  Mprgp::Settings exact = settings; // their noise limits how far the fixed point gets
-  exact.tolerance *= 0.01;
   const BalanceSolver::Inner inner = [&](const QuadraticProgram &qp, Vector<double> &y)
-  {
-    QpReport part = ActiveSet(exact).solve(qp, y);
-    part.converged = part.projected_gradient <= settings.tolerance;
-    return part;
-  };
+  { return ActiveSet(settings).solve(qp, y); };
   const QpReport part =
       alpha.size() == 0 ? inner(*tresca, z)
                         : BalanceSolver(inner, program.penalty, balance_noise * settings.tolerance)

@@ -173,8 +173,8 @@ TEST(CoulombSolver, SolvesRandomProblems)
 TEST(CoulombSolver, FixedPointAgrees)
 {
   Vector<double> z, other, alpha;
-  for (const double mu : {0.05, 0.3})
-    for (unsigned int seed = 0; seed < 20; ++seed)
+  for (const double mu : {0.05, 0.3, 0.6})
+    for (unsigned int seed = 0; seed < 100; ++seed)
     {
       SCOPED_TRACE("mu = " + std::to_string(mu) + ", seed " + std::to_string(seed));
       const ConeProgram cones = random_cones(seed, mu);
@@ -182,9 +182,8 @@ TEST(CoulombSolver, FixedPointAgrees)
       const CoulombReport report = solve(cones, other, alpha, Method::fixed_point);
       EXPECT_TRUE(report.qp.converged) << report.residual;
       EXPECT_EQ(report.method, "fixed point");
-      EXPECT_GT(report.contraction, 0.);
       EXPECT_LT(report.contraction, 1.);
-      EXPECT_LE(report.fixed_point_steps, 25u);
+      EXPECT_LE(report.fixed_point_steps, 40u);
       expect_solution(cones, other, alpha);
       expect_near(z, other, 1e-7);
     }
