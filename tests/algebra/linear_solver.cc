@@ -2,8 +2,8 @@
 #include "memory.h"
 
 #include <gtest/gtest.h>
+#include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/solver/linear_solver.h>
 
 #include <memory>
 #include <new>

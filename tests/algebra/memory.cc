@@ -2,10 +2,10 @@
 #include "memory.h"
 
 #include <gtest/gtest.h>
+#include <hpvi/algebra/symmetric_matrix.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/solver/symmetric_matrix.h>
 
 #include <cmath>
 #include <filesystem>

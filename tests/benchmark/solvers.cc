@@ -16,8 +16,8 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <dmumps_c.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/algebra/linear_solver.h>
 #include <hpvi/scene/scene_reader.h>
-#include <hpvi/solver/linear_solver.h>
 #include <metis.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #ifndef hpvi_elastic_system_h
 #define hpvi_elastic_system_h
 
+#include <hpvi/algebra/symmetric_matrix.h>
 #include <hpvi/discretisation/condensation.h>
 #include <hpvi/discretisation/unknowns.h>
-#include <hpvi/solver/symmetric_matrix.h>
 
 #include <memory>
 #include <vector>

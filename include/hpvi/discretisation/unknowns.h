@@ -2,8 +2,8 @@
 #ifndef hpvi_unknowns_h
 #define hpvi_unknowns_h
 
+#include <hpvi/algebra/schur_complement.h>
 #include <hpvi/contact/contact_operator.h>
-#include <hpvi/solver/schur_complement.h>
 
 #include <array>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/solver/schur_complement.h>
+#include <hpvi/algebra/schur_complement.h>
 
 namespace hpvi
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cholmod.h>
+#include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/solver/linear_solver.h>
 
 #include <algorithm>
 #include <string>

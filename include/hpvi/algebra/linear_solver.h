@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/solver/symmetric_matrix.h>
+#include <hpvi/algebra/symmetric_matrix.h>
 
 #include <memory>
 #include <utility>

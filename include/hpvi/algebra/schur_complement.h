@@ -2,7 +2,7 @@
 #ifndef hpvi_schur_complement_h
 #define hpvi_schur_complement_h
 
-#include <hpvi/solver/linear_solver.h>
+#include <hpvi/algebra/linear_solver.h>
 
 namespace hpvi
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/symmetric_matrix.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/solver/symmetric_matrix.h>
 
 #include <limits>
 #include <string>
