@@ -252,6 +252,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           true_error.measure(solution, contact),
           algebraic,
           reduced.qp,
+          reduced.coulomb,
           reduced.condition_raw,
           reduced.condition_scaled,
           std::exchange(times, {}),

@@ -67,13 +67,15 @@ std::string tensile_contact(const Solution<dim> &solution,
 template <int dim>
 std::string overshooting_multiplier(const Solution<dim> &solution)
 {
-  double excess = 0.05 * solution.contact_space.largest_bound(), friction = 0, bound = 0;
+  double excess = 0, friction = 0, bound = 0;
+  for (unsigned int i = 0; i < solution.z.size(); ++i)
+    excess = std::max(excess, 0.05 * solution.contact_space.bound(i, solution.z));
   Point<dim> where;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
     {
       const double s = k / (4. * face.n_multipliers);
-      const double g = face.friction_bound(face.point(s)),
+      const double g = solution.contact_space.bound(face, solution.z, s),
                    z = std::abs(solution.contact_space.value(face, solution.z, s));
       if (z - g > excess)
       {
@@ -302,7 +304,7 @@ std::string whole_body_slips(const Solution<dim> &solution,
                              const std::vector<ContactState<dim>> &contact)
 {
   const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
-  if (motions.empty() || solution.scene.has_unilateral_contact())
+  if (motions.empty() || solution.scene.has_pressure())
     return {};
   Tensor<1, dim> friction;
   for (const ContactState<dim> &state : contact)
@@ -324,7 +326,7 @@ template <int dim>
 std::string free_place(const Solution<dim> &solution, const std::vector<ContactState<dim>> &contact)
 {
   const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
-  if (motions.empty() || !solution.scene.has_unilateral_contact())
+  if (motions.empty() || !solution.scene.has_pressure())
     return {};
   double largest = 0, size = 0;
   for (const ContactState<dim> &state : contact)
@@ -335,8 +337,9 @@ std::string free_place(const Solution<dim> &solution, const std::vector<ContactS
     const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[i];
     size += multiplier.weight;
     const bool holds = multiplier.kind == ContactMultiplier<dim>::Kind::pressure
-                           ? solution.z[i] > slip_tolerance * largest
-                           : std::abs(solution.z[i]) < (1 - slip_tolerance) * multiplier.bound;
+                           ? multiplier.is_bilateral || solution.z[i] > slip_tolerance * largest
+                           : std::abs(solution.z[i]) <
+                                 (1 - slip_tolerance) * solution.contact_space.bound(i, solution.z);
     for (unsigned int j = 0; j < motions.size() && holds; ++j)
       for (unsigned int k = 0; k < motions.size(); ++k)
         gram(j, k) += multiplier.weight * (multiplier.direction * motions[j].at(multiplier.x)) *

@@ -32,7 +32,7 @@ void add_conditions(const BoundaryCondition<dim> &boundary, const Point<dim> &x,
       direction[d] = 1.;
       conditions.push_back({direction, boundary.displacement[d]->value(x), boundary.id});
     }
-  if (boundary.contact == Contact::bilateral)
+  if (boundary.holds_normal())
     conditions.push_back({normal, 0., boundary.id});
 }
 
@@ -72,7 +72,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           continue;
         const auto face = cell->face(f);
         const BoundaryCondition<dim> &boundary = scene.boundaries[face->boundary_id()];
-        if (!boundary.has_displacement() && boundary.contact != Contact::bilateral)
+        if (!boundary.has_displacement() && !boundary.holds_normal())
           continue;
         const CellMap<dim> map = map_of<dim>(cell);
         const unsigned int p = numbering.degrees()[cell->active_cell_index()];

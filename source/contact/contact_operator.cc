@@ -61,7 +61,7 @@ bool takes_moments(const ContactFace<dim> &face, const unsigned int n_multiplier
 template <int dim>
 ContactOperator<dim>::ContactOperator(const DisplacementSpace<dim> &displacement_space,
                                       const ContactSpace<dim> &contact_space,
-                                      const ShapeTables<dim> &tables, const NormalContact normal)
+                                      const ShapeTables<dim> &tables)
     : space(displacement_space), multipliers(contact_space)
 {
   const auto moments = [&](const ContactFace<dim> &face, const unsigned int n)
@@ -79,7 +79,7 @@ ContactOperator<dim>::ContactOperator(const DisplacementSpace<dim> &displacement
                            moment_rows(face, n, &ContactFrame<dim>::tangent, tables),
                            moments(face, n)});
     }
-    if (const unsigned int n = face.pressures.size(); n > 0 && normal == NormalContact::nodes)
+    if (const unsigned int n = face.pressures.size(); n > 0 && face.at_nodes)
       face_rows.push_back(
           {&face, Kind::pressure, face.pressures, dofs, node_rows(face, tables), nullptr});
     else if (n > 0)

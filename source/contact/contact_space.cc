@@ -15,6 +15,9 @@ using namespace dealii;
 
 namespace
 {
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 template <int dim>
 ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
                            const unsigned int face_no, const unsigned int degree,
@@ -44,6 +47,15 @@ void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
   face.friction =
       make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
                          gauss, face.degree + std::max(1U, face.n_points) - 1);
+}
+
+/** Does Coulomb's law act anywhere on the face, as far as @p gauss sees? */
+template <int dim>
+bool has_coefficient(const ContactFace<dim> &face, const QGauss<1> &gauss)
+{
+  return std::any_of(gauss.get_points().begin(), gauss.get_points().end(),
+                     [&](const Point<1> &s)
+                     { return face.friction_coefficient(face.point(s[0])) > 0.; });
 }
 
 /** A scene by code is checked at some points of the boundary, none of which need be @p x. */
@@ -123,6 +135,12 @@ double ContactFace<dim>::friction_bound(const Point<dim> &x) const
   return condition->friction.bound ? condition->friction.bound->value(x) : 0.;
 }
 
+template <int dim>
+double ContactFace<dim>::friction_coefficient(const Point<dim> &x) const
+{
+  return condition->friction.coefficient ? condition->friction.coefficient->value(x) : 0.;
+}
+
 std::vector<double> lagrange_basis(const std::vector<double> &points, const double s)
 {
   std::vector<double> values(points.size(), 1.);
@@ -162,9 +180,12 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
   for (ContactFace<dim> &face : contact_faces)
   {
     number_friction(face, tables);
-    if (!face.condition->is_unilateral())
+    if (!face.condition->has_pressure())
       continue;
-    if (scene.solver.normal_contact == NormalContact::nodes)
+    // With nodes the bounds of Coulomb's law could turn negative between them.
+    face.at_nodes = scene.solver.normal_contact == NormalContact::nodes &&
+                    !face.condition->friction.coefficient;
+    if (face.at_nodes)
       number_nodes(face, displacement_space, tables);
     else
       number_pressures(face, tables);
@@ -178,7 +199,9 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
   integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)));
   face.first_multiplier = unknowns.size();
-  face.n_multipliers = face.friction.vanishes() ? 0 : face.n_points;
+  const bool acts =
+      !face.friction.vanishes() || has_coefficient(face, tables.gauss(face.degree + 2));
+  face.n_multipliers = acts ? face.n_points : 0;
   if (face.n_multipliers == 0)
     return;
   const QGauss<1> &points = tables.gauss(face.n_points);
@@ -187,7 +210,8 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   {
     const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
     unknowns.push_back({Kind::friction, frame.x, frame.tangent, points.weight(i) * frame.measure,
-                        checked_bound(face, frame.x), 0});
+                        checked_bound(face, frame.x)});
+    unknowns.back().coefficient = face.friction_coefficient(frame.x);
   }
 }
 
@@ -202,8 +226,10 @@ void ContactSpace<dim>::number_pressures(ContactFace<dim> &face, const ShapeTabl
     const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
     face.normal_points.push_back(points.point(i)[0]);
     face.pressures.push_back(unknowns.size());
-    unknowns.push_back(
-        {Kind::pressure, frame.x, frame.normal, points.weight(i) * frame.measure, 0, 0});
+    if (face.condition->friction.coefficient && face.n_multipliers > 0)
+      unknowns[face.first_multiplier + i].partner = unknowns.size();
+    unknowns.push_back({Kind::pressure, frame.x, frame.normal, points.weight(i) * frame.measure});
+    unknowns.back().is_bilateral = !face.condition->is_unilateral();
   }
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
@@ -255,7 +281,7 @@ void ContactSpace<dim>::number_nodes(ContactFace<dim> &face,
     face.normal_points.push_back(rule.point(k)[0]);
     face.pressures.push_back(unknown);
     if (unknown == unknowns.size())
-      unknowns.push_back({Kind::pressure, frame.x, frame.normal, 0, 0, 0});
+      unknowns.push_back({Kind::pressure, frame.x, frame.normal});
     ContactMultiplier<dim> &node = unknowns[unknown];
     const double least = node.weight == 0. ? gap : std::min(gap, node.gap / node.weight);
     node.weight += weight;
@@ -286,11 +312,40 @@ FeasibleSet ContactSpace<dim>::feasible_set() const
 {
   FeasibleSet result;
   for (const ContactMultiplier<dim> &unknown : unknowns)
-    if (unknown.kind == Kind::friction)
+    if (unknown.is_bilateral || unknown.partner != none)
+      result.add_interval(-infinity, infinity);
+    else if (unknown.kind == Kind::friction)
       result.add_interval(-unknown.bound, unknown.bound);
     else
-      result.add_interval(0., std::numeric_limits<double>::infinity());
+      result.add_interval(0., infinity);
   return result;
+}
+
+template <int dim>
+std::vector<FrictionCones::Cone> ContactSpace<dim>::cones() const
+{
+  std::vector<FrictionCones::Cone> result;
+  for (unsigned int i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i].partner != none)
+      result.push_back({i, unknowns[i].partner, unknowns[i].coefficient});
+  return result;
+}
+
+template <int dim>
+double ContactSpace<dim>::bound(const unsigned int unknown, const Vector<double> &z) const
+{
+  const ContactMultiplier<dim> &own = unknowns[unknown];
+  return own.partner == none ? own.bound : own.coefficient * std::max(0., z[own.partner]);
+}
+
+template <int dim>
+double ContactSpace<dim>::bound(const ContactFace<dim> &face, const Vector<double> &z,
+                                const double s) const
+{
+  const Point<dim> x = face.point(s);
+  return face.condition->friction.coefficient
+             ? face.friction_coefficient(x) * std::max(0., pressure(face, z, s))
+             : face.friction_bound(x);
 }
 
 template <int dim>

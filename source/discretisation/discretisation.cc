@@ -14,7 +14,7 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
     : mesh(std::move(triangulation)), tables(std::move(shape_tables)),
       displacement_space(scene, *mesh, degrees, *tables),
       contact_space(scene, displacement_space, *tables),
-      contact_operator(displacement_space, contact_space, *tables, scene.solver.normal_contact)
+      contact_operator(displacement_space, contact_space, *tables)
 {
 }
 

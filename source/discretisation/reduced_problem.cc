@@ -6,8 +6,11 @@
 #include <hpvi/solver/balance_solver.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace hpvi
 {
@@ -15,6 +18,19 @@ using namespace dealii;
 
 namespace
 {
+std::string not_converged(const CoulombReport &report, const unsigned int size)
+{
+  std::ostringstream line;
+  line << "Coulomb friction (" << size << " unknowns) has not converged after "
+       << report.newton_steps << " steps of Newton's method and " << report.fixed_point_steps
+       << " problems of Tresca: relative residual " << report.residual;
+  if (report.contraction > 0)
+    line << ", contraction number " << report.contraction;
+  line << "; lower Friction coefficient, of which there may be no or several solutions, refine the "
+          "first mesh, or try the other Solver/Coulomb solver";
+  return line.str();
+}
+
 std::string not_converged(const QpReport &report, const unsigned int size, const double tolerance)
 {
   std::ostringstream line;
@@ -30,12 +46,18 @@ std::string not_converged(const QpReport &report, const unsigned int size, const
   return line.str();
 }
 
-BalanceSolver::Inner solver_in_the_set(const SolverSettings &solver)
+Mprgp::Settings qp_settings(const SolverSettings &solver)
 {
   Mprgp::Settings settings;
   settings.tolerance = solver.qp_tolerance;
   settings.maximum_multiplications = solver.qp_maximum_multiplications;
   settings.diagonal_scaling = solver.diagonal_scaling;
+  return settings;
+}
+
+BalanceSolver::Inner solver_in_the_set(const SolverSettings &solver)
+{
+  const Mprgp::Settings settings = qp_settings(solver);
   if (solver.qp_solver == QpSolver::active_set)
     return [active_set = ActiveSet(settings)](const QuadraticProgram &qp, Vector<double> &z)
     { return active_set.solve(qp, z); };
@@ -70,12 +92,52 @@ void check_friction(const RigidMotions<dim> &motions, const ContactSpace<dim> &c
   throw NumericalFailure(line.str());
 }
 
+/**
+ * The tractions of a cone |z_t| <= mu z_n as sums of `(z_n, z_t) = (1, mu), (1, -mu)`, and of (-1, 0) where
+ * contact is bilateral: what it can resist is what these can with weights >= 0.
+ */
+std::pair<FeasibleSet, EqualityConstraints> generators(const FrictionCones &set,
+                                                       const EqualityConstraints &balance)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const unsigned int n = balance.G.m(), m = balance.G.n();
+  std::vector<const FrictionCones::Cone *> cone_of(n, nullptr);
+  for (const FrictionCones::Cone &cone : set.cones)
+    cone_of[cone.tangential] = cone_of[cone.normal] = &cone;
+  std::vector<std::vector<double>> rows;
+  FeasibleSet sides;
+  const auto add = [&](const unsigned int i, const double factor, const unsigned int k,
+                       const double other, const double lower, const double upper)
+  {
+    rows.emplace_back(m);
+    for (unsigned int j = 0; j < m; ++j)
+      rows.back()[j] = factor * balance.G(i, j) + other * balance.G(k, j);
+    sides.add_interval(lower, upper);
+  };
+  for (unsigned int i = 0; i < n; ++i)
+    if (!cone_of[i])
+      add(i, 1, i, 0, set.fixed.lower_side(i), set.fixed.upper_side(i));
+    else if (cone_of[i]->normal == i)
+    {
+      for (const double sign : {-1., 1.})
+        add(i, 1, cone_of[i]->tangential, sign * cone_of[i]->mu, 0, infinity);
+      if (set.fixed.lower_side(i) < 0)
+        add(i, -1, i, 0, 0, infinity);
+    }
+  EqualityConstraints result{FullMatrix<double>(rows.size(), m), balance.e};
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    for (unsigned int j = 0; j < m; ++j)
+      result.G(i, j) = rows[i][j];
+  return {sides, result};
+}
+
 /** The same for what friction and contact that can only press may do together. */
 template <int dim>
 void check_contact(const Scene<dim> &scene, const RigidMotions<dim> &motions,
-                   const FeasibleSet &feasible_set)
+                   const FrictionCones &set)
 {
-  const std::optional<Imbalance> imbalance = find_imbalance(feasible_set, motions.balance());
+  const auto [sides, balance] = generators(set, motions.balance());
+  const std::optional<Imbalance> imbalance = find_imbalance(sides, balance);
   if (!imbalance)
     return;
   RigidBodyMotion<dim> motion = motions.motion(imbalance->motion);
@@ -94,6 +156,19 @@ void check_contact(const Scene<dim> &scene, const RigidMotions<dim> &motions,
        << " at most; add a support, raise Friction bound or change the loads";
   throw NumericalFailure(line.str());
 }
+
+void solve_cones(const ConeProgram &program, const SolverSettings &solver, ReducedSolution &result)
+{
+  const auto method = solver.coulomb_method == CoulombMethod::newton
+                          ? CoulombSolver::Method::newton
+                          : CoulombSolver::Method::fixed_point;
+  const bool warm = !result.z.all_zero();
+  result.coulomb =
+      CoulombSolver(qp_settings(solver), method).solve(program, result.z, result.motion, warm);
+  result.qp = result.coulomb.qp;
+  if (!result.qp.converged)
+    throw NumericalFailure(not_converged(result.coulomb, program.d.size()));
+}
 } // namespace
 
 template <int dim>
@@ -105,33 +180,46 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   ReducedSolution result = std::move(start);
   const SolverSettings &settings = discretisation.scene.solver;
   const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
-  QuadraticProgram qp{schur_complement.S(), schur_complement.d(), contact_space.feasible_set()};
-  qp.d += defect;
-  const BalanceSolver::Inner solve = solver_in_the_set(settings);
-  if (const auto &motions = discretisation.free_motions; motions && motions->n_seen() > 0)
+  const FrictionCones set{contact_space.feasible_set(), contact_space.cones()};
+  const bool is_held = discretisation.free_motions && discretisation.free_motions->n_seen() > 0;
+  EqualityConstraints balance;
+  FullMatrix<double> penalty;
+  if (is_held)
   {
-    if (!discretisation.scene.has_unilateral_contact() && motions->n_seen() == 1)
-      check_friction(*motions, contact_space); // knows more to say
-    check_contact(discretisation.scene, *motions, qp.feasible_set);
+    const RigidMotions<dim> &motions = *discretisation.free_motions;
+    if (!discretisation.scene.has_pressure() && motions.n_seen() == 1)
+      check_friction(motions, contact_space); // knows more to say
+    check_contact(discretisation.scene, motions, set);
+    balance = motions.balance();
+    penalty = motions.penalty();
     if (result.motion.size() == 0)
-      result.motion.reinit(motions->n_seen());
-    // The inner problems leave noise of their own tolerance in the balance.
-    result.qp = BalanceSolver(solve, motions->penalty(), 100 * settings.qp_tolerance)
-                    .solve(qp, motions->balance(), result.z, result.motion);
-    qp.d += motions->balance().along(result.motion);
+      result.motion.reinit(motions.n_seen());
   }
+  Vector<double> d(schur_complement.d());
+  d += defect;
+  if (!set.cones.empty())
+    solve_cones({schur_complement.S(), d, set, balance, penalty}, settings, result);
   else
-    result.qp = solve(qp, result.z);
-  result.moments = qp.d;
-  Vector<double> product(qp.d.size());
-  qp.S.vmult(product, result.z);
+  {
+    const QuadraticProgram qp{schur_complement.S(), d, set.fixed};
+    const BalanceSolver::Inner solve = solver_in_the_set(settings);
+    // The inner problems leave noise of their own tolerance in the balance.
+    result.qp = is_held ? BalanceSolver(solve, penalty, 100 * settings.qp_tolerance)
+                              .solve(qp, balance, result.z, result.motion)
+                        : solve(qp, result.z);
+  }
+  if (is_held)
+    d += balance.along(result.motion);
+  result.moments = d;
+  Vector<double> product(d.size());
+  schur_complement.S().vmult(product, result.z);
   result.moments -= product;
   if (!result.qp.converged)
-    throw NumericalFailure(not_converged(result.qp, qp.d.size(), settings.qp_tolerance));
+    throw NumericalFailure(not_converged(result.qp, d.size(), settings.qp_tolerance));
   if (settings.condition_number)
   {
-    result.condition_raw = condition_number(qp.S);
-    result.condition_scaled = condition_number(scaled_by_diagonal(qp.S));
+    result.condition_raw = condition_number(schur_complement.S());
+    result.condition_scaled = condition_number(scaled_by_diagonal(schur_complement.S()));
   }
   result.seconds += timer.wall_time();
   return result;

@@ -105,9 +105,8 @@ Unknowns<dim>::edges_with_moments(const std::vector<unsigned int> &numbers)
     const ContactFrame<dim> frame = face->frame(0.5);
     // Each direction takes the place of the component that it has most of.
     const unsigned int along = std::abs(frame.tangent[0]) >= std::abs(frame.tangent[1]) ? 0 : 1;
-    const bool is_bilateral = face->condition->contact == Contact::bilateral;
     express(friction, edge_dofs, frame.tangent, along, numbers, lines);
-    if (!is_bilateral)
+    if (!face->condition->holds_normal())
       express(pressure, edge_dofs, frame.normal, 1 - along, numbers, lines);
   }
   return lines;

@@ -117,7 +117,7 @@ template <int dim>
 std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
                                          const Solution<dim> &solution, const double negligible)
 {
-  const bool has_friction = face.n_multipliers > 0, unilateral = face.condition->is_unilateral();
+  const bool has_friction = face.n_multipliers > 0, has_pressure = face.condition->has_pressure();
   const unsigned int n = std::max(face.n_points, 1U);
   const ContactTraces<dim> traces(face, n, solution);
   std::vector<ContactPoint<dim>> points;
@@ -126,17 +126,17 @@ std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
     const double s = solution.tables.gauss(n).point(q)[0];
     const ContactFrame<dim> frame = face.frame(s);
     const Tensor<1, dim> u = traces.displacement(q);
-    const double g = has_friction ? face.friction_bound(frame.x) : 0.;
+    const double g =
+        has_friction ? solution.contact_space.bound(face.first_multiplier + q, solution.z) : 0.;
     const double z = has_friction ? solution.z[face.first_multiplier + q] : 0.;
     const double lambda = g == 0. ? 0. : z / g;
-    points.push_back({frame.x, face.length, g, lambda,
-                      g == 0. || std::abs(lambda) >= 1. - slip_tolerance,
-                      is_open(face, solution.z, s, negligible),
-                      (unilateral ? face.condition->gap_at(frame.x) : 0.) - frame.normal * u,
-                      frame.normal * u, frame.tangent * u,
-                      unilateral ? 0. - solution.contact_space.pressure(face, solution.z, s)
-                                 : traces.normal_traction(q),
-                      0. - z}); // never -0
+    points.push_back(
+        {frame.x, face.length, g, lambda, g == 0. || std::abs(lambda) >= 1. - slip_tolerance,
+         is_open(face, solution.z, s, negligible),
+         face.condition->gap_at(frame.x) - frame.normal * u, frame.normal * u, frame.tangent * u,
+         has_pressure ? 0. - solution.contact_space.pressure(face, solution.z, s)
+                      : traces.normal_traction(q),
+         0. - z}); // never -0
   }
   if (face.frame(0.5).tangent * (face.point(1.) - face.point(0.)) < 0)
     std::reverse(points.begin(), points.end());
@@ -149,7 +149,7 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
                          ContactState<dim> &state)
 {
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
-  const bool unilateral = face.condition->is_unilateral();
+  const bool has_pressure = face.condition->has_pressure();
   const ContactTraces<dim> traces(face, gauss.size(), solution);
   const auto press = [&](const double pressure, const double s)
   {
@@ -163,8 +163,8 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
   {
     const double s = gauss.point(q)[0];
     const ContactFrame<dim> frame = face.frame(s);
-    const double traction = unilateral ? -solution.contact_space.pressure(face, solution.z, s)
-                                       : traces.normal_traction(q);
+    const double traction = has_pressure ? -solution.contact_space.pressure(face, solution.z, s)
+                                         : traces.normal_traction(q);
     state.normal_resultant += gauss.weight(q) * frame.measure * traction;
     state.tension += gauss.weight(q) * frame.measure * std::max(traction, 0.);
     if (traction > state.highest_tension)
@@ -173,8 +173,10 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
       state.highest_tension_point = frame.x;
     }
     press(-traction, s);
-    const double depth =
-        unilateral ? frame.normal * traces.displacement(q) - face.condition->gap_at(frame.x) : 0.;
+    const double u_n = frame.normal * traces.displacement(q),
+                 depth = face.condition->is_unilateral() ? u_n - face.condition->gap_at(frame.x)
+                         : has_pressure                  ? std::abs(u_n)
+                                                         : 0.;
     if (depth > state.deepest_penetration)
     {
       state.deepest_penetration = depth;

@@ -41,8 +41,8 @@ std::vector<double> zeros(const F &function, const unsigned int n_samples)
 
 /** int g |u_t| over one face: the pieces of its rule are cut further where u_t changes sign. */
 template <int dim>
-double friction_work(const ContactFace<dim> &face, const EdgeDisplacement<dim> &u_t,
-                     const QGauss<1> &gauss)
+double friction_work(const ContactFace<dim> &face, const Solution<dim> &solution,
+                     const EdgeDisplacement<dim> &u_t, const QGauss<1> &gauss)
 {
   std::vector<double> cuts = zeros(u_t, 8 * face.degree);
   cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
@@ -52,7 +52,8 @@ double friction_work(const ContactFace<dim> &face, const EdgeDisplacement<dim> &
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      sum += width * gauss.weight(q) * face.friction_bound(face.point(s)) * std::abs(u_t(s));
+      sum += width * gauss.weight(q) * solution.contact_space.bound(face, solution.z, s) *
+             std::abs(u_t(s));
     }
   return face.length * sum;
 }
@@ -64,9 +65,9 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
   double friction = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
-      friction +=
-          friction_work(face, EdgeDisplacement<dim>(face, solution, &ContactFrame<dim>::tangent),
-                        solution.tables.gauss(face.degree + 2));
+      friction += friction_work(face, solution,
+                                EdgeDisplacement<dim>(face, solution, &ContactFrame<dim>::tangent),
+                                solution.tables.gauss(face.degree + 2));
   const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
   double coupling = 0;
   for (unsigned int i = 0; i < moments.size(); ++i)

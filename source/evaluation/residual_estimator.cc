@@ -75,7 +75,7 @@ Residuals<dim>::Residuals(const Solution<dim> &solution)
   const unsigned int n_cells = degrees.size();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
-  if (solution.scene.has_unilateral_contact())
+  if (solution.scene.has_pressure())
     for (auto *part : {&result.normal, &result.penetration, &result.tension})
       part->assign(n_cells, 0.);
   coefficients.resize(n_cells);
@@ -277,12 +277,12 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
     const double ds = tables.gauss(n_gauss).weight(q) * frame.measure;
     tangential += ds * along * along;
     normal += ds * across * across;
-    tension += ds * std::pow(std::min(pressure, 0.), 2);
+    tension += condition.is_unilateral() ? ds * std::pow(std::min(pressure, 0.), 2) : 0.;
   }
   result.contact[index] += weight(index) * tangential;
   if (condition.contact == Contact::tangential)
     result.neumann[index] += weight(index) * normal;
-  if (!condition.is_unilateral())
+  if (!condition.has_pressure())
     return;
   result.normal[index] += weight(index) * normal;
   result.tension[index] += weight(index) * tension;
@@ -305,7 +305,9 @@ double Residuals<dim>::penetration(const ContactFace<dim> &face) const
     double depth = -condition.gap_at(frame.x);
     for (unsigned int c = 0; c < dim; ++c)
       depth += frame.normal[c] * u[c * n + q];
-    sum += tables.gauss(n).weight(q) * frame.measure * std::pow(mu * std::max(depth, 0.), 2);
+    if (condition.is_unilateral())
+      depth = std::max(depth, 0.);
+    sum += tables.gauss(n).weight(q) * frame.measure * std::pow(mu * depth, 2);
   }
   return sum;
 }

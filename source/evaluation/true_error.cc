@@ -241,7 +241,7 @@ double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &
   return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
                          [&](const double s, const Point<dim> &x)
                          {
-                           const double g = face.friction_bound(x);
+                           const double g = solution.contact_space.bound(face, solution.z, s);
                            const double difference =
                                exact.multiplier(x) -
                                (g == 0. ? 0.
@@ -360,11 +360,11 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
   for (const ContactFace<dim> &face : solution.contact_space.faces())
   {
     friction += scene.has_friction() ? multiplier_square(solution, face, exact) : 0.;
-    pressure += face.condition->is_unilateral() ? pressure_square(solution, face, exact) : 0.;
+    pressure += face.condition->has_pressure() ? pressure_square(solution, face, exact) : 0.;
   }
   if (scene.has_friction())
     errors.multiplier_l2 = std::sqrt(friction);
-  if (scene.has_unilateral_contact())
+  if (scene.has_pressure())
     errors.pressure_l2 = std::sqrt(pressure);
   errors.transition = transition_error(transitions(contact), exact);
 }

@@ -55,6 +55,7 @@ Record convergence_record(const StepReport<dim> &step)
   const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
   const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
   const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
+  const bool coulomb = step.solution.scene.has_coulomb_friction();
   Record record{
       {"step", text(step.number)},
       {"elements", text(space.triangulation().n_active_cells())},
@@ -97,6 +98,10 @@ Record convergence_record(const StepReport<dim> &step)
       {"error_pressure", known(step.errors.pressure_l2)},
       {"estimate_normal", root_of_sum(step.estimate.normal)},
       {"estimate_penetration", root_of_sum(step.estimate.penetration)},
+      {"coulomb_newton", coulomb ? text(step.coulomb.newton_steps) : ""},
+      {"coulomb_fixed_point", coulomb ? text(step.coulomb.fixed_point_steps) : ""},
+      {"coulomb_contraction", coulomb ? condition(step.coulomb.contraction) : ""},
+      {"coulomb_method", step.coulomb.method},
       {"estimate_tension", root_of_sum(step.estimate.tension)}};
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);

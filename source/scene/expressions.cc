@@ -169,7 +169,8 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
 template <int dim>
 typename ExpressionReader<dim>::Expression
 ExpressionReader<dim>::read_bound(const std::string &section, const std::string &name,
-                                  const std::vector<Point<dim>> &points) const
+                                  const std::vector<Point<dim>> &points,
+                                  const std::string &remedy) const
 {
   const Expression g = read<1>(section, name, "0", points)[0];
   if (g == nullptr)
@@ -177,11 +178,12 @@ ExpressionReader<dim>::read_bound(const std::string &section, const std::string 
   double largest = 0;
   for (const Point<dim> &point : points)
     largest = std::max(largest, std::abs(g->value(point)));
-  const auto value = [g, largest, place = parameters.place(section, name)](const Point<dim> &x)
+  const auto value =
+      [g, largest, remedy, place = parameters.place(section, name)](const Point<dim> &x)
   {
     const double result = g->value(x);
     if (result < -1e-12 * largest) // round-off, as in sin(2*pi), is no sign
-      throw InputError(message(place, "is negative", x, result, "Tresca's bound needs g >= 0"));
+      throw InputError(message(place, "is negative", x, result, remedy));
     return std::max(result, 0.);
   };
   const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);

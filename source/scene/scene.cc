@@ -60,6 +60,18 @@ bool BoundaryCondition<dim>::is_unilateral() const
 }
 
 template <int dim>
+bool BoundaryCondition<dim>::holds_normal() const
+{
+  return contact == Contact::bilateral && !friction.coefficient;
+}
+
+template <int dim>
+bool BoundaryCondition<dim>::has_pressure() const
+{
+  return is_unilateral() || (contact == Contact::bilateral && friction.coefficient);
+}
+
+template <int dim>
 double BoundaryCondition<dim>::gap_at(const Point<dim> &x) const
 {
   return gap ? gap->value(x) : 0.;
@@ -165,8 +177,22 @@ template <int dim>
 bool Scene<dim>::has_friction() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const BoundaryCondition<dim> &b) { return b.has_contact() && b.friction; });
+}
+
+template <int dim>
+bool Scene<dim>::has_pressure() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const BoundaryCondition<dim> &b) { return b.has_pressure(); });
+}
+
+template <int dim>
+bool Scene<dim>::has_coulomb_friction() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &b)
-                     { return b.has_contact() && b.friction.bound != nullptr; });
+                     { return b.has_contact() && b.friction.coefficient; });
 }
 
 template <int dim>

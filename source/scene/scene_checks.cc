@@ -261,21 +261,44 @@ std::string name_of(const Contact contact)
   return contact_names[static_cast<unsigned int>(contact)];
 }
 
+/** The largest value of a bound or a coefficient, which must not be negative. */
+double check_friction(const Scene<2> &scene, const std::string &section, const std::string &name,
+                      const Expression<2> &function, const std::vector<Point<2>> &points,
+                      const std::string &remedy)
+{
+  double largest_value = 0;
+  for (const Point<2> &point : points)
+  {
+    const double value = function ? function->value(point) : 0.;
+    if (!(value >= 0 && std::isfinite(value)))
+      reject(scene, section, name,
+             "is " + to_string(value) + " at " + to_string(point) + "; " + remedy);
+    largest_value = std::max(largest_value, value);
+  }
+  return largest_value;
+}
+
 void check_friction(const Scene<2> &scene, const std::string &section,
                     const BoundaryCondition<2> &boundary, const std::vector<Point<2>> &points)
 {
-  if (boundary.friction.bound != nullptr && !boundary.has_contact())
+  const FrictionLaw<2> &law = boundary.friction;
+  if (law.bound && !boundary.has_contact())
     reject(scene, section, "Friction bound", friction_needs_contact);
-  double largest_bound = 0;
-  for (const Point<2> &point : points)
-  {
-    const double g = boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
-    if (!(g >= 0 && std::isfinite(g)))
-      reject(scene, section, "Friction bound",
-             "is " + to_string(g) + " at " + to_string(point) + "; Tresca's bound needs g >= 0");
-    largest_bound = std::max(largest_bound, g);
-  }
-  if (boundary.contact == Contact::tangential && largest_bound == 0)
+  if (law.coefficient && !boundary.has_contact())
+    reject(scene, section, "Friction coefficient", friction_needs_contact);
+  if (law.bound && law.coefficient)
+    reject(scene, section, "Friction coefficient",
+           "stands beside Friction bound; keep Coulomb's law or Tresca's");
+  if (law.coefficient && boundary.contact == Contact::tangential)
+    reject(
+        scene, section, "Friction coefficient",
+        "needs a pressure, which Contact = tangential has not; give Friction bound or set Contact "
+        "= unilateral");
+  const double bound = check_friction(scene, section, "Friction bound", law.bound, points,
+                                      "Tresca's bound needs g >= 0");
+  check_friction(scene, section, "Friction coefficient", law.coefficient, points,
+                 "Coulomb's coefficient needs mu_f >= 0");
+  if (boundary.contact == Contact::tangential && bound == 0)
     reject(scene, section, "Contact",
            "has friction nowhere to act, for Friction bound is 0 all along the boundary; give "
            "Friction bound > 0 or set Contact = none",
@@ -713,9 +736,8 @@ void check_adaptivity(const Scene<2> &scene)
 /** Only contact without friction that closes at nodes needs no multiplier. */
 bool needs_multiplier(const Scene<2> &scene, const BoundaryCondition<2> &boundary)
 {
-  return boundary.has_contact() &&
-         (!boundary.is_unilateral() || boundary.friction.bound != nullptr ||
-          scene.solver.normal_contact == NormalContact::multiplier);
+  return boundary.has_contact() && (!boundary.is_unilateral() || boundary.friction ||
+                                    scene.solver.normal_contact == NormalContact::multiplier);
 }
 
 void check_multiplier_degree(const Scene<2> &scene, const SceneUse use)
@@ -748,7 +770,7 @@ void check_first_step(const Scene<2> &scene)
   double unknowns = 2 * nodes_x * nodes_y;
   for (const BoundaryCondition<2> &boundary : scene.boundaries)
   {
-    unsigned int held = boundary.contact == Contact::bilateral ? 1 : 0;
+    unsigned int held = boundary.holds_normal() ? 1 : 0;
     for (const auto &component : boundary.displacement)
       held += component != nullptr ? 1 : 0;
     unknowns -= std::min(held, 2U) * (boundary.id < 2 ? nodes_y : nodes_x);
@@ -775,10 +797,13 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
   for (unsigned int f = 0; f < edges.size(); ++f)
     for (const Point<2> &end : edges[f].ends) // rigid-body motions are linear along an edge
     {
-      for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], end))
-        held.push_back(row_of(condition.direction, end, centre, length));
+      const BoundaryCondition<2> &boundary = scene.boundaries[f];
+      for (const PointCondition &condition : conditions_at(boundary, edges[f], end))
+        // Coulomb's law has a multiplier where bilateral contact is a support else.
+        (boundary.has_pressure() ? resisted : held)
+            .push_back(row_of(condition.direction, end, centre, length));
       const Tensor<1, 2> &n = edges[f].normal;
-      if (scene.boundaries[f].friction.bound) // where it vanishes, the mesh decides
+      if (boundary.friction) // where it vanishes, the mesh decides
         resisted.push_back(row_of(Tensor<1, 2>({-n[1], n[0]}), end, centre, length));
     }
   resisted.insert(resisted.end(), held.begin(), held.end());

@@ -125,7 +125,11 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "it."},
        {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
         "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
-        "empty or 0: no friction."}});
+        "empty or 0: no friction."},
+       {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
+        "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f |T_n|, instead of a bound; of "
+        "unilateral "
+        "or bilateral contact; empty or 0: no friction."}});
 }
 
 void add_method_entries(std::vector<Entry> &entries)
@@ -194,6 +198,10 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "QP maximum multiplications", "100000", matching(Patterns::Integer(1)),
         "a positive integer", "Products with S before the solver gives up (exit status 2)."},
        {"Solver", "Diagonal scaling", "true", boolean, yes_no, "Scale S by its diagonal."},
+       {"Solver", "Coulomb solver", "newton", one_of(coulomb_method_names), "newton or fixed point",
+        "newton: semismooth Newton on pressures and frictions at once, with fallbacks. fixed "
+        "point: "
+        "problems of Tresca, each with the bounds mu_f |T_n| of the last, accelerated."},
        {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
         "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
         "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "

@@ -92,7 +92,8 @@ double constant_friction_bound(const Parameters &parameters, const ExpressionRea
                                const std::string &boundary, const Edge &edge)
 {
   const std::vector<Point<2>> points = edge.sample();
-  const auto bound = expressions.read_bound("Boundary " + boundary, "Friction bound", points);
+  const auto bound = expressions.read_bound("Boundary " + boundary, "Friction bound", points,
+                                            "Tresca's bound needs g >= 0");
   if (bound == nullptr || parameters.text("Boundary " + boundary, "Contact") == "none")
     return 0.;
   const double value = bound->value(points[0]);
@@ -187,12 +188,17 @@ void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &ex
       expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
-  boundary.friction.bound = expressions.read_bound(section, "Friction bound", points);
+  boundary.friction.bound =
+      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
+  boundary.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
+                                                         "Coulomb's coefficient needs mu_f >= 0");
   // Even a zero is one too many.
   if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
     parameters.reject(section, "Gap", gap_needs_contact);
   if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty())
     parameters.reject(section, "Friction bound", friction_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction coefficient").empty())
+    parameters.reject(section, "Friction coefficient", friction_needs_contact);
 }
 
 /** Resolves `Start degree = 0`, also in @p parameters. */
@@ -209,6 +215,8 @@ void read_method(Parameters &parameters, Scene<dim> &scene)
   parameters.set("Adaptivity", "Start degree", std::to_string(adaptivity.start_degree));
   scene.solver.qp_solver =
       read_choice<QpSolver>(parameters, "Solver", "QP solver", qp_solver_names);
+  scene.solver.coulomb_method =
+      read_choice<CoulombMethod>(parameters, "Solver", "Coulomb solver", coulomb_method_names);
   scene.solver.normal_contact =
       read_choice<NormalContact>(parameters, "Solver", "Normal contact", normal_contact_names);
 }

@@ -52,6 +52,16 @@ void FeasibleSet::add_disc(const double radius)
   upper.insert(upper.end(), 2, infinity);
 }
 
+double FeasibleSet::lower_side(const unsigned int i) const
+{
+  return lower[i];
+}
+
+double FeasibleSet::upper_side(const unsigned int i) const
+{
+  return upper[i];
+}
+
 unsigned int FeasibleSet::size() const
 {
   return lower.size();

@@ -230,6 +230,17 @@ for bound in "" 0 "0*x"; do
     "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=$bound"
 done
 invalid "Boundary top/Contact = tangential" "friction nowhere to act" "Friction bound > 0" -- "Boundary top/Contact=tangential"
+coulomb=("${open[@]}" "Boundary bottom/Friction bound=")
+invalid "Boundary bottom/Friction coefficient" "negative" "Coulomb's coefficient needs mu_f >= 0" -- \
+  "${coulomb[@]}" "Boundary bottom/Friction coefficient=0.1-x"
+invalid "Boundary bottom/Friction coefficient" "not finite" -- \
+  "${coulomb[@]}" "Boundary bottom/Friction coefficient=1/(x-1)"
+invalid "Boundary bottom/Friction coefficient" "beside Friction bound" "keep" -- \
+  "${open[@]}" "Boundary bottom/Friction bound=1" "Boundary bottom/Friction coefficient=0.3"
+invalid "Boundary top/Friction coefficient" "needs contact" -- "Boundary top/Friction coefficient=0.3"
+invalid "Boundary bottom/Friction coefficient" "needs a pressure" "tangential" -- \
+  "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
+invalid "Solver/Coulomb solver = anderson" "newton or fixed point" -- "Solver/Coulomb solver=anderson"
 invalid "Solver/Normal contact = penalty" "multiplier or nodes" -- "Solver/Normal contact=penalty"
 invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Boundary bottom/Friction bound=" \
   "Solver/Normal contact=multiplier" "Adaptivity/Start degree=1"

@@ -106,6 +106,10 @@ std::vector<Case> cases()
       std::replace(name.begin(), name.end(), '-', '_');
       result.push_back({name, scene, {{"Solver/Normal contact", normal}}});
     }
+  result.push_back({"coulomb", "ssnv128", {}});
+  result.push_back({"coulomb_fixed_point", "ssnv128", {{"Solver/Coulomb solver", "fixed point"}}});
+  result.push_back({"coulomb_bilateral", "ssnv128", {{"Boundary bottom/Contact", "bilateral"}}});
+  result.push_back({"coulomb_slope", "slope", {}});
   result.push_back({"slanted_unilateral",
                     "han-6-12-unilateral",
                     {{"Geometry/Shape", "quadrilateral"},

@@ -10,7 +10,7 @@
 #include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/evaluation/true_error.h>
-#include <hpvi/solver/mprgp.h>
+#include <hpvi/solver/coulomb_solver.h>
 
 #include <string>
 #include <vector>
@@ -36,6 +36,7 @@ struct StepReport
   TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with
   AlgebraicError algebraic;               ///< what round-off leaves in u_N
   QpReport qp;                            ///< all zero without multipliers
+  CoulombReport coulomb;                  ///< likewise without Coulomb friction
   double condition_raw = 0;               ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0;            ///< cond(D^-1/2 S D^-1/2), likewise
   StageTimes times;

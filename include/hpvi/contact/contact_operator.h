@@ -28,8 +28,7 @@ public:
 
   /** The spaces must outlive this object. */
   ContactOperator(const DisplacementSpace<dim> &displacement_space,
-                  const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables,
-                  NormalContact normal);
+                  const ContactSpace<dim> &contact_space, const ShapeTables<dim> &tables);
 
   /** B u: what u does at the contact boundary, by multiplier [length^dim]. */
   dealii::Vector<double> moments(const dealii::Vector<double> &u) const;

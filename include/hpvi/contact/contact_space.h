@@ -7,7 +7,7 @@
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/contact/contact_frame.h>
 #include <hpvi/contact/friction_rule.h>
-#include <hpvi/solver/feasible_set.h>
+#include <hpvi/solver/friction_cones.h>
 
 #include <map>
 #include <vector>
@@ -36,9 +36,9 @@ struct ContactFace
    * of a multiplier; or Gauss-Lobatto points, without those where u_n is prescribed.
    */
   std::vector<double> normal_points;
-  std::vector<unsigned int>
-      pressures;         ///< their unknowns: a vertex shares its own with the next face
-  FrictionRule friction; ///< for integrals over the face that hold g [stress]
+  std::vector<unsigned int> pressures; ///< their unknowns; a vertex shares its own
+  FrictionRule friction;               ///< for integrals over the face that hold g [stress]
+  bool at_nodes = false;               ///< are the normal points Gauss-Lobatto points?
 
   /** At reference coordinate s in [0,1] of the face. */
   ContactFrame<dim> frame(double s) const;
@@ -46,6 +46,8 @@ struct ContactFace
 
   /** Friction bound g(x), zero where the boundary names none. */
   double friction_bound(const dealii::Point<dim> &x) const;
+
+  double friction_coefficient(const dealii::Point<dim> &x) const; ///< mu_f(x) likewise
 };
 
 /** Values at @p s of the polynomials that are 1 at one of @p points and 0 at the others. */
@@ -57,17 +59,20 @@ struct ContactMultiplier
 {
   enum class Kind
   {
-    friction, ///< |z| <= g along the tangent
-    pressure  ///< z >= 0 along the normal
+    friction, ///< along the tangent: |z| <= g, or |z| <= mu_f max(0, z_n) with its partner z_n
+    pressure  ///< along the normal: z >= 0, or of any sign where contact is bilateral
   };
 
   Kind kind;
   dealii::Point<dim> x;
   dealii::Tensor<1, dim> direction; ///< of the displacement that it works on
-  double weight =
-      0; ///< of the quadrature rule, times ds: `int z_N = sum_i weight_i z_i` [length^(dim-1)]
-  double bound = 0; ///< g(x) [stress]; 0 for a pressure
-  double gap = 0;   ///< int psi u_0 with its basis function psi, 0 for friction [length^dim]
+  /** Of the quadrature rule, times ds: `int z_N = sum_i weight_i z_i` [length^(dim-1)]. */
+  double weight = 0;
+  double bound = 0;       ///< g(x) [stress]; 0 for a pressure
+  double gap = 0;         ///< int psi u_0 with its basis function psi, 0 for friction [length^dim]
+  double coefficient = 0; ///< mu_f(x) of Coulomb's law
+  unsigned int partner = dealii::numbers::invalid_unsigned_int; ///< its pressure there; else none
+  bool is_bilateral = false;                                    ///< a pressure of any sign
 };
 
 /** A jump of g inside an edge, which no polynomial of the discrete problem follows. */
@@ -115,8 +120,17 @@ public:
   unsigned int n_multipliers() const;
   const std::vector<ContactMultiplier<dim>> &multipliers() const;
 
-  /** |z_i| <= g(x_i) of friction, z_i >= 0 of pressures. */
+  /** |z_i| <= g(x_i) of friction, z_i >= 0 of pressures; no sides where a cone has them. */
   FeasibleSet feasible_set() const;
+
+  /** The pairs of Coulomb's law; none under Tresca's. */
+  std::vector<FrictionCones::Cone> cones() const;
+
+  /** g at an unknown of friction where the multiplier is @p z: of Coulomb's law mu_f max(0, z_n). */
+  double bound(unsigned int unknown, const dealii::Vector<double> &z) const;
+
+  /** g on @p face at s in [0,1] likewise, with the polynomial of the pressure. */
+  double bound(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
 
   /**
    * Values of the friction multiplier's Lagrange basis on @p face at reference coordinates @p s in

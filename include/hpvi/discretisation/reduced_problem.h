@@ -3,7 +3,7 @@
 #define hpvi_reduced_problem_h
 
 #include <hpvi/discretisation/discretisation.h>
-#include <hpvi/solver/mprgp.h>
+#include <hpvi/solver/coulomb_solver.h>
 
 namespace hpvi
 {
@@ -15,6 +15,7 @@ struct ReducedSolution
   dealii::Vector<double> moments;
   dealii::Vector<double> motion; ///< amounts of the free motions that contact sees (RigidMotions)
   QpReport qp;
+  CoulombReport coulomb;       ///< of Coulomb friction; its qp is the one above
   double seconds = 0;          ///< of wall time, for all calls that went on from one another
   double condition_raw = 0;    ///< cond(S), 0 unless the scene asks for it
   double condition_scaled = 0; ///< cond(D^-1/2 S D^-1/2), likewise
@@ -23,7 +24,7 @@ struct ReducedSolution
 /**
  * Minimises `1/2 z'Sz - d'z` over the feasible set by the scene's solver, from @p start, whose
  * multiplier fits the contact space; where contact alone holds the body, under the balance of forces
- * along its free motions. @p defect is added to d: by how much `B u` of a corrected displacement differs
+ * along its free motions; with Coulomb's law the conditions of FrictionCones instead. @p defect is added to d: by how much `B u` of a corrected displacement differs
  * from what S and d promised. Throws NumericalFailure where the solver does not converge or where the
  * loads exceed what contact can resist.
  */

@@ -44,9 +44,13 @@ public:
   read(const std::string &section, const std::string &name, const std::string &absent,
        const std::vector<dealii::Point<dim>> &points, const ExactField &exact = {}) const;
 
-  /** Tresca's bound: one function, null where the entry is empty or zero, and nowhere negative. */
+  /**
+   * Tresca's bound or Coulomb's coefficient: one function, null where the entry is empty or zero, and
+   * nowhere negative, @p remedy says why.
+   */
   Expression read_bound(const std::string &section, const std::string &name,
-                        const std::vector<dealii::Point<dim>> &points) const;
+                        const std::vector<dealii::Point<dim>> &points,
+                        const std::string &remedy) const;
 
 private:
   Expression make_exact(const std::string &section, const std::string &name,

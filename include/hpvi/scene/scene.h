@@ -53,7 +53,13 @@ enum class NormalContact
 template <int dim>
 struct FrictionLaw
 {
-  Expression<dim> bound; ///< Tresca's g(x) >= 0 [stress]; null: no friction
+  Expression<dim> bound;       ///< Tresca's g(x) >= 0 [stress]; null: not Tresca's law
+  Expression<dim> coefficient; ///< Coulomb's mu_f(x) >= 0: |T_t| <= mu_f |T_n|; null: not his law
+
+  explicit operator bool() const
+  {
+    return bound || coefficient;
+  }
 };
 
 /** Everything that a scene says about one named part of the boundary. */
@@ -74,6 +80,10 @@ struct BoundaryCondition
   bool has_traction() const;     ///< is any component given?
   bool has_contact() const;
   bool is_unilateral() const;
+  bool
+  holds_normal() const; ///< u_n = 0 as a constraint of the space: bilateral without Coulomb's law
+  bool
+  has_pressure() const; ///< a multiplier of its own for T_n: unilateral, or bilateral with that law
   double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
 };
 
@@ -129,6 +139,13 @@ struct Adaptivity
   double tolerance = 0; ///< stop where the relative indicator falls below; 0: never
 };
 
+/** What finds Coulomb friction; doc/contact.md compares the two. */
+enum class CoulombMethod
+{
+  newton,     ///< semismooth Newton on pressures and frictions at once
+  fixed_point ///< Tresca problems with the bounds of the last one, accelerated
+};
+
 /** How the quadratic program is solved. */
 struct SolverSettings
 {
@@ -137,7 +154,8 @@ struct SolverSettings
   double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)
   unsigned int qp_maximum_multiplications = 100000; ///< more products with S: exit status 2
   bool diagonal_scaling = true;
-  NormalContact normal_contact = NormalContact::nodes;
+  NormalContact normal_contact = NormalContact::nodes; ///< but for Coulomb friction: multiplier
+  CoulombMethod coulomb_method = CoulombMethod::newton;
   int multiplier_offset = -2; ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number =
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
@@ -219,8 +237,10 @@ struct Scene
   bool has_body_force() const;
   bool has_contact() const;
   bool has_known_solution() const; ///< exact or reference: can the true error be measured?
-  bool has_friction() const;       ///< does any contact boundary name a friction bound?
+  bool has_friction() const;       ///< does any contact boundary name a bound or a coefficient?
+  bool has_coulomb_friction() const;
   bool has_unilateral_contact() const;
+  bool has_pressure() const; ///< has T_n of any contact boundary a multiplier of its own?
 
   /**
    * A basis of the motions that prescribed displacements and bilateral contact leave free, so that

@@ -17,14 +17,16 @@ inline const std::vector<std::string> boundary_names = {"left", "right", "bottom
 inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
-/** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact, NormalContact. */
+/** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact, NormalContact,
+    CoulombMethod. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       qp_solver_names = {"mprgp", "active set"},
                                       shape_names = {"box", "quadrilateral"},
                                       plane_names = {"stress", "strain"},
                                       contact_names = {"none", "bilateral", "unilateral",
                                                        "tangential"},
-                                      normal_contact_names = {"multiplier", "nodes"};
+                                      normal_contact_names = {"multiplier", "nodes"},
+                                      coulomb_method_names = {"newton", "fixed point"};
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry

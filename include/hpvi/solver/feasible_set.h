@@ -34,6 +34,9 @@ public:
 
   unsigned int size() const; ///< number of components
 
+  double lower_side(unsigned int i) const; ///< of an interval, -infinity where there is none
+  double upper_side(unsigned int i) const;
+
   /** z := the nearest point of the set; NaN stays NaN. */
   void project(dealii::Vector<double> &z) const;
 

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Coulomb friction against closed forms, a published benchmark, statics and its own conditions.
+#include "opening_contact.h"
+
+#include <cmath>
+
+namespace
+{
+using namespace verification;
+
+/** What the last step of a run found. */
+struct Outcome
+{
+  std::vector<double> elastic_energy; ///< 1/2 a(u,u), step by step
+  ContactState<2> contact;
+  std::vector<std::string> warnings;
+  double imbalance = 0;
+};
+
+/** |T_t| <= mu_f |T_n| at the points, slip against friction, u_n <= u_0 and z_n >= 0 in the moments. */
+void expect_coulomb(const Solution<2> &solution)
+{
+  const auto &multipliers = solution.contact_space.multipliers();
+  const Vector<double> Bu = solution.spaces->contact_operator.moments(solution.u);
+  const double traction = solution.z.linfty_norm(), length = solution.u.linfty_norm();
+  unsigned int n_cones = 0;
+  for (unsigned int i = 0; i < multipliers.size(); ++i)
+  {
+    const double w = multipliers[i].weight, move = (Bu[i] - multipliers[i].gap) / w;
+    if (multipliers[i].kind == ContactMultiplier<2>::Kind::pressure)
+    {
+      EXPECT_LE(std::abs(multipliers[i].is_bilateral ? move : std::max(move, 0.)), 1e-9 * length);
+      if (multipliers[i].is_bilateral)
+        continue;
+      EXPECT_GE(solution.z[i], 0.);
+      EXPECT_LE(std::abs(solution.z[i] * move), 1e-9 * traction * length);
+      continue;
+    }
+    ++n_cones;
+    ASSERT_LT(multipliers[i].partner, multipliers.size());
+    const double bound =
+        multipliers[i].coefficient * std::max(0., solution.z[multipliers[i].partner]);
+    EXPECT_EQ(bound, solution.contact_space.bound(i, solution.z));
+    EXPECT_LE(std::abs(solution.z[i]), bound * (1 + 1e-14));
+    // int g |u_t| = int z u_t, point by point
+    EXPECT_LE(std::abs(bound * std::abs(move) - solution.z[i] * move), 1e-9 * traction * length);
+  }
+  EXPECT_GT(n_cones, 0u);
+}
+
+Outcome run(const Scene<2> &scene)
+{
+  Outcome outcome;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        expect_coulomb(step.solution);
+        outcome.elastic_energy.push_back(step.energies.norm * step.energies.norm / 2);
+        outcome.contact = step.contact.at(0);
+        outcome.warnings = step.warnings;
+        outcome.imbalance =
+            std::max(step.equilibrium.force_imbalance, step.equilibrium.moment_imbalance);
+      });
+  EXPECT_LE(outcome.imbalance, 1e-8);
+  return outcome;
+}
+
+std::string failure_of(const Scene<2> &scene)
+{
+  try
+  {
+    AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});
+    return "";
+  }
+  catch (const NumericalFailure &failure)
+  {
+    return failure.what();
+  }
+}
+
+/** The displacement of a field on the left, right and top sides of a body. */
+void prescribe(Scene<2> &scene, const std::function<Tensor<1, 2>(const Point<2> &)> &u)
+{
+  for (const std::string side : {"left", "right", "top"})
+    for (const unsigned int c : {0U, 1U})
+      scene.boundary(side).displacement[c] =
+          expression<2>([=](const Point<2> &x) { return u(x)[c]; });
+}
+
+void expect_exponential(const std::vector<double> &energies, const double exact, const double last)
+{
+  EXPECT_LE(std::abs(energies.back() - exact), last * exact);
+  EXPECT_LE(std::abs(energies.back() - exact), 1e-4 * std::abs(energies.front() - exact));
+}
+
+// ---------------------------------------------------------------- closed forms
+
+/** Friction -f p everywhere under Hertz's pressure p, which a gap that is not symmetric leaves as it was. */
+TEST(CoulombFriction, SlipsUnderHertzPressure)
+{
+  const double f = 0.3, a = 0.7, p_0 = 7, U = 0.03;
+  Scene<2> scene;
+  scene.geometry.corners = box_corners<2>({-2, 0}, {2, 2});
+  scene.geometry.subdivisions = {{4, 2}};
+  scene.materials = {{200, 0.3, PlaneModel::strain}};
+  const Material &material = scene.materials[0];
+  const auto hertz = std::make_shared<Hertz>(material, p_0, a, 0.);
+  // Without a stick zone: one of 1e-7 a differs by less than round-off.
+  const auto friction = std::make_shared<PartialSlip>(material, f * p_0, a, 1e-7 * a, 0.);
+  prescribe(scene, [=](const Point<2> &x)
+            { return hertz->displacement(x) + friction->displacement(x) + Point<2>(U, 0); });
+  BoundaryCondition<2> &bottom = scene.boundary("bottom");
+  bottom.contact = Contact::unilateral;
+  bottom.friction.coefficient = expression<2>(f);
+  const double k = p_0 / a, mu = material.mu(), kappa = material.kolosov(),
+               R = 200 / (2 * (1 - 0.09) * k);
+  bottom.gap = expression<2>(
+      [=](const Point<2> &x)
+      {
+        const double s = x[0], inside = s * std::sqrt(std::max(0., a * a - s * s)) / 2 +
+                                        a * a / 2 * std::asin(std::clamp(s / a, -1., 1.));
+        return s * s / (2 * R) + f * (kappa - 1) * k / (4 * mu) * inside;
+      });
+  scene.adaptivity.maximum_steps = 18;
+  const Outcome outcome = run(scene);
+  expect_exponential(outcome.elastic_energy, 0.149120752172, 1e-9);
+  const double P = 7.6969020013;
+  EXPECT_NEAR(outcome.contact.normal_resultant, -P, 1e-7 * P);
+  EXPECT_NEAR(outcome.contact.friction_resultant, -f * P, 1e-7 * P);
+  ASSERT_EQ(outcome.contact.zones.size(), 3u);
+  EXPECT_EQ(outcome.contact.zones[1].mode, ContactMode::slip);
+  EXPECT_NEAR(outcome.contact.zones[1].begin[0], -a, 1e-3 * a);
+  EXPECT_NEAR(outcome.contact.zones[1].end[0], a, 1e-3 * a);
+}
+
+/** The stick-slip field with a uniform pressure q: f = g/p(x) makes Coulomb's bound the constant g. */
+TEST(CoulombFriction, SticksAndSlipsWithAVariableCoefficient)
+{
+  const double g = 0.3, q = 1;
+  for (const Contact contact : {Contact::unilateral, Contact::bilateral})
+  {
+    Scene<2> scene;
+    scene.geometry.corners = box_corners<2>({-1, 0}, {1, 1});
+    scene.geometry.subdivisions = {{4, 2}};
+    scene.materials = {{1, 0.3, PlaneModel::stress}};
+    const Material &material = scene.materials[0];
+    const auto field = std::make_shared<StickSlip>(material, g, 0., 1.);
+    const double stiffness = material.lambda(2) + 2 * material.mu(), kappa = material.kolosov(),
+                 A = g / (1.5 * (1 + kappa));
+    prescribe(scene, [=](const Point<2> &x)
+              { return field->displacement(x) - Point<2>(0, q * x[1] / stiffness); });
+    BoundaryCondition<2> &bottom = scene.boundary("bottom");
+    bottom.contact = contact;
+    bottom.friction.coefficient =
+        expression<2>([=](const Point<2> &x)
+                      { return g / (q - 1.5 * (kappa - 1) * A * std::sqrt(std::max(0., -x[0]))); });
+    scene.adaptivity.maximum_steps = 20;
+    const Outcome outcome = run(scene);
+    expect_exponential(outcome.elastic_energy, 0.928311113728, 1e-8);
+    ASSERT_EQ(outcome.contact.transitions.size(), 1u);
+    EXPECT_NEAR(outcome.contact.transitions[0][0], 0, 1e-4);
+  }
+}
+
+// ---------------------------------------------------------------- a published benchmark
+
+/** code_aster's SSNV128; figures of an independent hp code to five digits, two of them of a second code. */
+TEST(CoulombFriction, IsThatOfSsnv128)
+{
+  for (const std::string method : {"newton", "fixed point"})
+  {
+    const Overrides steps = {{"Adaptivity/Maximum steps", "17"}, {"Solver/Coulomb solver", method}};
+    const Scene<2> scene = shipped_scene("ssnv128", steps);
+    const Outcome outcome = run(scene);
+    EXPECT_NEAR(outcome.contact.friction_resultant, -1405.346, 1e-3);
+    EXPECT_NEAR(outcome.contact.normal_resultant, -2000, 1e-6);
+    const auto &zones = outcome.contact.zones;
+    ASSERT_EQ(zones.size(), 3u) << method;
+    EXPECT_EQ(zones[0].mode, ContactMode::open);
+    EXPECT_NEAR(zones[0].end[0], 3.323, 1e-3);
+    EXPECT_EQ(zones[1].mode, ContactMode::slip);
+    EXPECT_NEAR(zones[1].end[0], 29.857, 1e-3);
+    EXPECT_EQ(zones[2].mode, ContactMode::stick);
+    const std::vector<std::pair<double, double>> published = {
+        {1.25, 27.2259e-3}, {5, 22.8683e-3}, {7.5, 19.8076e-3}, {11.25, 15.4140e-3}};
+    const auto &points = outcome.contact.points;
+    for (const auto &[x, u] : published)
+      for (unsigned int k = 1; k < points.size(); ++k)
+        if (const double left = points[k - 1].x[0], right = points[k].x[0]; left <= x && x < right)
+        {
+          const double s = (x - left) / (right - left),
+                       u_t = (1 - s) * points[k - 1].tangential_displacement +
+                             s * points[k].tangential_displacement;
+          EXPECT_NEAR(u_t, u, 3e-3 * u) << x; // between two points of the table
+        }
+  }
+}
+
+// ---------------------------------------------------------------- statics
+
+/** A block on a slope of angle a: it stays where mu_f > tan a, and goes where not. */
+TEST(CoulombFriction, HoldsABlockUpToItsAngle)
+{
+  for (const double angle : {0.1, 0.5})
+  {
+    const Turned body{"block", {{{0, 0}, {3, 0}, {3, 0.5}, {0, 0.5}}}, angle};
+    const auto scene = [&](const double coefficient)
+    {
+      Scene<2> scene;
+      scene.geometry = body.geometry(4, 1);
+      scene.materials = {{1000, 0.3, PlaneModel::strain}};
+      scene.body_force[1] = expression<2>(-1.);
+      scene.boundary("bottom").contact = Contact::unilateral;
+      scene.boundary("bottom").friction.coefficient = expression<2>(coefficient);
+      scene.adaptivity.maximum_steps = 3;
+      return scene;
+    };
+    const Outcome outcome = run(scene(1.05 * std::tan(angle)));
+    EXPECT_NEAR(outcome.contact.normal_resultant, -1.5 * std::cos(angle), 1e-9);
+    EXPECT_NEAR(std::abs(outcome.contact.friction_resultant), 1.5 * std::sin(angle), 1e-9);
+    EXPECT_EQ(failure_of(scene(std::tan(angle) * (1 + 1e-6))), "");
+    const std::string failure = failure_of(scene(std::tan(angle) * (1 - 1e-6)));
+    EXPECT_NE(failure.find("no equilibrium: the loads push the body along ("), std::string::npos)
+        << failure;
+  }
+}
+
+/** NAFEMS CGS-4: a wedge of slope tan a = 0.1 takes the push F = G (tan a + f)/(1 - f tan a) to move. */
+TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
+{
+  const double slope = 0.1, weight = 3 * 0.5;
+  const Turned body{"wedge", {{{0, 0}, {3, 0}, {3, 0.5}, {0, 0.5}}}, std::atan(slope)};
+  for (const double f : {0.1, 0.2, 0.3})
+  {
+    const double limit = (slope + f) / (1 - f * slope);
+    const auto scene = [&](const double push)
+    {
+      Scene<2> scene;
+      scene.geometry = body.geometry(4, 1);
+      scene.materials = {{1000, 0.3, PlaneModel::strain}};
+      scene.body_force = {{expression<2>(push), expression<2>(-1.)}};
+      scene.boundary("bottom").contact = Contact::unilateral;
+      scene.boundary("bottom").friction.coefficient = expression<2>(f);
+      scene.adaptivity.maximum_steps = 2;
+      return scene;
+    };
+    EXPECT_EQ(failure_of(scene(limit * (1 - 1e-7))), "") << f;
+    EXPECT_NE(failure_of(scene(limit * (1 + 1e-7))).find("no equilibrium"), std::string::npos) << f;
+    EXPECT_NEAR(run(scene(0.9 * limit)).contact.normal_resultant,
+                -weight * (1 + 0.9 * limit * slope) / std::hypot(1, slope), 1e-9);
+  }
+}
+
+// ---------------------------------------------------------------- uniform states
+
+/** A sheared block: it sticks below f p, slides above, and a bilateral contact that pulls rubs nowhere. */
+TEST(CoulombFriction, OfAUniformStressIsExact)
+{
+  const double f = 0.4;
+  for (const Contact contact : {Contact::unilateral, Contact::bilateral})
+    for (const double p : {1., -1.})
+      for (const double shear : {0.3, 0.5})
+      {
+        if (p < 0 && contact == Contact::unilateral)
+          continue; // it would open
+        Scene<2> scene;
+        scene.geometry.corners = box_corners<2>({0, 0}, {2, 1});
+        scene.geometry.subdivisions = {{2, 1}};
+        scene.materials = {{1, 0, PlaneModel::strain}}; // mu = 1/2
+        const double friction = p > 0 ? std::min(shear, f * p) : 0., slip = 0.07;
+        const bool slips = friction < shear || p < 0;
+        BoundaryCondition<2> &bottom = scene.boundary("bottom"), &top = scene.boundary("top");
+        bottom.contact = contact;
+        bottom.friction.coefficient = expression<2>(f);
+        top.displacement = {{expression<2>(2 * friction + (slips ? slip : 0.)), expression<2>(-p)}};
+        scene.boundary("left").traction[1] = expression<2>(-friction);
+        scene.boundary("right").traction[1] = expression<2>(friction);
+        scene.adaptivity.maximum_steps = 1;
+        const Outcome outcome = run(scene);
+        for (const ContactPoint<2> &point : outcome.contact.points)
+        {
+          EXPECT_NEAR(point.normal_traction, -p, 1e-12);
+          EXPECT_NEAR(point.tangential_traction, -friction, 1e-12);
+          EXPECT_NEAR(point.tangential_displacement, slips ? slip : 0., 1e-12);
+          EXPECT_EQ(point.mode(), slips ? ContactMode::slip : ContactMode::stick);
+        }
+      }
+}
+} // namespace
