@@ -351,7 +351,8 @@ double round_off_of_estimate(const Solution<dim> &solution)
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
   {
     boundary.traction = {};
-    boundary.gap = expression<dim>(std::numeric_limits<double>::max()); // too far away to touch
+    if (boundary.is_unilateral()) // too far away to touch
+      boundary.gap = expression<dim>(std::numeric_limits<double>::max());
   }
   const DisplacementSpace<dim> &space = solution.displacement_space;
   std::mt19937 random;

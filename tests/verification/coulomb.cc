@@ -251,6 +251,23 @@ TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
   }
 }
 
+// ---------------------------------------------------------------- round-off
+
+/** What no refinement can lower must be as small as round-off, or a run would end with its first steps. */
+TEST(CoulombFriction, LeavesTheFloorOfTheIndicatorAtRoundOff)
+{
+  for (const std::string contact : {"unilateral", "bilateral"})
+    AdaptiveSolver<2>(shipped_scene("ssnv128", {{"Boundary bottom/Contact", contact},
+                                                {"Adaptivity/Maximum steps", "1"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              const double floor = round_off_of_estimate(step.solution);
+              EXPECT_GT(floor, 0.) << contact;
+              EXPECT_LT(floor, 1e-10 * step.estimate.total()) << contact;
+            });
+}
+
 // ---------------------------------------------------------------- uniform states
 
 /** A sheared block: it sticks below f p, slides above, and a bilateral contact that pulls rubs nowhere. */
