@@ -24,8 +24,8 @@ struct ReducedSolution
 /**
  * Minimises `1/2 z'Sz - d'z` over the feasible set by the scene's solver, from @p start, whose
  * multiplier fits the contact space; where contact alone holds the body, under the balance of forces
- * along its free motions; with Coulomb's law the conditions of FrictionCones instead. @p defect is added to d: by how much `B u` of a corrected displacement differs
- * from what S and d promised. Throws NumericalFailure where the solver does not converge or where the
+ * along its free motions; with Coulomb's law it finds what ConeProgram asks for instead. @p defect is
+ * added to d: by how much `B u` of a corrected displacement differs from what S and d promised. Throws NumericalFailure where the solver does not converge or where the
  * loads exceed what contact can resist.
  */
 template <int dim>

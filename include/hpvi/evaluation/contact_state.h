@@ -34,7 +34,10 @@ struct ContactPoint
   bool is_open; ///< no pressure acts: of the multiplier here, or of the nodes on both sides
   double gap;   ///< u_0 - u_n of unilateral contact [length], else -u_n
   double normal_displacement, tangential_displacement; ///< u_n, u_t [length]
-  /** T_n [stress], positive where it pulls: -lambda_n where contact has a multiplier for it, else n.(sigma(u_N) n - G). */
+  /**
+   * T_n [stress], positive where it pulls: -lambda_n where contact has a multiplier for it, else
+   * n.(sigma(u_N) n - G).
+   */
   double normal_traction;
   double tangential_traction; ///< T_t = -z_N [stress]
 
@@ -74,8 +77,8 @@ struct ContactState
   dealii::Point<dim> highest_tension_point;
   double highest_pressure = 0; ///< max(-T_n, 0) [stress]
   dealii::Point<dim> highest_pressure_point;
-  double deepest_penetration =
-      0; ///< max(u_n - u_0, 0) [length]; |u_n| where a multiplier holds u_n = 0
+  /** max(u_n - u_0, 0) [length]; |u_n| where a multiplier holds u_n = 0. */
+  double deepest_penetration = 0;
   dealii::Point<dim> deepest_penetration_point;
 };
 

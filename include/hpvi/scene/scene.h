@@ -139,7 +139,7 @@ struct Adaptivity
   double tolerance = 0; ///< stop where the relative indicator falls below; 0: never
 };
 
-/** What finds Coulomb friction; doc/contact.md compares the two. */
+/** What finds Coulomb friction. */
 enum class CoulombMethod
 {
   newton,     ///< semismooth Newton on pressures and frictions at once
