@@ -118,10 +118,10 @@ void EquilibratedStress::set_known_tractions(const unsigned int index, const Fri
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
   const StressEdge::Side &side = edge.sides[0];
   const double outward = side.face % 2 ? 1. : -1.;
-  const auto &face = *vertex_patches.cells()[side.cell].iterator->face(side.face);
+  const auto face = vertex_patches.cells()[side.cell].iterator->face(side.face);
   const auto load = [&](const double s)
   {
-    const Point<2> x = face.vertex(0) + s * (face.vertex(1) - face.vertex(0));
+    const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
     Tensor<1, 2> result;
     for (unsigned int c = 0; c < 2; ++c)
       if (condition.traction[c])
