@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/fe/fe_tools.h>
+#include <hpvi/body/load_points.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
 #include <algorithm>
@@ -15,6 +16,12 @@ namespace
 {
 /** Places of vertices along a face, in deal.II's order. */
 constexpr unsigned int vertex_of_face[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+
+/** Do the traction of an edge at the boundary and the outer normal agree, 1, or not, -1? */
+double outward(const StressEdge &edge)
+{
+  return edge.sides[0].face % 2 ? 1. : -1.;
+}
 
 /** psi = c + c_x xi + c_y eta + c_xy xi eta from its values at the vertices. */
 std::array<double, 4> bilinear(const std::array<double, 4> &v)
@@ -69,13 +76,13 @@ void add(Modes<2> &sum, const Modes<2> &part)
 
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Friction &friction,
                                        EquilibrationCache &cache)
-    : squares(solution.displacement_space.degrees().size()), solution(solution), cache(cache),
-      vertex_patches(solution)
+    : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
+      cache(cache), vertex_patches(solution)
 {
   known.resize(vertex_patches.edges().size());
   for (unsigned int e = 0; e < known.size(); ++e)
     if (vertex_patches.edges()[e].at_boundary())
-      set_known_tractions(e, friction);
+      set_known_tractions(e);
   set_cells();
   set_data();
   solve_patches();
@@ -108,54 +115,120 @@ void EquilibratedStress::add_load(const unsigned int index, const unsigned int e
   }
 }
 
+Tensor<1, 2> EquilibratedStress::load_on(const StressEdge &edge, const double s) const
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const StressEdge::Side &side = edge.sides[0];
+  const auto face = vertex_patches.cells()[side.cell].iterator->face(side.face);
+  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+  Tensor<1, 2> result;
+  for (unsigned int c = 0; c < 2; ++c)
+    if (condition.traction[c])
+      result[c] = outward(edge) * condition.traction[c]->value(x);
+  return result;
+}
+
+/** `-g l t` with the polynomial l of one end. */
+Tensor<1, 2> EquilibratedStress::friction_on(const StressEdge &edge, const unsigned int end,
+                                             const double s, const double bound) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  return -outward(edge) * bound * legendre::evaluate(friction(edge.contact_face, end), 2 * s - 1) *
+         face.frame(s).tangent;
+}
+
 /**
  * What loads and contact prescribe on an edge of the boundary, in the direction of the edge's traction.
  * Loads have the quadrature of the discrete equations, so that moments are the same.
  */
-void EquilibratedStress::set_known_tractions(const unsigned int index, const Friction &friction)
+void EquilibratedStress::set_known_tractions(const unsigned int index)
 {
   const StressEdge &edge = vertex_patches.edges()[index];
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
   const StressEdge::Side &side = edge.sides[0];
-  const double outward = side.face % 2 ? 1. : -1.;
-  const auto face = vertex_patches.cells()[side.cell].iterator->face(side.face);
-  const auto load = [&](const double s)
-  {
-    const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
-    Tensor<1, 2> result;
-    for (unsigned int c = 0; c < 2; ++c)
-      if (condition.traction[c])
-        result[c] = outward * condition.traction[c]->value(x);
-    return result;
-  };
-  const QGauss<1> &gauss =
-      solution.tables.gauss(solution.displacement_space.degrees()[side.cell] + 2);
+  const QGauss<1> &gauss = solution.tables.gauss(
+      traction_points(condition, map_of<2>(vertex_patches.cells()[side.cell].iterator), side.face,
+                      solution.displacement_space.degrees()[side.cell], solution.tables));
   for (unsigned int end = 0; end < 2; ++end)
   {
     for (unsigned int c = 0; c < 2; ++c)
       known[index][end][c].assign(edge.components[c].n, 0.);
-    Tensor<1, 2> at_end = load(end);
     if (condition.has_traction())
       for (unsigned int q = 0; q < gauss.size(); ++q)
-        add_load(index, end, gauss.point(q)[0], gauss.weight(q), load(gauss.point(q)[0]));
+        add_load(index, end, gauss.point(q)[0], gauss.weight(q), load_on(edge, gauss.point(q)[0]));
     if (edge.contact_face != numbers::invalid_unsigned_int)
     {
-      const ContactFace<2> &contact = solution.contact_space.faces()[edge.contact_face];
-      const std::vector<double> l = friction(edge.contact_face, end);
-      const Tensor<1, 2> tangent = -outward * contact.frame(end).tangent;
-      for (unsigned int q = 0; q < contact.friction.points.size(); ++q)
-      {
-        const double s = contact.friction.points[q];
-        add_load(index, end, s,
-                 contact.friction.weights[q] * contact.friction.values[q] *
-                     legendre::evaluate(l, 2 * s - 1),
-                 tangent);
-      }
-      at_end += contact.friction_bound(contact.point(end)) *
-                legendre::evaluate(l, 2. * end - 1) * tangent;
+      const FrictionRule &rule = solution.contact_space.faces()[edge.contact_face].friction;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+        add_load(index, end, rule.points[q], rule.weights[q],
+                 friction_on(edge, end, rule.points[q], rule.values[q]));
     }
-    meet_ends(edge, end, at_end);
+    meet_ends(edge, end, prescribed_traction(index, end));
   }
+}
+
+Tensor<1, 2> EquilibratedStress::prescribed_traction(const unsigned int index, const double s) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  Tensor<1, 2> result = load_on(edge, s);
+  if (edge.contact_face == numbers::invalid_unsigned_int)
+    return result;
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  const double bound = face.friction_bound(face.point(s));
+  for (unsigned int end = 0; end < 2; ++end)
+    result += (end == 0 ? 1 - s : s) * friction_on(edge, end, s, bound);
+  return result;
+}
+
+std::vector<std::pair<double, double>>
+EquilibratedStress::prescribed_points(const unsigned int index) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  std::vector<double> cuts = {0., 1.};
+  if (edge.contact_face != numbers::invalid_unsigned_int)
+    cuts = solution.contact_space.faces()[edge.contact_face].friction.cuts;
+  const QGauss<1> &gauss = solution.tables.gauss(edge.degree + 8);
+  std::vector<std::pair<double, double>> result;
+  for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double length = cuts[piece + 1] - cuts[piece];
+      result.emplace_back(cuts[piece] + length * gauss.point(q)[0], length * gauss.weight(q));
+    }
+  return result;
+}
+
+/** |F - Pi F| on a cell. */
+double EquilibratedStress::missed_force(const unsigned int index) const
+{
+  const Cell &cell = cells[index];
+  if (cell.force.empty())
+    return 0.;
+  const unsigned int m = cell.element->m;
+  const Modes<2> modes = load(index, {{1., 1., 1., 1.}}); // of -F
+  const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
+  const QGauss<2> gauss(cell.n_force + 2);
+  double sum = 0;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    Tensor<1, 2> F, projected;
+    for (unsigned int c = 0; c < 2; ++c)
+      if (solution.scene.body_force[c])
+        F[c] = solution.scene.body_force[c]->value(map.point(gauss.point(q)));
+    const auto Li = legendre::values(modes.n, 2 * gauss.point(q)[0] - 1),
+               Lj = legendre::values(modes.n, 2 * gauss.point(q)[1] - 1);
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
+        for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
+          projected[k] -= modes(k, i, j) * Li[i] * Lj[j];
+    sum += gauss.weight(q) * (F - cell.B * projected / cell.h).norm_square();
+  }
+  return std::sqrt(sum) * 2 * cell.h;
+}
+
+const LegendreTables &EquilibratedStress::legendre_tables() const
+{
+  return cache.legendre;
 }
 
 /**
@@ -305,7 +378,8 @@ void EquilibratedStress::set_stress(const unsigned int index)
   if (!solution.scene.has_body_force())
     return;
   const CellMap<2> map = map_of<2>(iterator);
-  for (const Point<2> &point : solution.tables.gradients(p, p + 2).points)
+  cell.n_force = body_force_points(solution.scene, map, p, solution.tables);
+  for (const Point<2> &point : solution.tables.gradients(p, cell.n_force).points)
   {
     Tensor<1, 2> F;
     for (unsigned int c = 0; c < 2; ++c)
@@ -320,27 +394,27 @@ void EquilibratedStress::set_stress(const unsigned int index)
 Modes<2> EquilibratedStress::load(const unsigned int index, const std::array<double, 4> &psi) const
 {
   const Cell &cell = cells[index];
-  const unsigned int n = solution.displacement_space.degrees()[index] + 2;
-  Modes<2> result(cell.force.empty() ? 0 : n);
+  const unsigned int n = cell.n_force, n_modes = std::min(n, cell.element->m);
+  Modes<2> result(cell.force.empty() ? 0 : n_modes);
   if (cell.force.empty())
     return result;
-  const FullMatrix<double> &project = cache.legendre.projection(n, n);
+  const FullMatrix<double> &project = cache.legendre.projection(n_modes, n);
   const QGauss<1> &gauss = solution.tables.gauss(n);
   const std::array<double, 4> c = bilinear(psi);
   for (unsigned int k = 0; k < 2; ++k)
   {
-    FullMatrix<double> values(n, n), half(n, n), modes(n, n);
+    FullMatrix<double> values(n, n), half(n_modes, n), modes(n_modes, n_modes);
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = 0; b < n; ++b)
       {
         const double xi = 2 * gauss.point(a)[0] - 1, eta = 2 * gauss.point(b)[0] - 1;
-        values(a, b) = -(c[0] + c[1] * xi + c[2] * eta + c[3] * xi * eta) *
-                       cell.force[2 * (b * n + a) + k];
+        values(a, b) =
+            -(c[0] + c[1] * xi + c[2] * eta + c[3] * xi * eta) * cell.force[2 * (b * n + a) + k];
       }
     project.mmult(half, values);
     half.mTmult(modes, project);
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
+    for (unsigned int a = 0; a < n_modes; ++a)
+      for (unsigned int b = 0; b < n_modes; ++b)
         result(k, a, b) = modes(a, b);
   }
   return result;
@@ -384,9 +458,8 @@ void EquilibratedStress::set_data()
       element->residual(sigma, load(index, {{1., 1., 1., 1.}}), column);
     }
     batch.gradients.resize(std::size_t(element->n_edges) * batch.n_columns);
-    multiply('T', 'N', element->n_edges, batch.n_columns, n, 1.,
-             {element->edge_energy().data(), n}, {batch.r.data(), n}, 0., batch.gradients.data(),
-             element->n_edges);
+    multiply('T', 'N', element->n_edges, batch.n_columns, n, 1., {element->edge_energy().data(), n},
+             {batch.r.data(), n}, 0., batch.gradients.data(), element->n_edges);
     batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_columns);
     multiply('T', 'N', element->n_conditions(), batch.n_columns, n, 1.,
              {element->conditions().data(), n}, {batch.r.data(), n}, 0., batch.defects.data(),
@@ -397,8 +470,8 @@ void EquilibratedStress::set_data()
 void EquilibratedStress::solve_patches()
 {
   for (const StressEdge &edge : vertex_patches.edges())
-    sums.push_back({{std::vector<double>(edge.components[0].n),
-                     std::vector<double>(edge.components[1].n)}});
+    sums.push_back(
+        {{std::vector<double>(edge.components[0].n), std::vector<double>(edge.components[1].n)}});
   for (const auto &[vertex, hats] : vertex_patches.patches())
   {
     std::vector<PatchCell> patch;
@@ -408,10 +481,9 @@ void EquilibratedStress::solve_patches()
       const Cell &cell = cells[index];
       const Batch &batch = batches.at(cell.element);
       const std::size_t column = cell.first_column + hat;
-      patch.push_back({cell.element, cell.h * cell.h,
-                       &batch.gradients[column * cell.element->n_edges],
-                       &batch.defects[column * cell.element->n_conditions()],
-                       &vertex_patches.cells()[index]});
+      patch.push_back(
+          {cell.element, cell.h * cell.h, &batch.gradients[column * cell.element->n_edges],
+           &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]});
       for (const unsigned int e : vertex_patches.cells()[index].edges)
       {
         const StressEdge &edge = vertex_patches.edges()[e];
@@ -436,8 +508,8 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
   const StressElement &element = *cell.element;
   const VertexPatches::Cell &geometry = vertex_patches.cells()[index];
   const double *const column =
-      &batches.at(&element).r[std::size_t(element.n_data) *
-                              (cell.first_column + geometry.hats.size())];
+      &batches.at(&element)
+           .r[std::size_t(element.n_data) * (cell.first_column + geometry.hats.size())];
   std::vector<double> r(column, column + element.n_data);
   for (unsigned int face = 0; face < 4; ++face)
   {
@@ -475,8 +547,8 @@ void EquilibratedStress::measure()
     for (unsigned int k = 0; k < batch.cells.size(); ++k)
     {
       const double *const y = &R[std::size_t(k) * element->n_data];
-      squares[batch.cells[k]] = std::pow(cells[batch.cells[k]].h, 2) *
-                                std::inner_product(y, y + element->n_data, y, 0.);
+      squares[batch.cells[k]] =
+          std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
     }
   }
 }

@@ -107,8 +107,7 @@ EquilibrationCache::Signature PatchProblem::signature() const
     for (unsigned int face = 0; face < 4; ++face)
     {
       const auto found = order.find(cell.cell->edges[face]);
-      key.push_back(found == order.end() ? -1
-                                         : 4 * found->second + (cell.cell->parts[face] + 1));
+      key.push_back(found == order.end() ? -1 : 4 * found->second + (cell.cell->parts[face] + 1));
     }
   }
   return key;
@@ -204,8 +203,8 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
              {&element.edge_energy()[element.n_divergence], element.n_data},
              {known.data(), n_edges}, 1., gradient.data(), n_edges);
     multiply('T', 'N', n_conditions, 1, n_edges, 1.,
-             {&element.conditions()[element.n_divergence], element.n_data},
-             {known.data(), n_edges}, 1., defect.data(), n_conditions);
+             {&element.conditions()[element.n_divergence], element.n_data}, {known.data(), n_edges},
+             1., defect.data(), n_conditions);
   }
   for (const Block &b : parts)
     for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
@@ -245,8 +244,7 @@ double PatchProblem::solve()
   for (auto &[index, edge] : edges)
     for (unsigned int c = 0; c < 2; ++c)
       if (const unsigned int first = first_unknown[index][c]; first != none)
-        edge.traction[c].assign(x.begin() + first,
-                                x.begin() + first + edge.edge->components[c].n);
+        edge.traction[c].assign(x.begin() + first, x.begin() + first + edge.edge->components[c].n);
   double largest = 0;
   for (const double value : right)
     largest = std::max(largest, std::abs(value));

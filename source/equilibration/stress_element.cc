@@ -106,8 +106,7 @@ StressElement::StressElement(const unsigned int degree, const Tensor<2, 2> &B,
 /** Energy of components: `s = B E_k B'`, `C^-1 s : s = (s : s - nu' tr(s)^2)/(2 mu)`, nu' = lambda/(2(lambda + mu)). */
 void StressElement::set_compliance(const Tensor<2, 2> &B, const Material &material)
 {
-  const double mu = material.mu(), lambda = material.lambda(2),
-               nu = lambda / (2 * (lambda + mu));
+  const double mu = material.mu(), lambda = material.lambda(2), nu = lambda / (2 * (lambda + mu));
   std::array<Tensor<2, 2>, 3> s;
   for (unsigned int k = 0; k < 3; ++k)
   {
@@ -256,7 +255,8 @@ void StressElement::add_corner_stress(const unsigned int corner)
     for (unsigned int i = 0; i <= m; ++i)
       for (unsigned int j = 0; j <= m; ++j)
         if (has(k, i, j))
-          for_each_datum(k, i, j, [&](const unsigned int row, const double entry)
+          for_each_datum(k, i, j,
+                         [&](const unsigned int row, const double entry)
                          { result.data[row] -= entry * result.nearest(k, i, j); });
   const QGauss<1> gauss(m + 2);
   for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -374,7 +374,8 @@ void StressElement::factorise()
         if (!has(k, i, j))
           continue;
         bits += 1u << k;
-        for_each_datum(k, i, j, [&](const unsigned int row, const double entry)
+        for_each_datum(k, i, j,
+                       [&](const unsigned int row, const double entry)
                        { columns[k].emplace_back(row, entry); });
       }
       for (unsigned int k = 0; k < 3; ++k)
@@ -441,10 +442,9 @@ std::vector<double> StressElement::corner_amplitudes(const Modes<3> &stress,
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i <= m; ++i)
         for (unsigned int j = 0; j <= m; ++j)
-          result[c] += (i < stress.n && j < stress.n
-                            ? corners[c].moments(k, i, j) * stress(k, i, j)
-                            : 0.) -
-                       corners[c].nearest(k, i, j) * q_moments(k, i, j);
+          result[c] +=
+              (i < stress.n && j < stress.n ? corners[c].moments(k, i, j) * stress(k, i, j) : 0.) -
+              corners[c].nearest(k, i, j) * q_moments(k, i, j);
   const unsigned int n = corners.size();
   for (const char op : {'N', 'T'})
     solve_triangular(op, n, 1, {corner_energy.data(), n}, result.data(), n);
@@ -477,8 +477,8 @@ void StressElement::residual(const Modes<3> &stress, const Modes<2> &divergence,
     for (unsigned int i = 0; i <= m; ++i)
       for (unsigned int j = 0; j <= m; ++j)
         if (const double mode = q(k, i, j))
-          for_each_datum(k, i, j, [&](const unsigned int row, const double entry)
-                         { r[row] -= entry * mode; });
+          for_each_datum(
+              k, i, j, [&](const unsigned int row, const double entry) { r[row] -= entry * mode; });
   for (unsigned int c = 0; c < corners.size(); ++c)
     for (unsigned int i = 0; i < n_data; ++i)
       r[i] -= amplitudes[c] * corners[c].data[i];
@@ -495,7 +495,8 @@ StressElement::Stress StressElement::stress(const Modes<3> &stress, const double
     for (unsigned int i = 0; i <= m; ++i)
       for (unsigned int j = 0; j <= m; ++j)
         if (has(k, i, j))
-          for_each_datum(k, i, j, [&](const unsigned int row, const double entry)
+          for_each_datum(k, i, j,
+                         [&](const unsigned int row, const double entry)
                          { right(k, i, j) += entry * y[row]; });
   std::vector<double> amplitudes;
   Stress result{nearest(stress, amplitudes), {}, m};

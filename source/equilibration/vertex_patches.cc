@@ -29,9 +29,9 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
     {
       const unsigned int index = cell->active_cell_index();
       const bool at_boundary = cell->at_boundary(f);
-      if (!at_boundary && (cell->neighbor_is_coarser(f) ||
-                           (!cell->face(f)->has_children() &&
-                            cell->neighbor(f)->active_cell_index() < index)))
+      if (!at_boundary &&
+          (cell->neighbor_is_coarser(f) ||
+           (!cell->face(f)->has_children() && cell->neighbor(f)->active_cell_index() < index)))
         continue; // seen from the other side
       StressEdge edge;
       edge.vertices = {{cell->face(f)->vertex_index(0), cell->face(f)->vertex_index(1)}};
@@ -70,8 +70,7 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
 /** Along normal and tangent, but along x and y where one of these displacements alone is prescribed. */
 void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
 {
-  edge.components = {
-      {{edge.normal, edge.degree - 1, true}, {edge.tangent, edge.degree, true}}};
+  edge.components = {{{edge.normal, edge.degree - 1, true}, {edge.tangent, edge.degree, true}}};
   if (!edge.at_boundary())
     return;
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
@@ -81,11 +80,13 @@ void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) cons
     edge.components[1].is_unknown = false;
     return;
   }
-  const std::array<bool, 2> held{{bool(condition.displacement[0]), bool(condition.displacement[1])}};
+  const std::array<bool, 2> held{
+      {bool(condition.displacement[0]), bool(condition.displacement[1])}};
   const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;
   if (held[0] != held[1] && !axis_parallel)
     for (unsigned int c = 0; c < 2; ++c)
-      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), edge.degree - 1, held[c]};
+      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), edge.degree - 1,
+                            held[c]};
   else
     for (auto &component : edge.components)
       component.is_unknown = held[std::abs(component.direction[1]) > 0.5] && (held[0] || held[1]);

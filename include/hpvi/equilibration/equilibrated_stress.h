@@ -36,6 +36,16 @@ public:
   /** Both components of the traction on each edge: Legendre coefficients, as in VertexPatches. */
   const std::vector<std::array<std::vector<double>, 2>> &tractions() const;
 
+  /** What loads and friction prescribe at s in [0,1] of an edge of the boundary. */
+  dealii::Tensor<1, 2> prescribed_traction(unsigned int edge, double s) const;
+
+  /** Points and weights on [0,1] for integrals with it. */
+  std::vector<std::pair<double, double>> prescribed_points(unsigned int edge) const;
+
+  double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
+
+  const LegendreTables &legendre_tables() const;
+
   /** s on a cell. */
   StressElement::Stress stress(unsigned int cell) const;
 
@@ -51,6 +61,7 @@ private:
     double h; ///< of the element [length]
     Modes<3> sigma;
     std::vector<double> force; ///< F in the frame, at the points of the loads; empty: none
+    unsigned int n_force = 0;  ///< these points per direction
     unsigned int first_column;
   };
 
@@ -62,7 +73,10 @@ private:
     std::vector<double> r, gradients, defects;
   };
 
-  void set_known_tractions(unsigned int edge, const Friction &friction);
+  dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
+  dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
+                                   double bound) const;
+  void set_known_tractions(unsigned int edge);
   void add_load(unsigned int edge, unsigned int end, double s, double weight,
                 const dealii::Tensor<1, 2> &traction);
   void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
@@ -77,6 +91,7 @@ private:
   void measure();
 
   const Solution<2> &solution;
+  const Friction friction;
   EquilibrationCache &cache;
   const VertexPatches vertex_patches;
   std::vector<Cell> cells;

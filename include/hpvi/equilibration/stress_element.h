@@ -138,7 +138,8 @@ private:
   /** Of edges along eta (0) and xi (1): T_n of the normal component, T_t of it and of the shear. */
   std::array<std::array<double, 3>, 2> traction;
   std::vector<CornerStress> corners;
-  std::vector<double> corner_energy; ///< of corner stresses minus their projections, and its inverse
+  std::vector<double>
+      corner_energy; ///< of corner stresses minus their projections, and its inverse
   std::vector<double> N, L, G_edges;
 };
 } // namespace hpvi

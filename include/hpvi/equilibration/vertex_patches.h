@@ -84,7 +84,7 @@ private:
 
   std::vector<StressEdge> all_edges;
   std::vector<Cell> all_cells;
-  std::map<unsigned int, std::array<unsigned int, 2>> hanging; ///< vertex: ends of its edge
+  std::map<unsigned int, std::array<unsigned int, 2>> hanging;   ///< vertex: ends of its edge
   std::map<unsigned int, std::map<unsigned int, double>> values; ///< by vertex v, then a
   std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> all_patches;
 };
