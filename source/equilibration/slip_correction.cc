@@ -1,0 +1,644 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/slip_correction.h>
+#include <hpvi/solver/inequality_program.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
+/** What happens on a contact face as a whole. */
+struct Slip
+{
+  enum Mode
+  {
+    everywhere,
+    partly,
+    nowhere
+  } mode = everywhere;
+  double direction = 0.; ///< 1 or -1; 0: none, or both
+};
+
+/** A face without friction slips, in no direction. */
+template <int dim>
+Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  unsigned int n_forward = 0, n_backward = 0;
+  for (unsigned int k = 0; k < face.n_multipliers; ++k)
+  {
+    const unsigned int i = face.first_multiplier + k;
+    const double wall = (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
+    n_forward += solution.z[i] >= wall;
+    n_backward += solution.z[i] <= -wall;
+  }
+  Slip result;
+  if (n_forward == 0 && n_backward == 0 && face.n_multipliers > 0)
+    result.mode = Slip::nowhere;
+  else if (n_forward < face.n_multipliers && n_backward < face.n_multipliers)
+    result.mode = Slip::partly;
+  if (n_forward == 0 || n_backward == 0)
+    result.direction = n_forward > 0 ? 1. : n_backward > 0 ? -1. : 0.;
+  return result;
+}
+
+/** The tangential displacement on a contact face by the unknowns of the linear system. */
+struct Trace
+{
+  std::vector<unsigned int> unknowns;
+  FullMatrix<double> legendre; ///< coefficients x unknowns
+  Vector<double> u;            ///< those of u_Nt
+
+  /** u_Nt - w_t */
+  EdgePolynomial rest(const Vector<double> &w) const
+  {
+    std::vector<double> result(u.begin(), u.end());
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] -= legendre(i, k) * w[unknowns[k]];
+    return EdgePolynomial(result);
+  }
+};
+
+/** Legendre coefficients of the shape functions of an edge: coefficients x nodes. */
+template <int dim>
+FullMatrix<double> legendre_of_nodes(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+{
+  const unsigned int n = face.degree + 1;
+  FullMatrix<double> result(n, n);
+  for (unsigned int q = 0; q < n; ++q)
+  {
+    const Vector<double> L = legendre_basis(n, tables.gauss(n).point(q)[0]);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        result(i, j) += 2. * tables.gauss(n).weight(q) * L[i] *
+                        tables.edge(face.degree, face.n_points, n).shapes(q, j);
+  }
+  return result;
+}
+
+template <int dim>
+Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
+               const Unknowns<dim> &unknowns)
+{
+  const unsigned int n = face.degree + 1;
+  const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
+  Vector<double> u(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const types::global_dof_index dof = dofs[on_edge[c * n + j]];
+      u[j] += tangent[c] * solution.u[dof];
+      for (const auto &[unknown, weight] : unknowns.terms(dof))
+      {
+        Vector<double> &column = columns[unknown];
+        if (column.size() == 0)
+          column.reinit(n);
+        column[j] += tangent[c] * weight;
+      }
+    }
+  const FullMatrix<double> legendre = legendre_of_nodes(face, solution.tables);
+  Trace result;
+  result.u.reinit(n);
+  legendre.vmult(result.u, u);
+  for (auto column = columns.begin(); column != columns.end();)
+    column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
+  result.legendre.reinit(n, columns.size());
+  for (const auto &[unknown, values] : columns)
+  {
+    Vector<double> coefficients(n);
+    legendre.vmult(coefficients, values);
+    for (unsigned int i = 0; i < n; ++i)
+      result.legendre(i, result.unknowns.size()) = coefficients[i];
+    result.unknowns.push_back(unknown);
+  }
+  return result;
+}
+
+/** The unknowns on which u_n depends along a contact face. */
+template <int dim>
+std::vector<unsigned int> normal_unknowns(const ContactFace<dim> &face,
+                                          const Solution<dim> &solution,
+                                          const Unknowns<dim> &unknowns)
+{
+  const unsigned int n = face.degree + 1;
+  const Tensor<1, dim> normal = face.frame(0.5).normal;
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  std::vector<unsigned int> result;
+  for (unsigned int j = 0; j < n; ++j)
+  {
+    std::map<unsigned int, double> u_n;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (const auto &[unknown, weight] : unknowns.terms(dofs[on_edge[c * n + j]]))
+        u_n[unknown] += normal[c] * weight;
+    for (const auto &[unknown, weight] : u_n)
+      if (std::abs(weight) > 1e-12)
+        result.push_back(unknown);
+  }
+  return result;
+}
+
+/** `int g (|v| - l* v)` over one face, cut where g jumps or v changes sign. */
+template <int dim>
+double friction_gap(const unsigned int number, const EdgePolynomial &v,
+                    const Solution<dim> &solution, const AdmissibleFriction<dim> &friction)
+{
+  const ContactFace<dim> &face = solution.contact_space.faces()[number];
+  if (face.friction.vanishes())
+    return 0.;
+  std::vector<double> cuts = v.zeros();
+  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  std::sort(cuts.begin(), cuts.end());
+  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 4);
+  double result = 0;
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
+      const double value = v(s);
+      // One difference at a time: where l* is the direction of v, nothing is left, not even round-off.
+      const double density =
+          std::abs(value) * (1. - (value < 0. ? -1. : 1.) * friction.value(number, s));
+      if (density != 0.)
+        result +=
+            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
+    }
+  return result;
+}
+
+enum class Role
+{
+  outside, ///< w is zero there
+  fixed,   ///< by u_Nt where the body sticks
+  free
+};
+
+/** The energy `x'Ax` over the unknowns with a role, those that are fixed given, some free ones kept apart. */
+class Strip
+{
+public:
+  Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
+        std::vector<unsigned int> kept);
+
+  /** Where an unknown stands among those kept, or none. */
+  unsigned int place(unsigned int unknown) const;
+
+  unsigned int n_kept() const;
+  FullMatrix<double>
+  H() const; ///< least energy for values z of those kept: `z'Hz - 2 h'z + constant`
+  Vector<double> h() const;
+
+  Vector<double> minimiser() const; ///< x
+  Vector<double>
+  minimiser(const Vector<double> &kept_values) const; ///< with these values of those kept
+
+private:
+  Vector<double> all(const Vector<double> &y) const;
+
+  std::vector<unsigned int> free, kept; ///< unknowns; those kept in the order of C
+  Vector<double> fixed, y;              ///< L^-1 of what the fixed ones do to the free ones
+  std::unique_ptr<const LinearSolver> solver;
+};
+
+Strip::Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
+             std::vector<unsigned int> all_kept)
+    : fixed(fixed)
+{
+  std::vector<unsigned int> number(A.n(), none);
+  for (unsigned int i = 0; i < A.n(); ++i)
+    if (roles[i] == Role::free)
+    {
+      number[i] = free.size();
+      free.push_back(i);
+    }
+  SymmetricMatrix A_ff;
+  Vector<double> f(free.size());
+  for (unsigned int column = 0; column < A.n(); ++column)
+  {
+    if (roles[column] == Role::outside)
+      continue;
+    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+    {
+      const unsigned int row = A.row[k];
+      if (number[row] != none && number[column] != none)
+      {
+        A_ff.row.push_back(number[row]);
+        // Where contact alone holds the body, A is singular; w need not be the minimiser to be of use.
+        A_ff.value.push_back(A.value[k] * (row == column ? 1. + 1e-10 : 1.));
+      }
+      else if (number[column] != none)
+        f[number[column]] -= A.value[k] * fixed[row];
+      else if (number[row] != none)
+        f[number[row]] -= A.value[k] * fixed[column];
+    }
+    if (number[column] != none)
+      A_ff.column_start.push_back(A_ff.row.size());
+  }
+  std::sort(all_kept.begin(), all_kept.end());
+  std::vector<unsigned int> numbers;
+  for (const unsigned int unknown : all_kept)
+    numbers.push_back(number[unknown]);
+  solver = std::make_unique<const LinearSolver>(A_ff, numbers);
+  for (const unsigned int k : solver->kept_order())
+    kept.push_back(all_kept[k]);
+  y = solver->forward(f);
+}
+
+unsigned int Strip::place(const unsigned int unknown) const
+{
+  const auto found = std::find(kept.begin(), kept.end(), unknown);
+  return found == kept.end() ? none : found - kept.begin();
+}
+
+unsigned int Strip::n_kept() const
+{
+  return kept.size();
+}
+
+FullMatrix<double> Strip::H() const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  FullMatrix<double> result(kept.size(), kept.size());
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+    {
+      for (unsigned int k = 0; k <= j; ++k)
+        result(i, j) += C(i, k) * C(j, k);
+      result(j, i) = result(i, j);
+    }
+  return result;
+}
+
+Vector<double> Strip::h() const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  Vector<double> result(kept.size());
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    for (unsigned int k = 0; k <= i; ++k)
+      result[i] += C(i, k) * y[y.size() - kept.size() + k];
+  return result;
+}
+
+Vector<double> Strip::minimiser() const
+{
+  return all(y);
+}
+
+Vector<double> Strip::minimiser(const Vector<double> &kept_values) const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  Vector<double> changed(y);
+  for (unsigned int k = 0; k < kept.size(); ++k)
+  {
+    double &entry = changed[y.size() - kept.size() + k];
+    entry = 0.;
+    for (unsigned int i = k; i < kept.size(); ++i)
+      entry += C(i, k) * kept_values[i];
+  }
+  return all(changed);
+}
+
+Vector<double> Strip::all(const Vector<double> &forwarded) const
+{
+  const Vector<double> values = solver->backward(forwarded);
+  Vector<double> x(fixed);
+  for (unsigned int i = 0; i < free.size(); ++i)
+    x[free[i]] = values[i];
+  return x;
+}
+
+/** x'Ax, from the columns where x is not zero. */
+double energy_product(const SymmetricMatrix &A, const Vector<double> &x)
+{
+  double result = 0;
+  for (unsigned int column = 0; column < A.n(); ++column)
+    if (x[column] != 0.)
+      for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+        result += (static_cast<unsigned int>(A.row[k]) == column ? 1. : 2.) * A.value[k] *
+                  x[A.row[k]] * x[column];
+  return result;
+}
+
+/** One w and what it is worth. */
+struct Candidate
+{
+  Vector<double> w;
+  std::vector<double> gaps;
+  double total = 0;
+};
+
+/** Finds w. */
+template <int dim>
+class Search
+{
+public:
+  Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+         const AdmissibleFriction<dim> &friction);
+
+  Candidate of(const Vector<double> &w) const;
+  Candidate best() const;
+
+private:
+  std::vector<Role> roles() const;
+  Vector<double> stuck_displacement() const;
+  std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
+  std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
+                                          const std::vector<Role> &roles) const;
+  void try_all_stuck(const Strip &strip, Candidate &best) const;
+  void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+                         const Vector<double> &fixed, Candidate &best) const;
+  void take_better(Candidate &best, const Vector<double> &w) const;
+
+  const Solution<dim> &solution;
+  const Discretisation<dim> &discretisation;
+  const AdmissibleFriction<dim> &friction;
+  const std::vector<ContactFace<dim>> &faces;
+  std::vector<Slip> slips;
+  std::vector<Trace> traces;
+};
+
+template <int dim>
+Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                    const AdmissibleFriction<dim> &friction)
+    : solution(solution), discretisation(discretisation), friction(friction),
+      faces(solution.contact_space.faces())
+{
+  for (const ContactFace<dim> &face : faces)
+  {
+    slips.push_back(slip_of(face, solution));
+    traces.push_back(trace_of(face, solution, discretisation.unknowns));
+  }
+}
+
+template <int dim>
+Candidate Search<dim>::of(const Vector<double> &w) const
+{
+  Candidate result{w, {}, energy_product(discretisation.system.A, w)};
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    result.gaps.push_back(friction_gap(k, traces[k].rest(w), solution, friction));
+  result.total += 2. * sum(result.gaps);
+  return result;
+}
+
+template <int dim>
+void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
+{
+  Candidate next = of(w);
+  if (next.total < best.total)
+    best = std::move(next);
+}
+
+/** Unknowns of cells at the contact boundary, but not those that move it along its normal under pressure. */
+template <int dim>
+std::vector<Role> Search<dim>::roles() const
+{
+  const Unknowns<dim> &unknowns = discretisation.unknowns;
+  std::vector<Role> result(unknowns.n(), Role::outside);
+  for (const ContactFace<dim> &face : faces)
+    if (!face.friction.vanishes())
+      for (const auto dof : solution.displacement_space.cell_dofs(face.cell->active_cell_index()))
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+          result[unknown] = Role::free;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::nowhere)
+      for (const unsigned int unknown : traces[k].unknowns)
+        result[unknown] = Role::fixed;
+  for (const ContactFace<dim> &face : faces)
+    if (face.condition->has_pressure())
+      for (const unsigned int unknown : normal_unknowns(face, solution, unknowns))
+        result[unknown] = Role::outside;
+  return result;
+}
+
+/** The unknowns of a displacement that is u_Nt where the body sticks or slips in part; elsewhere of no use. */
+template <int dim>
+Vector<double> Search<dim>::stuck_displacement() const
+{
+  Vector<double> u(solution.u.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode != Slip::everywhere)
+    {
+      const Tensor<1, dim> tangent = faces[k].frame(0.5).tangent;
+      const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
+      const std::vector<unsigned int> &on_edge =
+          solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
+      const unsigned int n = faces[k].degree + 1;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        double missing = 0; // a corner has had its part of another face
+        for (unsigned int c = 0; c < dim; ++c)
+          missing +=
+              tangent[c] * (solution.u[dofs[on_edge[c * n + j]]] - u[dofs[on_edge[c * n + j]]]);
+        for (unsigned int c = 0; c < dim; ++c)
+          u[dofs[on_edge[c * n + j]]] += missing * tangent[c];
+      }
+    }
+  return discretisation.unknowns.coordinates(u);
+}
+
+/**
+ * Faces whose slip is to keep its direction: those that slip in part, up to two slipping ones beside each that
+ * does not slip everywhere, and those with more than a hundredth of the gap of all that slip.
+ */
+template <int dim>
+std::vector<bool> Search<dim>::nearby_faces(const std::vector<double> &gaps) const
+{
+  double of_slip = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    of_slip += slips[k].mode == Slip::everywhere ? gaps[k] : 0.;
+  std::vector<bool> result(faces.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::everywhere)
+      result[k] = gaps[k] > 0.01 * of_slip;
+    else
+    {
+      result[k] = slips[k].mode == Slip::partly;
+      for (unsigned int other = k < 2 ? 0 : k - 2;
+           other < std::min<std::size_t>(k + 3, faces.size()); ++other)
+        if (slips[other].mode == Slip::everywhere)
+          result[other] = true;
+    }
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    result[k] = result[k] && slips[k].direction != 0.;
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &nearby,
+                                                     const std::vector<Role> &roles) const
+{
+  std::vector<unsigned int> result;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (nearby[k] || slips[k].mode == Slip::partly)
+      for (const unsigned int unknown : traces[k].unknowns)
+        if (roles[unknown] == Role::free)
+          result.push_back(unknown);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/** w_t = u_Nt on faces that slip in part, too. */
+template <int dim>
+void Search<dim>::try_all_stuck(const Strip &strip, Candidate &best) const
+{
+  const Vector<double> stuck = stuck_displacement();
+  std::vector<bool> is_stuck(strip.n_kept());
+  InequalityProgram program(strip.H(), strip.h());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::partly)
+      for (const unsigned int unknown : traces[k].unknowns)
+        if (const unsigned int place = strip.place(unknown); place != none && !is_stuck[place])
+        {
+          is_stuck[place] = true;
+          Vector<double> row(strip.n_kept());
+          row[place] = 1.;
+          program.add_equality(row, stuck[unknown]);
+        }
+  take_better(best, strip.minimiser(program.minimiser()));
+}
+
+/** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
+template <int dim>
+void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+                                    const Vector<double> &fixed, Candidate &best) const
+{
+  Vector<double> h = strip.h();
+  std::vector<std::pair<Vector<double>, double>> rows;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    if (!nearby[k])
+      continue;
+    const Trace &trace = traces[k];
+    const unsigned int n = faces[k].degree + 1;
+    const double direction = slips[k].direction;
+    std::vector<unsigned int> places;
+    for (const unsigned int unknown : trace.unknowns)
+      places.push_back(strip.place(unknown));
+    const auto add = [&](const Vector<double> &values, const double factor, Vector<double> &row)
+    {
+      for (unsigned int m = 0; m < places.size(); ++m)
+        for (unsigned int i = 0; places[m] != none && i < n; ++i)
+          row[places[m]] += factor * values[i] * trace.legendre(i, m);
+    };
+    const FrictionRule &rule = faces[k].friction;
+    for (unsigned int q = 0; q < rule.points.size(); ++q)
+      add(legendre_basis(n, rule.points[q]),
+          faces[k].length * rule.weights[q] * rule.values[q] *
+              (direction - friction.value(k, rule.points[q])),
+          h);
+    const EdgePolynomial rest = trace.rest(fixed);
+    for (unsigned int i = 0; i <= 2 * n; ++i)
+    {
+      const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / (2 * n));
+      Vector<double> row(strip.n_kept());
+      add(legendre_basis(n, s), -direction, row);
+      if (row.linfty_norm() > 1e-9) // else w is fixed there
+        rows.emplace_back(row, -direction * rest(s));
+    }
+  }
+  InequalityProgram program(strip.H(), h);
+  for (const auto &[row, least] : rows)
+    program.add_inequality(row, least);
+  if (program.solve())
+    take_better(best, strip.minimiser(program.minimiser()));
+}
+
+template <int dim>
+Candidate Search<dim>::best() const
+{
+  Candidate result = of(Vector<double>(discretisation.unknowns.n()));
+  if (result.total == 0.)
+    return result;
+  const std::vector<Role> all_roles = roles();
+  Vector<double> fixed = stuck_displacement();
+  for (unsigned int i = 0; i < fixed.size(); ++i)
+    if (all_roles[i] != Role::fixed)
+      fixed[i] = 0.;
+  const std::vector<bool> nearby = nearby_faces(result.gaps);
+  const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
+  take_better(result, strip.minimiser());
+  if (strip.n_kept() > 0)
+  {
+    try_all_stuck(strip, result);
+    try_one_direction(strip, nearby, fixed, result);
+  }
+  return result;
+}
+} // namespace
+
+template <int dim>
+SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
+                                    const Discretisation<dim> &discretisation,
+                                    const AdmissibleFriction<dim> &friction)
+    : cell_energies(solution.displacement_space.degrees().size())
+{
+  const Search<dim> search(solution, discretisation, friction);
+  uncorrected = search.of(Vector<double>(discretisation.unknowns.n())).gaps;
+  Candidate best = search.best();
+  face_gaps = std::move(best.gaps);
+  w = std::move(best.w);
+  for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)
+    if (const auto &element = discretisation.condensation.element(cell))
+    {
+      const auto dofs = solution.displacement_space.cell_dofs(cell);
+      Vector<double> values(element->condensed.m());
+      for (unsigned int i = 0; i < values.size(); ++i)
+        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
+          values[i] += weight * w[unknown];
+      if (!values.all_zero())
+        cell_energies[cell] = element->condensed.matrix_norm_square(values);
+    }
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::gap() const
+{
+  return face_gaps;
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::uncorrected_gap() const
+{
+  return uncorrected;
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::energy() const
+{
+  return cell_energies;
+}
+
+template <int dim>
+const Vector<double> &SlipCorrection<dim>::unknowns() const
+{
+  return w;
+}
+
+template <int dim>
+double SlipCorrection<dim>::total() const
+{
+  return 2. * sum(face_gaps) + sum(cell_energies);
+}
+
+template class SlipCorrection<2>;
+} // namespace hpvi
