@@ -103,10 +103,12 @@ Side FaceIntegrals<dim>::side(const unsigned int end) const
     // A little everywhere, so that l is determined where the hat or g is next to nothing.
     const double part = weight * ds * (hat(end, s) + 1e-3), share = part * g * g;
     const double small = 1e-6 * weight * ds * largest * largest;
+    const double lambda = g > 0. ? std::max(-1., std::min(1., z(s) / g)) : 0.;
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         result.H(i, j) += (share + small) * L[i] * L[j];
-    result.h.add(part * g * z(s) + (leans ? ds * hat(end, s) * g * u_t(s) : 0.), L);
+    result.h.add(part * g * z(s) + small * lambda + (leans ? ds * hat(end, s) * g * u_t(s) : 0.),
+                 L);
   }
   return result;
 }

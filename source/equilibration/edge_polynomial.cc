@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/equilibration/edge_polynomial.h>
+#include <hpvi/equilibration/legendre.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -30,16 +31,16 @@ double zero_between(const F &function, const double left, const double right, co
 }
 } // namespace
 
-EdgePolynomial::EdgePolynomial(const std::vector<double> &coefficients) : legendre(coefficients)
+EdgePolynomial::EdgePolynomial(const std::vector<double> &coefficients) : terms(coefficients)
 {
-  for (unsigned int i = 0; i < legendre.size(); ++i)
-    legendre[i] *= normalisation(i);
+  for (unsigned int i = 0; i < terms.size(); ++i)
+    terms[i] *= normalisation(i);
 }
 
 EdgePolynomial EdgePolynomial::constant(const double value)
 {
   EdgePolynomial result;
-  result.legendre = {value};
+  result.terms = {value};
   return result;
 }
 
@@ -57,9 +58,9 @@ double EdgePolynomial::operator()(const double s) const
 {
   const double t = 2. * s - 1.;
   double sum = 0., before = 0., last = 1.;
-  for (unsigned int i = 0; i < legendre.size(); ++i)
+  for (unsigned int i = 0; i < terms.size(); ++i)
   {
-    sum += legendre[i] * last;
+    sum += terms[i] * last;
     const double next = ((2. * i + 1.) * t * last - i * before) / (i + 1.);
     before = last;
     last = next;
@@ -69,24 +70,32 @@ double EdgePolynomial::operator()(const double s) const
 
 std::vector<double> EdgePolynomial::coefficients() const
 {
-  std::vector<double> result(legendre);
+  std::vector<double> result(terms);
   for (unsigned int i = 0; i < result.size(); ++i)
     result[i] /= normalisation(i);
   return result;
+}
+
+double EdgePolynomial::largest() const
+{
+  double sum = 0; // |P_i| <= 1
+  for (const double coefficient : terms)
+    sum += std::abs(coefficient);
+  return sum;
 }
 
 /** With respect to s, from `(2i + 1) P_i = P_{i+1}' - P_{i-1}'`. */
 EdgePolynomial EdgePolynomial::derivative() const
 {
   EdgePolynomial result;
-  if (legendre.size() < 2)
+  if (terms.size() < 2)
     return result;
-  result.legendre.resize(legendre.size() - 1);
+  result.terms.resize(terms.size() - 1);
   std::array<double, 2> sums{}; // of the coefficients above, those of either parity
-  for (unsigned int i = legendre.size() - 1; i-- > 0;)
+  for (unsigned int i = terms.size() - 1; i-- > 0;)
   {
-    sums[(i + 1) % 2] += legendre[i + 1];
-    result.legendre[i] = 2. * (2. * i + 1.) * sums[(i + 1) % 2];
+    sums[(i + 1) % 2] += terms[i + 1];
+    result.terms[i] = 2. * (2. * i + 1.) * sums[(i + 1) % 2];
   }
   return result;
 }
@@ -94,7 +103,7 @@ EdgePolynomial EdgePolynomial::derivative() const
 std::vector<double> EdgePolynomial::extremes() const
 {
   std::vector<double> result = {0.};
-  if (legendre.size() > 2)
+  if (terms.size() > 2)
   {
     const std::vector<double> inside = derivative().zeros();
     result.insert(result.end(), inside.begin(), inside.end());
@@ -106,8 +115,8 @@ std::vector<double> EdgePolynomial::extremes() const
 std::vector<double> EdgePolynomial::zeros() const
 {
   std::vector<double> result;
-  if (legendre.size() < 2)
-    return result;
+  if (terms.empty() || 2. * std::abs(terms[0]) > largest())
+    return result; // the mean outweighs all the rest
   double left = 0., at_left = 0.;
   for (const double right : extremes()) // in between it is monotonic
   {
@@ -125,17 +134,8 @@ std::vector<double> EdgePolynomial::zeros() const
 
 Vector<double> legendre_basis(const unsigned int n, const double s)
 {
-  Vector<double> values(n);
-  const double t = 2. * s - 1.;
-  double before = 0., last = 1.;
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    values[i] = normalisation(i) * last;
-    const double next = ((2. * i + 1.) * t * last - i * before) / (i + 1.);
-    before = last;
-    last = next;
-  }
-  return values;
+  const std::vector<double> values = legendre::values(n, 2. * s - 1.);
+  return Vector<double>(values.begin(), values.end());
 }
 
 template <int dim>

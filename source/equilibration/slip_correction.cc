@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/legendre.h>
 #include <hpvi/equilibration/slip_correction.h>
 #include <hpvi/solver/inequality_program.h>
 
@@ -60,12 +61,12 @@ struct Trace
 {
   std::vector<unsigned int> unknowns;
   FullMatrix<double> legendre; ///< coefficients x unknowns
-  Vector<double> u;            ///< those of u_Nt
+  std::vector<double> u;       ///< those of u_Nt
 
   /** u_Nt - w_t */
   EdgePolynomial rest(const Vector<double> &w) const
   {
-    std::vector<double> result(u.begin(), u.end());
+    std::vector<double> result(u);
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       for (unsigned int i = 0; i < result.size(); ++i)
         result[i] -= legendre(i, k) * w[unknowns[k]];
@@ -73,26 +74,9 @@ struct Trace
   }
 };
 
-/** Legendre coefficients of the shape functions of an edge: coefficients x nodes. */
-template <int dim>
-FullMatrix<double> legendre_of_nodes(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
-{
-  const unsigned int n = face.degree + 1;
-  FullMatrix<double> result(n, n);
-  for (unsigned int q = 0; q < n; ++q)
-  {
-    const Vector<double> L = legendre_basis(n, tables.gauss(n).point(q)[0]);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        result(i, j) += 2. * tables.gauss(n).weight(q) * L[i] *
-                        tables.edge(face.degree, face.n_points, n).shapes(q, j);
-  }
-  return result;
-}
-
 template <int dim>
 Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
-               const Unknowns<dim> &unknowns)
+               const Unknowns<dim> &unknowns, const FullMatrix<double> &legendre)
 {
   const unsigned int n = face.degree + 1;
   const Tensor<1, dim> tangent = face.frame(0.5).tangent;
@@ -114,10 +98,10 @@ Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
         column[j] += tangent[c] * weight;
       }
     }
-  const FullMatrix<double> legendre = legendre_of_nodes(face, solution.tables);
   Trace result;
-  result.u.reinit(n);
-  legendre.vmult(result.u, u);
+  Vector<double> of_u(n);
+  legendre.vmult(of_u, u);
+  result.u.assign(of_u.begin(), of_u.end());
   for (auto column = columns.begin(); column != columns.end();)
     column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
   result.legendre.reinit(n, columns.size());
@@ -355,7 +339,8 @@ public:
          const AdmissibleFriction<dim> &friction);
 
   Candidate of(const Vector<double> &w) const;
-  Candidate best() const;
+  /** The best one, from one that is known. */
+  Candidate best(Candidate result) const;
 
 private:
   std::vector<Role> roles() const;
@@ -382,10 +367,12 @@ Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &di
     : solution(solution), discretisation(discretisation), friction(friction),
       faces(solution.contact_space.faces())
 {
+  const LegendreTables tables;
   for (const ContactFace<dim> &face : faces)
   {
     slips.push_back(slip_of(face, solution));
-    traces.push_back(trace_of(face, solution, discretisation.unknowns));
+    traces.push_back(
+        trace_of(face, solution, discretisation.unknowns, tables.from_nodes(face.degree)));
   }
 }
 
@@ -394,7 +381,14 @@ Candidate Search<dim>::of(const Vector<double> &w) const
 {
   Candidate result{w, {}, energy_product(discretisation.system.A, w)};
   for (unsigned int k = 0; k < faces.size(); ++k)
-    result.gaps.push_back(friction_gap(k, traces[k].rest(w), solution, friction));
+  {
+    const EdgePolynomial rest = traces[k].rest(w);
+    // Where w has taken u_Nt away, round-off is left, whose signs are not worth the search.
+    result.gaps.push_back(rest.largest() > 1e-13 * EdgePolynomial(traces[k].u).largest()
+                              ? friction_gap(k, rest, solution, friction)
+                              : 2. * rest.largest() * faces[k].length *
+                                    faces[k].friction.integral());
+  }
   result.total += 2. * sum(result.gaps);
   return result;
 }
@@ -564,9 +558,8 @@ void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> 
 }
 
 template <int dim>
-Candidate Search<dim>::best() const
+Candidate Search<dim>::best(Candidate result) const
 {
-  Candidate result = of(Vector<double>(discretisation.unknowns.n()));
   if (result.total == 0.)
     return result;
   const std::vector<Role> all_roles = roles();
@@ -593,8 +586,9 @@ SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
     : cell_energies(solution.displacement_space.degrees().size())
 {
   const Search<dim> search(solution, discretisation, friction);
-  uncorrected = search.of(Vector<double>(discretisation.unknowns.n())).gaps;
-  Candidate best = search.best();
+  Candidate best = search.of(Vector<double>(discretisation.unknowns.n()));
+  uncorrected = best.gaps;
+  best = search.best(std::move(best));
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)

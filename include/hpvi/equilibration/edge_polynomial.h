@@ -28,6 +28,8 @@ public:
 
   std::vector<double> coefficients() const;
 
+  double largest() const; ///< no less than the largest of its absolute values over [0,1]
+
   /** Where it changes sign in (0,1), ascending: between those of its derivative, so that none is missed. */
   std::vector<double> zeros() const;
 
@@ -37,10 +39,10 @@ public:
 private:
   EdgePolynomial derivative() const;
 
-  std::vector<double> legendre; ///< coefficients of P_i(2s - 1), P_i(1) = 1
+  std::vector<double> terms; ///< coefficients of P_i(2s - 1), P_i(1) = 1
 };
 
-/** L_0, ..., L_{n-1} at s. */
+/** L_0 to L_{n-1} at s. */
 dealii::Vector<double> legendre_basis(unsigned int n, double s);
 
 /** v_t along a contact face, for displacement unknowns v of the space. */
