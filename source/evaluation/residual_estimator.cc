@@ -21,6 +21,14 @@ double ErrorEstimate::indicator(const unsigned int cell) const
   return std::sqrt(sum);
 }
 
+std::vector<double> ErrorEstimate::indicators() const
+{
+  std::vector<double> eta(volume.size());
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    eta[cell] = indicator(cell);
+  return eta;
+}
+
 double ErrorEstimate::total() const
 {
   double sum = 0;

@@ -82,11 +82,11 @@ void check_standard_output(const std::string &complete)
 // ---------------------------------------------------------------- what a run prints
 
 /** The true error has a column only where the scene gives something to compare with. */
-void print_table_head(const bool with_error)
+void print_table_head(const bool with_bound, const bool with_error)
 {
   std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
-            << (with_error ? "  true_error" : "") << "       slack qp_products   seconds"
-            << std::endl;
+            << (with_bound ? "     bound" : "") << (with_error ? "  true_error" : "")
+            << "       slack qp_products   seconds" << std::endl;
 }
 
 void print_row(const StepReport<dim> &step)
@@ -100,6 +100,8 @@ void print_row(const StepReport<dim> &step)
             << step.solution.contact_space.n_multipliers() << std::setw(6) << degrees.str()
             << std::scientific << std::setprecision(3) << std::setw(11) << step.estimate.total()
             << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (step.bound)
+    std::cout << std::setw(10) << step.relative_bound;
   if (!std::isnan(step.errors.energy))
     std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
   std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)
@@ -171,7 +173,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::string closing_words; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
-  print_table_head(scene.has_known_solution());
+  print_table_head(scene.error_bound && scene.no_error_bound().empty(), scene.has_known_solution());
   try
   {
     solver.run(

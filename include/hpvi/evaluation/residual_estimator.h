@@ -23,6 +23,8 @@ struct ErrorEstimate
   /** eta_K of (4.50). */
   double indicator(unsigned int cell) const;
 
+  std::vector<double> indicators() const; ///< eta_K by active cell index
+
   /** eta = (sum_K eta_K^2)^{1/2}; the print of (4.51) lacks the square. */
   double total() const;
 };
