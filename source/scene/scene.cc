@@ -98,6 +98,12 @@ unsigned int own_start_degree(const Method method)
   return 2;
 }
 
+template <int dim>
+double Loading<dim>::time(const unsigned int step) const
+{
+  return static_cast<double>(step) / steps;
+}
+
 // ---------------------------------------------------------------- the scene
 
 template <int dim>
@@ -161,6 +167,12 @@ bool Scene<dim>::has_body_force() const
 }
 
 template <int dim>
+bool Scene<dim>::has_load_history() const
+{
+  return loading.steps > 0 || loading.at;
+}
+
+template <int dim>
 bool Scene<dim>::has_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
@@ -217,5 +229,6 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 template Expression<2> expression<2>(double);
 template Expression<2> expression<2>(const std::function<double(const Point<2> &)> &);
 template struct BoundaryCondition<2>;
+template struct Loading<2>;
 template struct Scene<2>;
 } // namespace hpvi

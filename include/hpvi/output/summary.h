@@ -25,6 +25,8 @@ struct Summary
   std::vector<ContactState<dim>> contact; ///< of the last step
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
+  LoadStep load; ///< the last one that is done, of a history
+
   /** Count a finished step, whose row is @p row. */
   void add(const StepReport<dim> &step, const Record &row);
 
