@@ -17,10 +17,10 @@ using namespace dealii;
 
 namespace
 {
-/** What a warning says before its first number. */
+/** What a warning says before its first number or place. */
 std::string kind(const std::string &warning)
 {
-  return warning.substr(0, warning.find_first_of("0123456789"));
+  return warning.substr(0, warning.find_first_of("(0123456789"));
 }
 
 /** The end of a load step: the mesh and the slip with which the next begins. */
@@ -131,7 +131,7 @@ void LoadHistory<dim>::Evolution::collect(StepReport<dim> &report)
   for (const std::string &warning : report.warnings)
     if (std::none_of(warnings.begin(), warnings.end(),
                      [&](const std::string &known) { return kind(known) == kind(warning); }))
-      warnings.push_back(warning);
+      warnings.push_back(warning + " (" + place() + ")");
   if (is_last)
     report.warnings = warnings;
 }

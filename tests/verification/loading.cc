@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Histories of loads: slip is counted from the load step before, and energy is accounted for.
-#include "discretisation.h"
+#include "opening_contact.h"
 
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
@@ -172,6 +172,88 @@ INSTANTIATE_TEST_SUITE_P(Laws, JenkinsElement,
                                            std::make_pair(std::string("unilateral"), 0.),
                                            std::make_pair(std::string("bilateral"), 0.8),
                                            std::make_pair(std::string("unilateral"), 0.8)));
+
+/**
+ * Mindlin and Deresiewicz: after Q_1 the force falls to Q, and slip comes back from the ends of the
+ * contact, u = u(Q_1) - 2 u((Q_1 - Q)/2) with the field u(Q) of the first loading.
+ */
+struct Mindlin
+{
+  static constexpr double a = 0.7, b = 2.1, Q_1 = 1.5;
+  Material material;
+
+  /** The stick length for the force Q, of which the whole friction is pi a b / 2. */
+  static double stick_length(const double Q)
+  {
+    return std::sqrt(a * a - 2 * a * Q / (M_PI * b));
+  }
+
+  Tensor<1, 2> loading(const double Q, const Point<2> &x) const
+  {
+    return Q == 0 ? Tensor<1, 2>()
+                  : PartialSlip(material, b, a, stick_length(Q), 0.).displacement(x);
+  }
+
+  Tensor<1, 2> unloading(const double Q, const Point<2> &x) const
+  {
+    return loading(Q_1, x) - 2 * loading((Q_1 - Q) / 2, x);
+  }
+
+  /** int g |u_t| of the first loading, up to Q. */
+  double dissipated(const double Q) const
+  {
+    const QGauss<1> gauss(20);
+    double sum = 0;
+    const double c = stick_length(Q), n = 200;
+    for (unsigned int k = 0; k < n; ++k) // u_t begins like (x - c)^(3/2), g ends like a root
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double x = c + (a - c) * (k + gauss.point(q)[0]) / n;
+        sum += 2 * gauss.weight(q) * (a - c) / n * b * std::sqrt(1 - x * x / (a * a)) *
+               std::abs(loading(Q, Point<2>(x, 0))[0]);
+      }
+    return sum;
+  }
+};
+
+TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
+{
+  const Scene<2> plain = shipped_scene("partial-slip", {{"Exact solution/Solution", "none"},
+                                                        {"Boundary left/Displacement", "0; 0"},
+                                                        {"Boundary right/Displacement", "0; 0"},
+                                                        {"Boundary top/Displacement", "0; 0"},
+                                                        {"Adaptivity/Tolerance", "1e-4"},
+                                                        {"Adaptivity/Maximum steps", "20"}});
+  const Mindlin mindlin{plain.materials[0]};
+  const std::vector<double> forces = {1.5, 0.4, -1.}; // the first is Q_1
+  const auto exact = [&](const unsigned int step, const Point<2> &x)
+  { return step == 0 ? mindlin.loading(Mindlin::Q_1, x) : mindlin.unloading(forces[step], x); };
+  Scene<2> scene = plain;
+  scene.loading.steps = forces.size();
+  scene.loading.at = [&](const double t)
+  {
+    Scene<2> result = plain;
+    for (const char *const name : {"left", "right", "top"})
+      for (unsigned int c = 0; c < 2; ++c)
+        result.boundary(name).displacement[c] =
+            expression<2>([&exact, c, step = std::lround(t * forces.size()) - 1](const Point<2> &x)
+                          { return exact(step, x)[c]; });
+    return result;
+  };
+  std::vector<double> dissipated = {mindlin.dissipated(Mindlin::Q_1)};
+  for (unsigned int k = 1; k < forces.size(); ++k)
+    dissipated.push_back(dissipated[0] + 2 * mindlin.dissipated((Mindlin::Q_1 - forces[k]) / 2));
+  LoadHistory<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (step.stopped_by.empty())
+          return;
+        const unsigned int k = step.load.number - 1;
+        EXPECT_LE(nodal_error(step.solution, [&](const Point<2> &x) { return exact(k, x); }), 1e-5);
+        EXPECT_NEAR(step.contact[0].friction_resultant, -forces[k], 1e-4);
+        EXPECT_NEAR(step.load.dissipated, dissipated[k], 1e-4 * dissipated[k]) << k;
+      });
+}
 
 // ---------------------------------------------------------------- identities
 

@@ -28,8 +28,8 @@ public:
 
   /**
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
-   * StepReport::stopped_by says of each load step why it is done. Warnings of earlier load steps come with
-   * the last one, those that differ in numbers alone once. Throws NumericalFailure and InputError, which
+   * StepReport::stopped_by says of each load step why it is done. The last one has
+   * the warnings of all, those that differ in numbers alone once, with the load step that gave them first. Throws NumericalFailure and InputError, which
    * name the load step.
    */
   void run(
