@@ -6,7 +6,6 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
@@ -265,6 +264,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
        !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled)});
   return {static_cast<unsigned int>(history.size()),
           solution,
+          discretisation->system,
           estimate,
           scaled_estimate,
           history.back().relative_estimate,
@@ -280,6 +280,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           reduced.condition_scaled,
           std::exchange(times, {}),
           history.back().seconds,
+          {},
           {},
           {},
           {}};
@@ -307,6 +308,9 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
 {
+  if (scene.has_load_history())
+    throw InputError(scene.origin() + ": Loading/Steps: asks for a history, of which this is one "
+                                      "load step only; run it by LoadHistory, or remove it");
   scene.check(); // it may have been built by code, or changed since it was read
   stages = std::make_unique<Stages>(scene);
 }
@@ -319,7 +323,23 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState &sta
 }
 
 template <int dim>
+AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const Start &start)
+    : AdaptiveSolver(scene)
+{
+  stages->mesh = start.mesh;
+  stages->degrees = start.degrees;
+  stages->previous = start.multiplier;
+  stages->motion = start.motion;
+}
+
+template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
+
+template <int dim>
+typename AdaptiveSolver<dim>::Start AdaptiveSolver<dim>::end() const
+{
+  return {stages->mesh, stages->degrees, stages->previous, stages->motion};
+}
 
 template <int dim>
 RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const

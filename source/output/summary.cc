@@ -31,6 +31,18 @@ std::string json_equilibrium(const Equilibrium<dim> &equilibrium)
          ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
 }
 
+/** A member of summary.json: what became of a history of loads; nothing without one. */
+std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
+{
+  if (n_load_steps == 0)
+    return {};
+  return "  \"loading\": {\n    \"load_steps\": " + text(n_load_steps) +
+         ",\n    \"finished\": " + text(load.number) + ",\n    \"t\": " + text(load.t) +
+         ",\n    \"dissipated_energy\": " + text(load.dissipated) +
+         ",\n    \"work\": " + text(load.work) + ",\n    \"stored_energy\": " + text(load.stored) +
+         "\n  },\n";
+}
+
 /** The items of an array, each on a line of its own. */
 template <class Lines>
 std::string json_lines(const Lines &lines)
@@ -55,6 +67,8 @@ void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
   bound = step.bound;
   relative_bound = step.relative_bound;
   energy = step.energies.energy;
+  if (!step.stopped_by.empty())
+    load = step.load;
 }
 
 /** The guaranteed bound, or null and the reason. */
@@ -63,7 +77,9 @@ std::string Summary<dim>::json_bound(const Scene<dim> &scene) const
 {
   if (!bound)
   {
-    const std::string reason = scene.no_error_bound();
+    std::string reason = scene.no_error_bound();
+    if (reason.empty() && scene.error_bound)
+      reason = "friction acts on increments after the first load step";
     return "  \"error_bound\": null,\n  \"no_error_bound\": " +
            json_string(reason.empty() ? "Error/Bound = false" : reason) + ",\n";
   }
@@ -92,6 +108,7 @@ std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::stri
          ",\n    \"stress\": " + json_string(scene.stress_unit) +
          "\n  },\n  \"steps\": " + std::to_string(steps) +
          ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
+         json_loading(load, scene.loading.steps) +
          (stopped_by.empty()
               ? ""
               : json_bound(scene) + json_equilibrium(equilibrium) +

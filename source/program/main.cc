@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/exceptions.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
@@ -81,12 +81,14 @@ void check_standard_output(const std::string &complete)
 
 // ---------------------------------------------------------------- what a run prints
 
-/** The true error has a column only where the scene gives something to compare with. */
-void print_table_head(const bool with_bound, const bool with_error)
+/** The true error has a column only where there is something to compare with, time in a history. */
+void print_table_head(const Scene<dim> &scene)
 {
   std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
-            << (with_bound ? "     bound" : "") << (with_error ? "  true_error" : "")
-            << "       slack qp_products   seconds" << std::endl;
+            << (scene.error_bound && scene.no_error_bound().empty() ? "     bound" : "")
+            << (scene.has_known_solution() ? "  true_error" : "")
+            << "       slack qp_products   seconds"
+            << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
 }
 
 void print_row(const StepReport<dim> &step)
@@ -106,7 +108,21 @@ void print_row(const StepReport<dim> &step)
     std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
   std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)
             << step.qp.multiplications << std::fixed << std::setprecision(2) << std::setw(10)
-            << step.seconds << std::endl;
+            << step.seconds;
+  if (step.load.number > 0)
+    std::cout << std::setw(10) << step.load.number << std::setprecision(4) << std::setw(8)
+              << step.load.t;
+  std::cout << std::endl;
+}
+
+/** What became of a history, nothing without one. */
+std::string work_in_words(const LoadStep &load)
+{
+  if (load.number == 0)
+    return {};
+  return "load history: " + std::to_string(load.number) + " load steps, work " +
+         text(load.work, 6) + ", stored " + text(load.stored, 6) + ", dissipated by friction " +
+         text(load.dissipated, 6) + "\n";
 }
 
 void print_stage(const std::string &name, const double seconds, const double total)
@@ -164,7 +180,7 @@ private:
 
 void run(const Scene<dim> &scene, const std::string &directory)
 {
-  AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
+  LoadHistory<dim> solver(scene); // first: it may still reject the mesh
   note_interruptions();
   Output<dim> output(scene, directory);
   StageTimes times;
@@ -173,7 +189,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::string closing_words; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
-  print_table_head(scene.error_bound && scene.no_error_bound().empty(), scene.has_known_solution());
+  print_table_head(scene);
   try
   {
     solver.run(
@@ -188,7 +204,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
             closing_words = contact_in_words(scene, step.contact, step.equilibrium) +
                             "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
                             ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                            " of their absolute sums\n";
+                            " of their absolute sums\n" + work_in_words(step.load);
           output.write_step(step);
         },
         [&](const Progress &stage)

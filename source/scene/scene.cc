@@ -98,6 +98,12 @@ unsigned int own_start_degree(const Method method)
   return 2;
 }
 
+template <int dim>
+double Loading<dim>::time(const unsigned int step) const
+{
+  return static_cast<double>(step) / steps;
+}
+
 // ---------------------------------------------------------------- the scene
 
 template <int dim>
@@ -161,6 +167,12 @@ bool Scene<dim>::has_body_force() const
 }
 
 template <int dim>
+bool Scene<dim>::has_load_history() const
+{
+  return loading.steps > 0 || loading.at;
+}
+
+template <int dim>
 bool Scene<dim>::has_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
@@ -191,6 +203,9 @@ std::string Scene<dim>::no_error_bound() const
     return "cells have degree 1";
   if (!geometry.has_affine_cells())
     return "cells are no parallelograms";
+  for (const BoundaryCondition<dim> &boundary : boundaries)
+    if (boundary.friction.past)
+      return "friction acts on increments after the first load step";
   return {};
 }
 
@@ -231,5 +246,6 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 template Expression<2> expression<2>(double);
 template Expression<2> expression<2>(const std::function<double(const Point<2> &)> &);
 template struct BoundaryCondition<2>;
+template struct Loading<2>;
 template struct Scene<2>;
 } // namespace hpvi

@@ -697,6 +697,39 @@ void check_exact_solution(const Scene<2> &scene)
     ExactSolutionCheck(scene, b).run();
 }
 
+/** A history has no closed form here, and what one load step is compared with is none of another. */
+void check_load_history(const Scene<2> &scene, const SceneUse use)
+{
+  const Loading<2> &loading = scene.loading;
+  const std::string history = "is one state, and Loading/Steps asks for a history; remove either";
+  if (loading.steps < 1 || loading.steps > 10000 || !loading.at)
+    reject(scene, "Loading", "Steps",
+           "is no history; give an integer from 1 to 10000, and the scene of each load step",
+           std::to_string(loading.steps));
+  if (use == SceneUse::measure)
+    reject(scene, "Loading", "Steps",
+           "is a history, and the inf-sup constant is one of a mesh, whatever the load; remove it",
+           std::to_string(loading.steps));
+  if (scene.exact_solution)
+    reject(scene, "Exact solution", "Solution", history);
+  if (!scene.reference_solution.empty())
+    reject(scene, "Error", "Reference solution", history);
+  if (scene.output.reference)
+    reject(scene, "Output", "Reference solution", history, "true");
+  for (unsigned int step = 1; step <= loading.steps; ++step)
+    try
+    {
+      loading.at(loading.time(step)).check(use);
+    }
+    catch (const InputError &error)
+    {
+      const std::string line = error.what(), time = "t = " + to_string(loading.time(step));
+      if (step == 1 || line.find(time) != std::string::npos)
+        throw;
+      throw InputError(line + " (load step " + std::to_string(step) + ", " + time + ")");
+    }
+}
+
 /** A reference solution holds the entries of its problem, for those who compare with it. */
 void check_reference(const Scene<2> &scene)
 {
@@ -837,6 +870,8 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
 
 void check_scene(const Scene<2> &scene, const SceneUse use)
 {
+  if (scene.has_load_history())
+    check_load_history(scene, use);
   check_geometry(scene);
   check_materials(scene);
   check_boundaries(scene);

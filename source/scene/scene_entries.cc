@@ -187,6 +187,22 @@ void add_method_entries(std::vector<Entry> &entries)
         "2 mu + 2 lambda for 2 mu where nu < 0."}});
 }
 
+void add_loading_entries(std::vector<Entry> &entries)
+{
+  const std::string section = "Loading";
+  entries.insert(
+      entries.end(),
+      {{section, "Steps", "", matching(Patterns::List(Patterns::Integer(1, 10000), 0, 1)),
+        "an integer from 1 to 10000, or nothing",
+        "Number n of load steps: every expression may use t, which runs through 1/n, 2/n, ..., 1, "
+        "and friction acts on the increment of the tangential displacement; empty: no history."},
+       {section, "Adapt", "every step", one_of(load_adaptivity_names), "first step or every step",
+        "first step: the mesh of the first load step stays. every step: each load step adapts "
+        "that of the one before; without Adaptivity/Tolerance until its relative indicator is no "
+        "more than that of the first by a fifth. The limits of Adaptivity hold for each load "
+        "step."}});
+}
+
 void add_program_entries(std::vector<Entry> &entries)
 {
   const auto boolean = matching(Patterns::Bool());
@@ -240,6 +256,7 @@ std::vector<Entry> scene_entries(const int dim)
   add_exact_entries(entries);
   for (int b = 0; b < 2 * dim; ++b)
     add_boundary_entries(entries, boundary_names[b]);
+  add_loading_entries(entries);
   add_method_entries(entries);
   add_program_entries(entries);
   return entries;

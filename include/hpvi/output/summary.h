@@ -29,6 +29,7 @@ struct Summary
   std::optional<ErrorBound> bound; ///< of the last step
   double relative_bound = 0;
   double energy = 0; ///< J(u_N), likewise
+  LoadStep load; ///< the last one that is done, of a history
 
   /** Count a finished step, whose row is @p row. */
   void add(const StepReport<dim> &step, const Record &row);

@@ -55,6 +55,7 @@ struct FrictionLaw
 {
   Expression<dim> bound;       ///< Tresca's g(x) >= 0 [stress]; null: not Tresca's law
   Expression<dim> coefficient; ///< Coulomb's mu_f(x) >= 0: |T_t| <= mu_f |T_n|; null: not his law
+  Expression<dim> past; ///< u_t(x) from which slip is counted [length], in a load history; null: 0
 
   explicit operator bool() const
   {
@@ -180,6 +181,31 @@ struct OutputSettings
   bool reference = false; ///< reference.dat after the last step
 };
 
+/** Which steps of a load history refine their mesh. */
+enum class LoadAdaptivity
+{
+  first_step, ///< the later ones solve once, on the mesh of the first
+  every_step  ///< each begins with the mesh of the one before
+};
+
+template <int dim>
+struct Scene;
+
+/**
+ * A history of loads, t = 1/steps, 2/steps, ..., 1: quasi-static evolution, in which friction acts on
+ * the increment of the tangential displacement (LoadHistory).
+ */
+template <int dim>
+struct Loading
+{
+  unsigned int steps = 0; ///< 0: one problem, without time
+  LoadAdaptivity adapt = LoadAdaptivity::every_step;
+  /** The scene at the time t, itself without history: same body, same kinds of conditions. */
+  std::function<Scene<dim>(double t)> at;
+
+  double time(unsigned int step) const; ///< of a load step, counted from 1
+};
+
 /** What a scene is there for. */
 enum class SceneUse
 {
@@ -215,6 +241,7 @@ struct Scene
   bool error_bound = true; ///< compute ErrorBound where there is one
   SolverSettings solver;
   OutputSettings output;
+  Loading<dim> loading;
 
   /** The file, for messages and scene.prm; null: the scene was built by code. */
   std::shared_ptr<const Parameters> parameters;
@@ -246,6 +273,7 @@ struct Scene
   double largest_mu() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
+  bool has_load_history() const;
   bool has_contact() const;
   bool has_known_solution() const; ///< exact or reference: can the true error be measured?
   bool has_friction() const;       ///< does any contact boundary name a bound or a coefficient?

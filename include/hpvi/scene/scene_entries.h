@@ -18,7 +18,7 @@ inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "h
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
 /** In the order of the enumerators of SmoothnessReading, Indicator, QpSolver, Shape, PlaneModel, Contact, NormalContact,
-    CoulombMethod. */
+    CoulombMethod, LoadAdaptivity. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       indicator_names = {"residual", "bound"},
                                       qp_solver_names = {"mprgp", "active set"},
@@ -27,7 +27,8 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       contact_names = {"none", "bilateral", "unilateral",
                                                        "tangential"},
                                       normal_contact_names = {"multiplier", "nodes"},
-                                      coulomb_method_names = {"newton", "fixed point"};
+                                      coulomb_method_names = {"newton", "fixed point"},
+                                      load_adaptivity_names = {"first step", "every step"};
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry
