@@ -300,8 +300,9 @@ template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
   step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
-  if (!dense_note().empty())
-    step.warnings.push_back(dense_note());
+  for (const std::string &line : {several_solutions(step.coulomb), dense_note()})
+    if (!line.empty())
+      step.warnings.push_back(line);
   step.equilibrium = equilibrium(step.solution, discretisation->system);
 }
 

@@ -437,6 +437,21 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
   return result;
 }
 
+std::string several_solutions(const CoulombReport &report)
+{
+  if (!report.difference || *report.difference <= CoulombReport::same)
+    return {};
+  if (std::isnan(*report.difference))
+    return "Coulomb friction: from a second start no solution was found, so that it is not known "
+           "whether there is another than this one";
+  return line(
+      "Coulomb friction has another solution, found from a second start: in the energy norm "
+      "the tractions differ by ",
+      *report.difference,
+      " of the larger ones; what came before the loads decides between them, or lower "
+      "Friction coefficient");
+}
+
 template std::vector<std::string> warnings(const Solution<2> &,
                                            const std::vector<ContactState<2>> &, const History &,
                                            const AlgebraicError &);

@@ -102,7 +102,9 @@ Record convergence_record(const StepReport<dim> &step)
       {"coulomb_fixed_point", coulomb ? text(step.coulomb.fixed_point_steps) : ""},
       {"coulomb_contraction", coulomb ? condition(step.coulomb.contraction) : ""},
       {"coulomb_method", step.coulomb.method},
-      {"estimate_tension", root_of_sum(step.estimate.tension)}};
+      {"estimate_tension", root_of_sum(step.estimate.tension)},
+      {"estimate_excess", root_of_sum(step.estimate.excess)},
+      {"coulomb_difference", step.coulomb.difference ? known(*step.coulomb.difference) : ""}};
   const auto bound = [&](double ErrorBound::*const part)
   { return step.bound ? text((*step.bound).*part) : ""; };
   record.insert(record.end(), {{"error_bound", bound(&ErrorBound::total)},

@@ -224,6 +224,11 @@ void add_program_entries(std::vector<Entry> &entries)
         "newton: semismooth Newton on pressures and frictions at once, with fallbacks. fixed "
         "point: "
         "problems of Tresca, each with the bounds mu_f |T_n| of the last, accelerated."},
+       {"Solver", "Check uniqueness", "false", boolean, yes_no,
+        "Solve Coulomb friction in each step from a second start, too, where all that frictionless "
+        "contact closes sticks, and warn where another equilibrium is found. Costs about as much "
+        "as solving every step without a warm start: the time for the multipliers doubles at "
+        "least. That nothing is found is no proof."},
        {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
         "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
         "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "

@@ -167,7 +167,8 @@ struct SolverSettings
   bool diagonal_scaling = true;
   NormalContact normal_contact = NormalContact::nodes; ///< but for Coulomb friction: multiplier
   CoulombMethod coulomb_method = CoulombMethod::newton;
-  int multiplier_offset = -2; ///< the multiplier has degree p_K + offset on a contact edge
+  bool check_uniqueness = false; ///< of Coulomb friction: solve from another start, too
+  int multiplier_offset = -2;    ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number =
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
 };

@@ -59,6 +59,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
   visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
   visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
+  visit("Solver", "Check uniqueness", solver.check_uniqueness);
   visit("Solver", "Condition number", solver.condition_number);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);
