@@ -21,7 +21,7 @@ namespace hpvi
  * Here w_t = u_Nt on faces that stick, and elsewhere w is one of these, whichever gives least: it takes
  * u_Nt on faces with both stick and slip too; it is free there; or it makes `2 gap + |w|_a^2` least while
  * u_Nt - w_t has the direction of slip there and on slipping faces nearby. Last, w = 0. It lives in the cells
- * at the contact boundary and their neighbours.
+ * at the contact boundary.
  */
 template <int dim>
 class SlipCorrection
