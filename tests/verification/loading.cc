@@ -411,7 +411,7 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
   each.push_back({"Loading/Adapt", "every step"});
   std::vector<unsigned int> elements;
   double first = 0;
-  unsigned int number = 0;
+  unsigned int number = 0, tolerances = 0;
   LoadHistory<2>(bar(5, "0.03*sin(6*t)", each))
       .run(
           [&](const StepReport<2> &step)
@@ -419,6 +419,7 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
             EXPECT_EQ(step.number, ++number);
             if (step.stopped_by.empty())
               return;
+            tolerances += step.stopped_by == "Tolerance";
             if (step.load.number == 1)
               first = step.relative_estimate;
             else
@@ -426,11 +427,28 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
                           step.stopped_by == "Maximum steps");
             elements.push_back(step.solution.displacement_space.degrees().size());
           });
+  EXPECT_GE(tolerances, 2U);
   EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
   EXPECT_GT(elements.back(), elements.front());
   const std::vector<State> fixed = evolution(bar(5, "0.03*sin(6*t)", steps));
   for (const State &state : fixed)
     EXPECT_EQ(state.n_elements, elements.front());
+}
+
+/** What is exact to round-off sets no tolerance: else all later load steps would take all their steps. */
+TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
+{
+  std::vector<std::string> stopped_by;
+  LoadHistory<2>(bar(4, "0.03*max(0, t - 0.3)",
+                     {{"Loading/Adapt", "every step"}, {"Adaptivity/Maximum steps", "5"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            if (!step.stopped_by.empty())
+              stopped_by.push_back(step.stopped_by);
+          });
+  EXPECT_EQ(stopped_by,
+            (std::vector<std::string>{"round-off", "Maximum steps", "Tolerance", "Tolerance"}));
 }
 
 TEST(LoadHistory, IsNoMatterOfASingleRun)
