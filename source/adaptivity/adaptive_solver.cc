@@ -11,6 +11,7 @@
 #include <hpvi/evaluation/unseen_contact.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -37,6 +38,7 @@ struct AdaptiveSolver<dim>::Stages
   CondensedElements<dim> elements;
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
+  ErrorBounds error_bounds;
   std::unique_ptr<const Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
@@ -63,9 +65,11 @@ struct AdaptiveSolver<dim>::Stages
   Solution<dim> solve(ReducedSolution &reduced);
   void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
-  Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate);
+  std::optional<ErrorBound> bound(const Solution<dim> &solution);
+  Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate,
+                  const std::optional<ErrorBound> &bound);
   StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
-                         const ReducedSolution &reduced);
+                         const std::optional<ErrorBound> &bound, const ReducedSolution &reduced);
   std::string end_of_run(const Solution<dim> &solution, const Refinement &refinement) const;
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
@@ -155,13 +159,28 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 }
 
 template <int dim>
+std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim> &solution)
+{
+  if (!scene.error_bound || !scene.no_error_bound().empty())
+    return {};
+  begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
+  StageTimer timer(times.bound);
+  const ErrorBound result = error_bounds.compute(solution, *discretisation);
+  check_finite("the error bound", result.total);
+  return result;
+}
+
+template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
-                                             const ErrorEstimate &estimate)
+                                             const ErrorEstimate &estimate,
+                                             const std::optional<ErrorBound> &bound)
 {
   begin("deciding on h and p");
   StageTimer timer(times.decide);
   Refinement refinement =
-      hpvi::mark(scene.adaptivity, degrees, estimate,
+      hpvi::mark(scene.adaptivity, degrees,
+                 scene.adaptivity.indicator == Indicator::bound && bound ? bound->indicators()
+                                                                         : estimate.indicators(),
                  [&](const unsigned int cell) { return smoothness.decay_rate(solution, cell); });
   if (scene.adaptivity.method != Method::pu)
   {
@@ -212,7 +231,7 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
   const Solution<dim> solution(scene, spaces, state.u, state.z);
   history = state.history;
   keep_start(solution.z, state.motion);
-  const Refinement refinement = mark(solution, estimate(solution));
+  const Refinement refinement = mark(solution, estimate(solution), bound(solution));
   const std::string limit = end_of_run(solution, refinement);
   if (!limit.empty())
     format.reject(state.name, "there is nothing to go on with after step " +
@@ -226,6 +245,7 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
 template <int dim>
 StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
                                                     const ErrorEstimate &estimate,
+                                                    const std::optional<ErrorBound> &bound,
                                                     const ReducedSolution &reduced)
 {
   Energies step_energies;
@@ -239,6 +259,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
   const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
   history.push_back(
       {estimate.total(), ratio(scaled_estimate, step_energies.norm),
+       bound ? ratio(bound->total, step_energies.norm) : std::numeric_limits<double>::quiet_NaN(),
        (history.empty() ? 0. : history.back().seconds) + times.total(),
        !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled)});
   return {static_cast<unsigned int>(history.size()),
@@ -247,6 +268,8 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           estimate,
           scaled_estimate,
           history.back().relative_estimate,
+          bound,
+          history.back().relative_bound,
           step_energies,
           contact,
           true_error.measure(solution, contact),
@@ -277,8 +300,9 @@ template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
   step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
-  if (!dense_note().empty())
-    step.warnings.push_back(dense_note());
+  for (const std::string &line : {several_solutions(step.coulomb), dense_note()})
+    if (!line.empty())
+      step.warnings.push_back(line);
   step.equilibrium = equilibrium(step.solution, discretisation->system);
 }
 
@@ -339,8 +363,9 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
     ReducedSolution reduced;
     const Solution<dim> solution = stages->solve(reduced);
     const ErrorEstimate estimate = stages->estimate(solution);
-    const Refinement refinement = stages->mark(solution, estimate);
-    StepReport<dim> step = stages->report(solution, estimate, reduced);
+    const std::optional<ErrorBound> bound = stages->bound(solution);
+    const Refinement refinement = stages->mark(solution, estimate, bound);
+    StepReport<dim> step = stages->report(solution, estimate, bound, reduced);
     step.stopped_by = stages->end_of_run(solution, refinement);
     finished = !step.stopped_by.empty();
     if (finished)

@@ -102,7 +102,19 @@ Record convergence_record(const StepReport<dim> &step)
       {"coulomb_fixed_point", coulomb ? text(step.coulomb.fixed_point_steps) : ""},
       {"coulomb_contraction", coulomb ? condition(step.coulomb.contraction) : ""},
       {"coulomb_method", step.coulomb.method},
-      {"estimate_tension", root_of_sum(step.estimate.tension)}};
+      {"estimate_tension", root_of_sum(step.estimate.tension)},
+      {"estimate_excess", root_of_sum(step.estimate.excess)},
+      {"coulomb_difference", step.coulomb.difference ? known(*step.coulomb.difference) : ""}};
+  const auto bound = [&](double ErrorBound::*const part)
+  { return step.bound ? text((*step.bound).*part) : ""; };
+  record.insert(record.end(), {{"error_bound", bound(&ErrorBound::total)},
+                               {"error_bound_relative", known(step.relative_bound)},
+                               {"energy_bound", bound(&ErrorBound::energy)},
+                               {"bound_stress", bound(&ErrorBound::stress)},
+                               {"bound_slip", bound(&ErrorBound::slip)},
+                               {"bound_oscillation", bound(&ErrorBound::oscillation)},
+                               {"bound_data", bound(&ErrorBound::data)},
+                               {"bound_imbalance", bound(&ErrorBound::imbalance)}});
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);
   if (step.load.number > 0)

@@ -85,6 +85,7 @@ void check_standard_output(const std::string &complete)
 void print_table_head(const Scene<dim> &scene)
 {
   std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
+            << (scene.error_bound && scene.no_error_bound().empty() ? "     bound" : "")
             << (scene.has_known_solution() ? "  true_error" : "")
             << "       slack qp_products   seconds"
             << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
@@ -101,6 +102,8 @@ void print_row(const StepReport<dim> &step)
             << step.solution.contact_space.n_multipliers() << std::setw(6) << degrees.str()
             << std::scientific << std::setprecision(3) << std::setw(11) << step.estimate.total()
             << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (step.bound)
+    std::cout << std::setw(10) << step.relative_bound;
   if (!std::isnan(step.errors.energy))
     std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
   std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)

@@ -193,6 +193,23 @@ bool Scene<dim>::has_friction() const
 }
 
 template <int dim>
+std::string Scene<dim>::no_error_bound() const
+{
+  if (has_coulomb_friction())
+    return "Coulomb's law minimises no energy";
+  if (has_unilateral_contact())
+    return "contact is unilateral";
+  if (adaptivity.start_degree < 2)
+    return "cells have degree 1";
+  if (!geometry.has_affine_cells())
+    return "cells are no parallelograms";
+  for (const BoundaryCondition<dim> &boundary : boundaries)
+    if (boundary.friction.past)
+      return "friction acts on increments after the first load step";
+  return {};
+}
+
+template <int dim>
 bool Scene<dim>::has_pressure() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),

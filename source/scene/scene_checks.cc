@@ -608,19 +608,27 @@ private:
     for (unsigned int d = 0; d < 2; ++d)
       imbalance += t[d] * (stress[d]->value(point) - traction(d, point));
     if (differ(imbalance, 0, stress_scale))
-      contradict_load(point, "Friction bound", "give that of the solution");
+      contradict_load(point, friction_entry(), "give that of the solution");
     if (g(point) == 0 || !differ(lambda * (u * t), std::abs(u * t), displacement_scale))
       return;
     if (lambda == 0)
-      contradict("Friction bound", point, "leave the contact without friction");
+      contradict(friction_entry(), point, "leave the contact without friction");
     reject(scene, "Exact solution", "Length",
            "lets the body slip against its friction at " + to_string(point) +
                "; enlarge it or move Transition to the right");
   }
 
+  /** Tresca's bound, or Coulomb's under the pressure of the solution. */
   double g(const Point<2> &point) const
   {
+    if (boundary.friction.coefficient)
+      return boundary.friction.coefficient->value(point) * std::max(0., exact.pressure(point));
     return boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
+  }
+
+  std::string friction_entry() const
+  {
+    return boundary.friction.coefficient ? "Friction coefficient" : "Friction bound";
   }
 
   double traction(const unsigned int component, const Point<2> &point) const
@@ -757,6 +765,11 @@ void check_adaptivity(const Scene<2> &scene)
            "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
                "; lower the one or raise the other",
            start);
+  const std::string no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  if (adaptivity.indicator == Indicator::bound && !no_bound.empty())
+    reject(scene, "Adaptivity", "Indicator",
+           "is \"bound\", but there is no bound of the error: " + no_bound +
+               "; choose Indicator = residual");
   if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
     reject(scene, "Adaptivity", "hpa1 raised fraction",
            "makes more than all cells with hpa1 bisected fraction = " +

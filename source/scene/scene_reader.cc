@@ -208,6 +208,10 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   for_each_value(scene, ReadValue{parameters});
   Adaptivity &adaptivity = scene.adaptivity;
   adaptivity.method = read_choice<Method>(parameters, "Adaptivity", "Method", method_names);
+  adaptivity.indicator =
+      read_choice<Indicator>(parameters, "Adaptivity", "Indicator", indicator_names);
+  adaptivity.tolerance_on =
+      read_choice<Indicator>(parameters, "Adaptivity", "Tolerance on", indicator_names);
   adaptivity.reading =
       read_choice<SmoothnessReading>(parameters, "Adaptivity", "Smoothness reading", reading_names);
   scene.solver.qp_solver =

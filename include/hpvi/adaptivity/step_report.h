@@ -6,6 +6,7 @@
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/equilibration/error_bound.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/energies.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -13,6 +14,7 @@
 #include <hpvi/evaluation/true_error.h>
 #include <hpvi/solver/coulomb_solver.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,8 @@ struct StepReport
    */
   double scaled_estimate;
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
+  const std::optional<ErrorBound> &bound; ///< none: not asked for, or Scene::no_error_bound()
+  double relative_bound;                  ///< bound->total / |u_N|_a, NaN without it
   Energies energies;
   std::vector<ContactState<dim>> contact; ///< of each contact boundary, by id
   TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with
