@@ -199,7 +199,7 @@ void add_loading_entries(std::vector<Entry> &entries)
        {section, "Adapt", "every step", one_of(load_adaptivity_names), "first step or every step",
         "first step: the mesh of the first load step stays. every step: each load step adapts "
         "that of the one before; without Adaptivity/Tolerance until its relative indicator is no "
-        "more than that of the first by a fifth. The limits of Adaptivity hold for each load "
+        "more than a fifth above that of the first. The limits of Adaptivity hold for each load "
         "step."}});
 }
 
