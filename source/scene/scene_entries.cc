@@ -150,9 +150,9 @@ void add_method_entries(std::vector<Entry> &entries)
         "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
         "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
-       {section, "Indicator", "residual", one_of(indicator_names), "residual or bound",
-        "What marks cells: the residual indicator (4.44)-(4.51), or the shares of the guaranteed "
-        "bound (Error/Bound)."},
+       {section, "Indicator", "bound", one_of(indicator_names), "residual or bound",
+        "What marks cells. bound: their shares of the guaranteed bound (Error/Bound), or the "
+        "indicator where there is none. residual: the indicator eta_K (4.50)."},
        {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
         "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
         "hpa2, hpa3: 3)."},
