@@ -87,7 +87,10 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int load_step)
   if (scene.loading.adapt == LoadAdaptivity::first_step)
     next->adaptivity.maximum_steps = 1;
   if (next->adaptivity.tolerance == 0)
+  {
     next->adaptivity.tolerance = tolerance;
+    next->adaptivity.tolerance_on = Indicator::residual;
+  }
   current = next;
   solver = std::make_unique<AdaptiveSolver<dim>>(*current, past->start);
 }

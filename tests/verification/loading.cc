@@ -223,6 +223,7 @@ TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
                                                         {"Boundary left/Displacement", "0; 0"},
                                                         {"Boundary right/Displacement", "0; 0"},
                                                         {"Boundary top/Displacement", "0; 0"},
+                                                        {"Error/Bound", "false"},
                                                         {"Adaptivity/Tolerance", "1e-4"},
                                                         {"Adaptivity/Maximum steps", "20"}});
   const Mindlin mindlin{plain.materials[0]};
