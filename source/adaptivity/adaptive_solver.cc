@@ -39,6 +39,7 @@ struct AdaptiveSolver<dim>::Stages
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
   ErrorBounds error_bounds;
+  std::string no_bound; ///< why the current step has none
   std::unique_ptr<const Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
@@ -161,13 +162,14 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 template <int dim>
 std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim> &solution)
 {
-  if (!scene.error_bound || !scene.no_error_bound().empty())
+  no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  if (!no_bound.empty())
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.bound);
   const ErrorBound result = error_bounds.compute(solution, *discretisation);
-  check_finite("the error bound", result.total);
-  return result;
+  no_bound = std::isfinite(result.total) ? result.flaw : "it is not finite";
+  return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }
 
 template <int dim>
@@ -269,6 +271,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           scaled_estimate,
           history.back().relative_estimate,
           bound,
+          no_bound,
           history.back().relative_bound,
           step_energies,
           contact,
@@ -300,6 +303,11 @@ template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
   step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
+  if (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound &&
+      !no_bound.empty())
+    step.warnings.push_back("Adaptivity/Tolerance was compared with the residual indicator, which "
+                            "guarantees nothing: there is no bound of the error, because " +
+                            no_bound);
   for (const std::string &line : {several_solutions(step.coulomb), dense_note()})
     if (!line.empty())
       step.warnings.push_back(line);

@@ -389,19 +389,6 @@ std::string unresolved_jump(const Solution<dim> &solution)
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
 
-/** A scene that asks for a guaranteed tolerance gets what there is, and hears so. */
-template <int dim>
-std::string no_guaranteed_tolerance(const Scene<dim> &scene)
-{
-  const std::string reason = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
-  if (reason.empty() || scene.adaptivity.tolerance == 0 ||
-      scene.adaptivity.tolerance_on == Indicator::residual)
-    return {};
-  return "Adaptivity/Tolerance was compared with the residual indicator, which guarantees nothing: "
-         "there is no bound of the error, because " +
-         reason;
-}
-
 /** Empty fields of the table are explained once. */
 std::string no_condition_number(const History &history)
 {
@@ -431,7 +418,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
         locking(solution), rich_multiplier(solution), whole_body_slips(solution, contact),
         free_place(solution, contact), coarse_bound(solution), unresolved_jump(solution),
-        no_condition_number(history), no_guaranteed_tolerance(solution.scene)})
+        no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);
   return result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/solver/inequality_program.h>
 
@@ -195,6 +196,7 @@ void PatchProgram::add_bounds(const unsigned int side, const double s,
 }
 
 bool PatchProgram::solve()
+try
 {
   InequalityProgram program = start();
   if (!add_conditions(program))
@@ -222,6 +224,10 @@ bool PatchProgram::solve()
     }
   }
   return true;
+}
+catch (const NumericalFailure &) // g is zero up to round-off
+{
+  return false;
 }
 
 /** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */

@@ -499,6 +499,12 @@ void EquilibratedStress::solve_patches()
         for (unsigned int i = 0; i < sums[e][c].size(); ++i)
           sums[e][c][i] += edge.traction[c][i];
   }
+  double largest = 0;
+  for (const auto &edge : sums)
+    for (const auto &component : edge)
+      for (const double coefficient : component)
+        largest = std::max(largest, std::abs(coefficient));
+  defect = defect == 0 ? 0. : defect / largest;
 }
 
 /** Tractions and loads of a cell without those of sigma(u_N). */

@@ -4,12 +4,19 @@
 #include <hpvi/equilibration/error_bound.h>
 #include <hpvi/equilibration/slip_correction.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+/** Relative imbalance that is taken for round-off. */
+constexpr double tolerable = 1e-9;
+} // namespace
 
 std::vector<double> ErrorBound::indicators() const
 {
@@ -39,7 +46,7 @@ ErrorBound ErrorBounds::compute(const Solution<2> &solution,
   for (unsigned int cell = 0; cell < result.squares.size(); ++cell)
   {
     result.squares[cell] = std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
-                           correction.energy()[cell];
+                           std::max(0., correction.energy()[cell]); // round-off
     oscillation += data.oscillation[cell] * data.oscillation[cell];
   }
   const auto &faces = solution.contact_space.faces();
@@ -47,7 +54,7 @@ ErrorBound ErrorBounds::compute(const Solution<2> &solution,
     result.squares[faces[face].cell->active_cell_index()] += 2 * correction.gap()[face];
 
   const double eta_square = sum(stress.squares), gap = sum(correction.gap()),
-               w = std::sqrt(sum(correction.energy()));
+               w = std::sqrt(std::max(0., sum(correction.energy())));
   result.stress = std::sqrt(eta_square);
   result.slip = std::sqrt(2 * gap + w * w);
   result.oscillation = std::sqrt(oscillation);
@@ -57,6 +64,10 @@ ErrorBound ErrorBounds::compute(const Solution<2> &solution,
   result.energy = std::pow(result.stress + result.data + result.oscillation, 2) / 2 +
                   sum(correction.uncorrected_gap());
   result.imbalance = stress.defect;
+  if (friction.imbalance() > tolerable)
+    result.flaw = "Friction bound varies between the points of the multiplier";
+  else if (!(stress.defect <= tolerable))
+    result.flaw = "loads and friction are not in balance on some patch of cells";
   return result;
 }
 } // namespace hpvi

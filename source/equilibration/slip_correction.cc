@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/legendre.h>
 #include <hpvi/equilibration/slip_correction.h>
 #include <hpvi/solver/inequality_program.h>
@@ -573,7 +574,14 @@ Candidate Search<dim>::best(Candidate result) const
   const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
   take_better(result, strip.minimiser());
   if (strip.n_kept() > 0)
-    try_one_direction(strip, nearby, fixed, result);
+    try
+    {
+      try_one_direction(strip, nearby, fixed, result);
+    }
+    catch (const NumericalFailure &)
+    {
+      // Stiffness that is singular to round-off: a candidate less.
+    }
   return result;
 }
 } // namespace

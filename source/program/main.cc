@@ -81,11 +81,17 @@ void check_standard_output(const std::string &complete)
 
 // ---------------------------------------------------------------- what a run prints
 
+/** A load history has one for its first load step. */
+bool has_bound_column(const Scene<dim> &scene)
+{
+  return scene.error_bound && (scene.has_load_history() || scene.no_error_bound().empty());
+}
+
 /** The true error has a column only where there is something to compare with, time in a history. */
 void print_table_head(const Scene<dim> &scene)
 {
   std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
-            << (scene.error_bound && scene.no_error_bound().empty() ? "     bound" : "")
+            << (has_bound_column(scene) ? "     bound" : "")
             << (scene.has_known_solution() ? "  true_error" : "")
             << "       slack qp_products   seconds"
             << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
@@ -104,6 +110,8 @@ void print_row(const StepReport<dim> &step)
             << std::setprecision(1) << std::setw(10) << step.relative_estimate;
   if (step.bound)
     std::cout << std::setw(10) << step.relative_bound;
+  else if (has_bound_column(step.solution.scene))
+    std::cout << std::setw(10) << "-";
   if (!std::isnan(step.errors.energy))
     std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
   std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)

@@ -724,11 +724,6 @@ void check_load_history(const Scene<2> &scene, const SceneUse use)
     reject(scene, "Error", "Reference solution", history);
   if (scene.output.reference)
     reject(scene, "Output", "Reference solution", history, "true");
-  if (scene.adaptivity.indicator == Indicator::bound && scene.has_friction() && loading.steps > 1)
-    reject(scene, "Adaptivity", "Indicator",
-           "is \"bound\", but friction acts on increments after the first load step, for which "
-           "there is no bound of the error; choose Indicator = residual",
-           "bound");
   for (unsigned int step = 1; step <= loading.steps; ++step)
     try
     {

@@ -316,7 +316,7 @@ TEST(Limits, EachStopsTheRunAndSaysSo)
   EXPECT_GE(rows.back().n, 1000U);
   EXPECT_LT(rows[rows.size() - 2].n, 1000U);
 
-  rows = stop({{"Adaptivity/Tolerance", "0.01"}});
+  rows = stop({{"Adaptivity/Tolerance", "0.01"}, {"Adaptivity/Tolerance on", "residual"}});
   EXPECT_EQ(rows.back().stopped_by, "Tolerance");
   EXPECT_LT(rows.back().relative, 0.01);
   EXPECT_GE(rows[rows.size() - 2].relative, 0.01);

@@ -101,12 +101,10 @@ bool says(const Result &result, const std::string &words)
 
 TEST(Expressions, AreRefusedWhereTheyAreNotFinite)
 {
-  // The first step integrates past the interval around 0.1 in which the root has no value.
   const std::string force = "sqrt(abs(x-0.1)-1e-2); 0";
   const Result result =
       run("han-6-12", {{"Body force/Expression", force}, {"Adaptivity/Maximum steps", "9"}});
   EXPECT_TRUE(result.failed_input);
-  EXPECT_GE(result.steps, 1U);
   for (const std::string words :
        {"prm/han-6-12.prm (--set): Body force/Expression = ", "is not finite at (0.", ": nan;"})
     EXPECT_TRUE(says(result, words)) << result.message;

@@ -28,6 +28,7 @@ Scene<2> pushed_block()
   scene.boundary("bottom").contact = Contact::bilateral;
   scene.boundary("bottom").friction.bound = expression<2>(4.5);
   scene.adaptivity.method = Method::hpa2;
+  scene.adaptivity.indicator = Indicator::residual;
   scene.adaptivity.reading = SmoothnessReading::joint;
   scene.adaptivity.start_degree = own_start_degree(Method::hpa2);
   return scene;

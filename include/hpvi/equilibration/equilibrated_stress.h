@@ -29,7 +29,7 @@ public:
                      EquilibrationCache &cache);
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
-  double defect = 0;           ///< largest violation of a condition N'r = 0 [stress]
+  double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
 
   const VertexPatches &patches() const;
 

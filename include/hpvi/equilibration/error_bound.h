@@ -5,6 +5,7 @@
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -39,6 +40,8 @@ struct ErrorBound
 
   /** Largest imbalance of a patch, relative to its tractions: what round-off leaves of equilibrium. */
   double imbalance = 0;
+
+  std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
 
 /** Computes the bound step by step, with what it keeps between steps. */

@@ -27,6 +27,7 @@ struct Summary
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
   std::optional<ErrorBound> bound; ///< of the last step
+  std::string no_bound; ///< why there is none
   double relative_bound = 0;
   double energy = 0; ///< J(u_N), likewise
   LoadStep load; ///< the last one that is done, of a history
@@ -38,7 +39,7 @@ struct Summary
   std::string json(const Scene<dim> &scene, const std::set<std::string> &files) const;
 
 private:
-  std::string json_bound(const Scene<dim> &scene) const;
+  std::string json_bound() const;
 };
 } // namespace hpvi
 
