@@ -46,7 +46,7 @@ SymmetricTensor<2, 2> derivative(const std::function<SymmetricTensor<2, 2>(doubl
 double imbalance(const Solution<2> &solution, const EquilibratedStress &stress,
                  const unsigned int cell, std::mt19937 &random)
 {
-  std::uniform_real_distribution<double> uniform(-0.9, 0.9);
+  std::uniform_real_distribution<double> uniform(-0.8, 0.8); // off the corners, where differences would fail
   const Stress s = stress_of(stress, cell);
   const CellMap<2> map = map_of<2>(stress.patches().cells()[cell].iterator);
   const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5})); // d xi/d x is twice that
