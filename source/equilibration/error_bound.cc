@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/cell_map.h>
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
@@ -11,12 +12,19 @@ namespace hpvi
 {
 using namespace dealii;
 
+bool has_distorted_cells(const Scene<2> &scene)
+{
+  return !CellMap<2>(scene.geometry.corners).is_affine();
+}
+
 std::string no_error_bound(const Scene<2> &scene)
 {
   if (scene.has_coulomb_friction())
     return "Coulomb's law has no energy that falls";
   if (scene.has_unilateral_contact())
     return "unilateral contact";
+  if (has_distorted_cells(scene))
+    return "cells that are no parallelograms";
   return "";
 }
 

@@ -40,6 +40,9 @@ struct ErrorBound
   double imbalance = 0;
 };
 
+/** Has the mesh cells that are no parallelograms? All of them are none then: bisection keeps them so. */
+bool has_distorted_cells(const Scene<2> &scene);
+
 /** Why there is no bound for a scene, in words; empty if there is one. */
 std::string no_error_bound(const Scene<2> &scene);
 
