@@ -23,8 +23,6 @@ std::string no_error_bound(const Scene<2> &scene)
     return "Coulomb's law has no energy that falls";
   if (scene.has_unilateral_contact())
     return "unilateral contact";
-  if (has_distorted_cells(scene))
-    return "cells that are no parallelograms";
   return "";
 }
 
