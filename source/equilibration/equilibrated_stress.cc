@@ -84,6 +84,8 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Fricti
   }
   solve_patches();
   measure();
+  if (macro_stresses)
+    cache.drop_unused();
 }
 
 const VertexPatches &EquilibratedStress::patches() const

@@ -235,7 +235,8 @@ const MacroStressElement &MacroStresses::element(const unsigned int cell) const
   for (const Point<2> &v : vertices)
     for (unsigned int d = 0; d < 2; ++d)
       key.push_back(std::lround((v[d] - vertices[0][d]) / size * 1e11));
-  auto &result = cache.macro_elements[key];
+  auto &[result, is_used] = cache.macro_elements[key];
+  is_used = true;
   if (!result)
     result = std::make_unique<const MacroStressElement>(cache.triangles.triangle(m - 1), vertices,
                                                         solution.scene.material_of(iterator));
@@ -278,6 +279,13 @@ void MacroStresses::set_cell(const unsigned int index)
     cell.missed_force += area * force;
   }
   cell.missed_force = std::sqrt(cell.missed_force);
+  set_hats(index, by_vertex);
+}
+
+/** What hat functions are given, from that of the bilinear ones of the vertices. */
+void MacroStresses::set_hats(const unsigned int index, const MacroStressElement::Data &by_vertex)
+{
+  Cell &cell = cells[index];
   std::vector<double> gradients, defects;
   cell.element->reduce(by_vertex, gradients, defects);
   for (const VertexPatches::Hat &hat : patches.cells()[index].hats)

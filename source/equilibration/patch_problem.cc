@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hpvi
 {
@@ -217,7 +218,8 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
 double PatchProblem::solve()
 {
   const auto [found, is_new] = cache.patches.try_emplace(signature());
-  PatchFactor &factor = found->second;
+  found->second.is_used = true;
+  PatchFactor &factor = found->second.value;
   if (is_new)
     factorise(factor);
   std::vector<double> x(n), right;
@@ -247,6 +249,20 @@ double PatchProblem::solve()
   return largest;
 }
 } // namespace
+
+void EquilibrationCache::drop_unused()
+{
+  const auto drop = [](auto &map)
+  {
+    for (auto entry = map.begin(); entry != map.end();)
+      if (std::exchange(entry->second.is_used, false))
+        ++entry;
+      else
+        entry = map.erase(entry);
+  };
+  drop(macro_elements);
+  drop(patches); // whose signatures hold addresses of elements
+}
 
 TractionEnergy traction_energy(const StressElement &element)
 {

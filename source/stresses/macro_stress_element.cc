@@ -23,6 +23,30 @@ bool is_independent(const unsigned int f, const unsigned int condition)
   return f < 3 || condition == 3 || condition == 4;
 }
 
+/** `C^-1 s : s = (s : s - nu' tr(s)^2)/(2 mu)`, nu' = lambda/(2(lambda + mu)), for pairs of `s = B E B'`. */
+std::array<double, 6> component_energy(const MacroStressElement::Piece &piece,
+                                       const Material &material)
+{
+  const double mu = material.mu(), lambda = material.lambda(2), nu = lambda / (2 * (lambda + mu));
+  constexpr unsigned int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  std::array<Tensor<2, 2>, 3> s;
+  for (unsigned int k = 0; k < 3; ++k)
+  {
+    Tensor<2, 2> E;
+    E[k == 1][k != 0] = 1.;
+    E[k != 0][k == 1] = 1.;
+    s[k] = piece.B * E * transpose(piece.B);
+  }
+  std::array<double, 6> result;
+  for (unsigned int pair = 0; pair < 6; ++pair)
+  {
+    const auto &one = s[pairs[pair][0]], &other = s[pairs[pair][1]];
+    result[pair] = piece.scale * piece.scale *
+                   (scalar_product(one, other) - nu * trace(one) * trace(other)) / (2 * mu);
+  }
+  return result;
+}
+
 double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
 {
   return a[0] * b[1] - a[1] * b[0];
@@ -51,7 +75,10 @@ MacroStressElement::MacroStressElement(const TriangleStress &triangle, const Ver
   const unsigned int size = 2 * n_edges;
   std::vector<double> H(size * size), C(n_inner_conditions * size);
   for (unsigned int f = 0; f < 4; ++f)
-    add_triangle(f, H, C);
+  {
+    add_energy(triangles[f], H);
+    add_conditions(f, C);
+  }
   eliminate(H, C);
 }
 
@@ -70,14 +97,9 @@ const std::vector<double> &MacroStressElement::edge_energy() const
   return G;
 }
 
-/**
- * `C^-1 s : s = (s : s - nu' tr(s)^2)/(2 mu)`, nu' = lambda/(2(lambda + mu)); `S nu = B^-1 (s n) l/h` on an
- * edge of length l.
- */
+/** `S nu = B^-1 (s n) l/scale` on an edge of length l. */
 void MacroStressElement::set_pieces(const Vertices &vertices, const Material &material)
 {
-  const double mu = material.mu(), lambda = material.lambda(2), nu = lambda / (2 * (lambda + mu));
-  constexpr unsigned int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   for (unsigned int f = 0; f < 4; ++f)
   {
     Triangle &piece = triangles[f];
@@ -91,20 +113,7 @@ void MacroStressElement::set_pieces(const Vertices &vertices, const Material &ma
       piece.B[c][0] = to_a[c] / piece.scale;
       piece.B[c][1] = to_b[c] / piece.scale;
     }
-    std::array<Tensor<2, 2>, 3> s;
-    for (unsigned int k = 0; k < 3; ++k)
-    {
-      Tensor<2, 2> E;
-      E[k == 1][k != 0] = 1.;
-      E[k != 0][k == 1] = 1.;
-      s[k] = piece.B * E * transpose(piece.B);
-    }
-    for (unsigned int pair = 0; pair < 6; ++pair)
-    {
-      const auto &one = s[pairs[pair][0]], &other = s[pairs[pair][1]];
-      piece.energy[pair] = piece.scale * piece.scale *
-                           (scalar_product(one, other) - nu * trace(one) * trace(other)) / (2 * mu);
-    }
+    piece.energy = component_energy(piece, material);
     const Tensor<2, 2> inverse = invert(piece.B) / piece.scale;
     Tensor<2, 2> frame; // columns: normal and tangent of the face
     const Tensor<1, 2> along = (b - a) / (b - a).norm();
@@ -137,13 +146,11 @@ void MacroStressElement::apply_energy(const Triangle &piece, const unsigned int 
     }
 }
 
-/** Adds the energy of the tractions on the edges of a triangle, its bubbles eliminated, and its conditions. */
-void MacroStressElement::add_triangle(const unsigned int f, std::vector<double> &H,
-                                      std::vector<double> &C)
+/** Energy of S nu on the edges of a triangle: n_edges x n_edges, in columns of n_edges + n_bubbles. */
+std::vector<double> MacroStressElement::eliminate_bubbles(Triangle &piece) const
 {
-  Triangle &piece = triangles[f];
   const unsigned int edges = triangle.n_edges, bubbles = triangle.n_bubbles, size = edges + bubbles,
-                     n_data = triangle.n_divergence + edges, n = triangle.k + 1;
+                     n_data = triangle.n_divergence + edges;
   std::vector<double> M(size * size);
   for (unsigned int pair = 0; pair < 6; ++pair)
     for (unsigned int i = 0; i < M.size(); ++i)
@@ -164,32 +171,49 @@ void MacroStressElement::add_triangle(const unsigned int f, std::vector<double> 
   // Definite also for what no stress has; constant where the conditions are met.
   multiply('N', 'T', edges, edges, 6, alpha, {&triangle.conditions[triangle.n_divergence], n_data},
            {&triangle.conditions[triangle.n_divergence], n_data}, 1., M.data(), size);
+  return M;
+}
+
+/** Adds the energy of a triangle, from tractions on the edges of the cell. */
+void MacroStressElement::add_energy(Triangle &piece, std::vector<double> &H) const
+{
+  const unsigned int n = triangle.k + 1, size = triangle.n_edges + triangle.n_bubbles;
+  const std::vector<double> M = eliminate_bubbles(piece);
   for (unsigned int e = 0; e < 3; ++e)
     for (unsigned int d = 0; d < 3; ++d)
       for (unsigned int c = 0; c < 4; ++c)
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int a = 0; a < 4; ++a)
+        {
+          const double weight = piece.to_edge[e][a / 2][c / 2] * piece.to_edge[d][a % 2][c % 2];
+          for (unsigned int j = 0; j < n; ++j)
           {
-            // entry (c / 2, c % 2) of to_edge' M to_edge
-            double sum = 0;
-            for (unsigned int a = 0; a < 2; ++a)
-              for (unsigned int b = 0; b < 2; ++b)
-                sum += piece.to_edge[e][a][c / 2] * piece.to_edge[d][b][c % 2] *
-                       M[(2 * n * d + b * n + j) * size + 2 * n * e + a * n + i];
-            H[(2 * n * piece.places[d] + c % 2 * n + j) * 2 * n_edges + 2 * n * piece.places[e] +
-              c / 2 * n + i] += sum;
+            const double *const from =
+                &M[(2 * n * d + a % 2 * n + j) * size + 2 * n * e + a / 2 * n];
+            double *const to = &H[(2 * n * piece.places[d] + c % 2 * n + j) * 2 * n_edges +
+                                  2 * n * piece.places[e] + c / 2 * n];
+            for (unsigned int i = 0; i < n; ++i)
+              to[i] += weight * from[i];
           }
+        }
+}
+
+void MacroStressElement::add_conditions(const unsigned int f, std::vector<double> &C) const
+{
+  const Triangle &piece = triangles[f];
+  const unsigned int n = triangle.k + 1, n_data = triangle.n_divergence + triangle.n_edges;
   for (unsigned int condition = 0; condition < 6; ++condition)
-    if (is_independent(f, condition))
-      for (unsigned int e = 0; e < 3; ++e)
-        for (unsigned int c = 0; c < 2; ++c)
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int a = 0; a < 2; ++a)
-              C[(2 * n * piece.places[e] + c * n + i) * n_inner_conditions +
-                (f < 3 ? 6 * f + condition : 15 + condition)] +=
-                  piece.to_edge[e][a][c] *
-                  triangle.conditions[condition * n_data + triangle.n_divergence + 2 * n * e +
-                                      a * n + i];
+  {
+    if (!is_independent(f, condition))
+      continue;
+    const unsigned int row = f < 3 ? 6 * f + condition : 15 + condition;
+    const double *const one = &triangle.conditions[condition * n_data + triangle.n_divergence];
+    for (unsigned int e = 0; e < 3; ++e)
+      for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int a = 0; a < 2; ++a)
+            C[(2 * n * piece.places[e] + c * n + i) * n_inner_conditions + row] +=
+                piece.to_edge[e][a][c] * one[2 * n * e + a * n + i];
+  }
 }
 
 /** Motions of the cell, with rotation about the crossing: B'z of each triangle is one of its own. */
@@ -220,18 +244,28 @@ void MacroStressElement::set_conditions()
                   motion[j] * piece.to_edge[0][a][c] * one[n_divergence + a * n + i];
       }
     }
-    double square =
-        std::inner_product(&N[z * n_edges], &N[z * n_edges] + n_edges, &N[z * n_edges], 0.);
+  }
+  normalise_conditions();
+}
+
+void MacroStressElement::normalise_conditions()
+{
+  const unsigned int n = triangle.n_divergence;
+  for (unsigned int z = 0; z < 3; ++z)
+  {
+    double *const outer = &N[z * n_edges];
+    double square = std::inner_product(outer, outer + n_edges, outer, 0.);
     for (unsigned int f = 0; f < 4; ++f)
-      square += std::inner_product(&N_divergence[(f * 3 + z) * n_divergence],
-                                   &N_divergence[(f * 3 + z) * n_divergence] + n_divergence,
-                                   &N_divergence[(f * 3 + z) * n_divergence], 0.);
-    const double length = std::sqrt(square);
+    {
+      const double *const inner = &N_divergence[(f * 3 + z) * n];
+      square += std::inner_product(inner, inner + n, inner, 0.);
+    }
+    const double factor = 1 / std::sqrt(square);
     for (unsigned int i = 0; i < n_edges; ++i)
-      N[z * n_edges + i] /= length;
+      outer[i] *= factor;
     for (unsigned int f = 0; f < 4; ++f)
-      for (unsigned int i = 0; i < n_divergence; ++i)
-        N_divergence[(f * 3 + z) * n_divergence + i] /= length;
+      for (unsigned int i = 0; i < n; ++i)
+        N_divergence[(f * 3 + z) * n + i] *= factor;
   }
 }
 
@@ -268,12 +302,24 @@ void MacroStressElement::eliminate(const std::vector<double> &H, const std::vect
   multiply('T', 'N', n, n, m, 1., {Q.data(), m}, {Q.data(), m}, 1., G.data(), n);
 }
 
+void MacroStressElement::add_gradient(const Triangle &piece, const double *const from,
+                                      double *const gradient) const
+{
+  const unsigned int n = triangle.k + 1;
+  for (unsigned int e = 0; e < 3; ++e)
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int a = 0; a < 2; ++a)
+          gradient[2 * n * piece.places[e] + c * n + i] +=
+              piece.to_edge[e][a][c] * from[2 * n * e + a * n + i];
+}
+
 MacroStressElement::Reduced MacroStressElement::reduce(const Data &data) const
 {
   const unsigned int columns = data.columns, n_stress = 3 * triangle.n,
                      n_divergence = triangle.n_divergence, edges = triangle.n_edges,
                      bubbles = triangle.n_bubbles, size = edges + bubbles,
-                     n_data = n_divergence + edges, n = triangle.k + 1;
+                     n_data = n_divergence + edges;
   Reduced result;
   result.gradient.resize(2 * n_edges * columns);
   result.defect.resize(n_inner_conditions * columns);
@@ -297,13 +343,7 @@ MacroStressElement::Reduced MacroStressElement::reduce(const Data &data) const
              {result.bubbles[f].data(), bubbles}, 1., products.data(), size);
     for (unsigned int column = 0; column < columns; ++column)
     {
-      double *const gradient = &result.gradient[2 * n_edges * column];
-      for (unsigned int e = 0; e < 3; ++e)
-        for (unsigned int c = 0; c < 2; ++c)
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int a = 0; a < 2; ++a)
-              gradient[2 * n * piece.places[e] + c * n + i] +=
-                  piece.to_edge[e][a][c] * products[column * size + 2 * n * e + a * n + i];
+      add_gradient(piece, &products[column * size], &result.gradient[2 * n_edges * column]);
       if (f < 3)
         multiply('T', 'N', 3, 1, n_divergence, 1., {triangle.conditions.data(), n_data},
                  {&data.divergence[f][column * n_divergence], n_divergence}, 0.,
@@ -352,15 +392,26 @@ std::vector<double> MacroStressElement::edge_tractions(const Triangle &piece,
   return result;
 }
 
-/** `-L^-T (y + W mu)` with mu such that the conditions are met; y includes that of the faces. */
-std::vector<double> MacroStressElement::inner_tractions(const std::vector<double> &y,
-                                                        const std::vector<double> &defect) const
+/** `-L^-T (y + W mu)` with mu such that the conditions are met, and then those of the faces. */
+std::vector<double> MacroStressElement::all_tractions(const Reduced &reduced,
+                                                      const std::vector<double> &t) const
 {
   const unsigned int n = n_edges, m = n_inner_conditions;
-  std::vector<double> x(y), mu;
+  std::vector<double> x(reduced.gradient.begin(), reduced.gradient.begin() + n), Yt(n), Qt(m),
+      defect(reduced.defect);
+  solve_triangular('N', n, 1, {L.data(), n}, x.data(), n);
+  multiply('N', 'N', n, 1, n, 1., {Y.data(), n}, {t.data(), n}, 0., Yt.data(), n);
+  multiply('N', 'N', m, 1, n, 1., {Q.data(), m}, {t.data(), n}, 0., Qt.data(), m);
+  // C_o t = Q t + W'Y t
+  multiply('T', 'N', m, 1, n, 1., {W.data(), n}, {Yt.data(), n}, 1., defect.data(), m);
+  for (unsigned int i = 0; i < m; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+      defect[i] += S[j * m + i] * Qt[j];
+  for (unsigned int i = 0; i < n; ++i)
+    x[i] += Yt[i];
   for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
   {
-    mu = defect;
+    std::vector<double> mu(defect);
     multiply('T', 'N', m, 1, n, -1., {W.data(), n}, {x.data(), n}, 1., mu.data(), m);
     for (const char op : {'N', 'T'})
       solve_triangular(op, m, 1, {S.data(), m}, mu.data(), m);
@@ -369,30 +420,17 @@ std::vector<double> MacroStressElement::inner_tractions(const std::vector<double
   solve_triangular('T', n, 1, {L.data(), n}, x.data(), n);
   for (double &value : x)
     value = -value;
+  x.insert(x.end(), t.begin(), t.end());
   return x;
 }
 
 MacroStressElement::Stress MacroStressElement::stress(const Data &data,
                                                       const std::vector<double> &tractions) const
 {
-  const unsigned int n = n_edges, m = n_inner_conditions, n_stress = 3 * triangle.n,
-                     bubbles = triangle.n_bubbles, edges = triangle.n_edges;
+  const unsigned int n_stress = 3 * triangle.n, bubbles = triangle.n_bubbles,
+                     edges = triangle.n_edges;
   const Reduced reduced = reduce(data);
-  std::vector<double> y(reduced.gradient.begin(), reduced.gradient.begin() + n),
-      defect(reduced.defect), outer(m);
-  solve_triangular('N', n, 1, {L.data(), n}, y.data(), n);
-  multiply('N', 'N', n, 1, n, 1., {Y.data(), n}, {tractions.data(), n}, 1., y.data(), n);
-  // C_o t = L_S (L_S^-1 Q) t + W'Y t
-  multiply('N', 'N', m, 1, n, 1., {Q.data(), m}, {tractions.data(), n}, 0., outer.data(), m);
-  std::vector<double> Yt(n);
-  multiply('N', 'N', n, 1, n, 1., {Y.data(), n}, {tractions.data(), n}, 0., Yt.data(), n);
-  multiply('T', 'N', m, 1, n, 1., {W.data(), n}, {Yt.data(), n}, 1., defect.data(), m);
-  for (unsigned int i = 0; i < m; ++i)
-    for (unsigned int j = 0; j <= i; ++j)
-      defect[i] += S[j * m + i] * outer[j];
-  std::vector<double> all = inner_tractions(y, defect);
-  all.insert(all.end(), tractions.begin(), tractions.end());
-
+  const std::vector<double> all = all_tractions(reduced, tractions);
   Stress result;
   result.energy = 0;
   for (unsigned int f = 0; f < 4; ++f)

@@ -106,14 +106,20 @@ TriangleStress::TriangleStress(const unsigned int degree)
   set_products();
 }
 
-/** A, data x coefficients, by columns. */
+/** A, data x coefficients, by columns: of each pair of row and component a factor of phi_l or its slopes. */
 std::vector<double> TriangleStress::data_matrix() const
 {
   const unsigned int n_data = n_divergence + n_edges, n_lower = n_divergence / 2;
   std::vector<double> A(n_data * 3 * n);
-  const auto entry = [&](const unsigned int row, const unsigned int component,
-                         const unsigned int l) -> double &
-  { return A[(component * n + l) * n_data + row]; };
+  // The vector v in Div S = S v or S nu, v the gradient or nu, with moments of both its components.
+  const auto add = [&](const unsigned int row, const unsigned int next, const unsigned int l,
+                       const double x, const double y)
+  {
+    A[l * n_data + row] += x;
+    A[(2 * n + l) * n_data + row] += y;
+    A[(n + l) * n_data + row + next] += y;
+    A[(2 * n + l) * n_data + row + next] += x;
+  };
   const QGauss<1> gauss(k + 2);
   for (unsigned int a = 0; a < gauss.size(); ++a)
     for (unsigned int b = 0; b < gauss.size(); ++b)
@@ -124,12 +130,7 @@ std::vector<double> TriangleStress::data_matrix() const
                                 y = basis_slopes(k, 1, u, v);
       for (unsigned int l = 0; l < n; ++l)
         for (unsigned int row = 0; row < n_lower; ++row)
-        {
-          entry(row, 0, l) += weight * phi[row] * x[l];
-          entry(row, 2, l) += weight * phi[row] * y[l];
-          entry(n_lower + row, 1, l) += weight * phi[row] * y[l];
-          entry(n_lower + row, 2, l) += weight * phi[row] * x[l];
-        }
+          add(row, n_lower, l, weight * phi[row] * x[l], weight * phi[row] * y[l]);
     }
   for (unsigned int edge = 0; edge < 3; ++edge)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -137,15 +138,12 @@ std::vector<double> TriangleStress::data_matrix() const
       const double s = gauss.point(q)[0];
       const auto [u, v] = on_edge(edge, s);
       const std::vector<double> phi = basis(k, u, v), L = legendre::values(k + 1, 2 * s - 1);
-      const unsigned int x = n_divergence + edge * 2 * (k + 1), y = x + k + 1;
       for (unsigned int l = 0; l < n; ++l)
         for (unsigned int i = 0; i <= k; ++i)
         {
           const double moment = 2 * gauss.weight(q) * L[i] * phi[l];
-          entry(x + i, 0, l) += moment * normals[edge][0];
-          entry(x + i, 2, l) += moment * normals[edge][1];
-          entry(y + i, 1, l) += moment * normals[edge][1];
-          entry(y + i, 2, l) += moment * normals[edge][0];
+          add(n_divergence + edge * 2 * (k + 1) + i, k + 1, l, moment * normals[edge][0],
+              moment * normals[edge][1]);
         }
     }
   return A;
@@ -184,7 +182,13 @@ void TriangleStress::set_conditions()
                 gauss.weight(q) * L[i] * motion(z, u * (1 - v), u * v)[c];
       }
   }
-  const double n_tractions = k + 1.; // about the size of the others
+  add_vertex_conditions();
+}
+
+void TriangleStress::add_vertex_conditions()
+{
+  const unsigned int n_data = n_divergence + n_edges;
+  const double n_tractions = k + 1.; // to the size of the others
   for (unsigned int vertex = 0; vertex < 3; ++vertex)
     for (unsigned int side = 0; side < 2; ++side)
       for (unsigned int c = 0; c < 2; ++c)
@@ -216,7 +220,7 @@ std::vector<double> TriangleStress::orthonormal_conditions() const
   return Q;
 }
 
-/** `R = A' (A A' + Q Q')^-1`, and the range of the projector `1 - R A`. */
+/** `R = A' (A A' + Q Q')^-1`. */
 void TriangleStress::set_stresses()
 {
   const unsigned int n_data = n_divergence + n_edges, n_stress = 3 * n;
@@ -244,8 +248,15 @@ void TriangleStress::set_stresses()
   of_divergence.assign(R.begin(), R.begin() + n_stress * n_divergence);
   of_edges.assign(R.begin() + n_stress * n_divergence, R.end());
 
+  add_bubbles(A, R);
+}
+
+/** Orthonormal columns of the projector `1 - R A`, behind those of edges. */
+void TriangleStress::add_bubbles(const std::vector<double> &A, const std::vector<double> &R)
+{
   if (n_bubbles == 0)
     return;
+  const unsigned int n_data = n_divergence + n_edges, n_stress = 3 * n;
   std::vector<double> P(n_stress * n_stress);
   for (unsigned int i = 0; i < n_stress; ++i)
     P[i * n_stress + i] = 1.;

@@ -17,7 +17,7 @@ namespace hpvi
 class MacroStresses
 {
 public:
-  /** @p cache must outlive this object, and elements in it that this solution does not need are dropped. */
+  /** @p cache must outlive this object, and its elements must stay as long as this is asked for stresses. */
   MacroStresses(const Solution<2> &solution, const VertexPatches &patches,
                 EquilibrationCache &cache);
 
@@ -46,6 +46,7 @@ private:
 
   const MacroStressElement &element(unsigned int cell) const;
   void set_cell(unsigned int cell);
+  void set_hats(unsigned int cell, const MacroStressElement::Data &by_vertex);
 
   const Solution<2> &solution;
   const VertexPatches &patches;

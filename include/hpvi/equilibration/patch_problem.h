@@ -31,8 +31,19 @@ struct EquilibrationCache
   LegendreTables legendre;
   TriangleStresses triangles;
   std::map<Signature, std::unique_ptr<const StressElement>> elements;
-  std::map<Signature, std::unique_ptr<const MacroStressElement>> macro_elements;
-  std::map<Signature, PatchFactor> patches;
+
+  /** What few other cells can share: kept as long as each step uses it. */
+  template <class T>
+  struct Kept
+  {
+    T value;
+    bool is_used = false;
+  };
+  std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
+  std::map<Signature, Kept<PatchFactor>> patches;
+
+  /** Drops macro elements and patches that have not been used since the last call. */
+  void drop_unused();
 };
 
 /** What a patch sees of an element: energy and conditions of the tractions on its faces. */

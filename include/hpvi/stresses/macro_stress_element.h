@@ -99,14 +99,17 @@ private:
   };
 
   void set_pieces(const Vertices &vertices, const Material &material);
-  void add_triangle(unsigned int f, std::vector<double> &H, std::vector<double> &C);
+  std::vector<double> eliminate_bubbles(Triangle &piece) const;
+  void add_energy(Triangle &piece, std::vector<double> &H) const;
+  void add_conditions(unsigned int f, std::vector<double> &C) const;
   void set_conditions();
+  void normalise_conditions();
   void eliminate(const std::vector<double> &H, const std::vector<double> &C);
   void apply_energy(const Triangle &piece, unsigned int columns, std::vector<double> &S) const;
   std::vector<double> edge_tractions(const Triangle &piece, const std::vector<double> &t) const;
   Reduced reduce(const Data &data) const;
-  std::vector<double> inner_tractions(const std::vector<double> &y,
-                                      const std::vector<double> &defect) const;
+  void add_gradient(const Triangle &piece, const double *from, double *gradient) const;
+  std::vector<double> all_tractions(const Reduced &reduced, const std::vector<double> &t) const;
 
   std::array<Triangle, 4> triangles;
   std::vector<double> N, N_divergence; ///< n_edges x 3; of each triangle n_divergence x 3

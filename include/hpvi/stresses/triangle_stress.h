@@ -54,8 +54,10 @@ struct TriangleStress
 private:
   std::vector<double> data_matrix() const;
   void set_conditions();
+  void add_vertex_conditions();
   std::vector<double> orthonormal_conditions() const;
   void set_stresses();
+  void add_bubbles(const std::vector<double> &A, const std::vector<double> &R);
   void set_products();
 };
 
