@@ -32,8 +32,8 @@ try
           std::cout << point.x[0] << ',' << point.normal_traction << ','
                     << point.tangential_traction << ',' << point.friction_bound << ','
                     << (point.slips ? "slip" : "stick") << '\n';
-        std::cerr << "stopped by " << step.stopped_by << ", relative indicator "
-                  << step.relative_estimate << ", force of the plane "
+        std::cerr << "stopped by " << step.stopped_by << ", relative error at most "
+                  << step.relative_bound << ", force of the plane "
                   << step.equilibrium.reactions.front().force << '\n';
       });
 }

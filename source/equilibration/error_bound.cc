@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_map.h>
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
@@ -12,18 +11,12 @@ namespace hpvi
 {
 using namespace dealii;
 
-bool has_distorted_cells(const Scene<2> &scene)
+std::vector<double> ErrorBound::indicators() const
 {
-  return !CellMap<2>(scene.geometry.corners).is_affine();
-}
-
-std::string no_error_bound(const Scene<2> &scene)
-{
-  if (scene.has_coulomb_friction())
-    return "Coulomb's law has no energy that falls";
-  if (scene.has_unilateral_contact())
-    return "unilateral contact";
-  return "";
+  std::vector<double> result;
+  for (const double square : squares)
+    result.push_back(std::sqrt(square));
+  return result;
 }
 
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,

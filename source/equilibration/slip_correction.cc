@@ -176,7 +176,7 @@ enum class Role
   free
 };
 
-/** The energy `x'Ax` over the unknowns with a role, those that are fixed given, some free ones kept apart. */
+/** The energy `x'Ax` over free unknowns, with others @p fixed or zero; some free ones are kept for programs. */
 class Strip
 {
 public:
@@ -196,6 +196,8 @@ public:
   minimiser(const Vector<double> &kept_values) const; ///< with these values of those kept
 
 private:
+  SymmetricMatrix restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
+                           Vector<double> &f) const;
   Vector<double> all(const Vector<double> &y) const;
 
   std::vector<unsigned int> free, kept; ///< unknowns; those kept in the order of C
@@ -214,29 +216,8 @@ Strip::Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vec
       number[i] = free.size();
       free.push_back(i);
     }
-  SymmetricMatrix A_ff;
   Vector<double> f(free.size());
-  for (unsigned int column = 0; column < A.n(); ++column)
-  {
-    if (roles[column] == Role::outside)
-      continue;
-    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
-    {
-      const unsigned int row = A.row[k];
-      if (number[row] != none && number[column] != none)
-      {
-        A_ff.row.push_back(number[row]);
-        // Where contact alone holds the body, A is singular; w need not be the minimiser to be of use.
-        A_ff.value.push_back(A.value[k] * (row == column ? 1. + 1e-10 : 1.));
-      }
-      else if (number[column] != none)
-        f[number[column]] -= A.value[k] * fixed[row];
-      else if (number[row] != none)
-        f[number[row]] -= A.value[k] * fixed[column];
-    }
-    if (number[column] != none)
-      A_ff.column_start.push_back(A_ff.row.size());
-  }
+  const SymmetricMatrix A_ff = restrict(A, number, f);
   std::sort(all_kept.begin(), all_kept.end());
   std::vector<unsigned int> numbers;
   for (const unsigned int unknown : all_kept)
@@ -245,6 +226,36 @@ Strip::Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vec
   for (const unsigned int k : solver->kept_order())
     kept.push_back(all_kept[k]);
   y = solver->forward(f);
+}
+
+/** The block of the free unknowns, and what the fixed ones do to them. */
+SymmetricMatrix Strip::restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
+                                Vector<double> &f) const
+{
+  SymmetricMatrix A_ff;
+  for (unsigned int column = 0; column < A.n(); ++column)
+  {
+    const unsigned int own = number[column];
+    if (own == none && fixed[column] == 0.)
+      continue;
+    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+    {
+      const unsigned int row = A.row[k], other = number[row];
+      if (own != none && other != none)
+      {
+        A_ff.row.push_back(other);
+        // Where contact alone holds the body, A is singular; w need not be the minimiser to be of use.
+        A_ff.value.push_back(A.value[k] * (row == column ? 1. + 1e-10 : 1.));
+      }
+      else if (own != none)
+        f[own] -= A.value[k] * fixed[row];
+      else if (other != none)
+        f[other] -= A.value[k] * fixed[column];
+    }
+    if (own != none)
+      A_ff.column_start.push_back(A_ff.row.size());
+  }
+  return A_ff;
 }
 
 unsigned int Strip::place(const unsigned int unknown) const
@@ -348,9 +359,9 @@ private:
   std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
   std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
                                           const std::vector<Role> &roles) const;
-  void try_all_stuck(const Strip &strip, Candidate &best) const;
   void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
                          const Vector<double> &fixed, Candidate &best) const;
+  Vector<double> trace_row(const Strip &strip, unsigned int face, double s) const;
   void take_better(Candidate &best, const Vector<double> &w) const;
 
   const Solution<dim> &solution;
@@ -401,21 +412,30 @@ void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
     best = std::move(next);
 }
 
-/** Unknowns of cells at the contact boundary, but not those that move it along its normal under pressure. */
+/**
+ * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
+ * that more cells would change its energy by a few hundredths. Pressures ask for w_n = 0.
+ */
 template <int dim>
 std::vector<Role> Search<dim>::roles() const
 {
   const Unknowns<dim> &unknowns = discretisation.unknowns;
-  std::vector<Role> result(unknowns.n(), Role::outside);
+  std::vector<Role> result(unknowns.n(), Role::free);
+  std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
   for (const ContactFace<dim> &face : faces)
     if (!face.friction.vanishes())
-      for (const auto dof : solution.displacement_space.cell_dofs(face.cell->active_cell_index()))
+      is_at_contact[face.cell->active_cell_index()] = true;
+  for (unsigned int cell = 0; cell < is_at_contact.size(); ++cell)
+    if (!is_at_contact[cell])
+      for (const auto dof : solution.displacement_space.cell_dofs(cell))
         for (const auto &[unknown, weight] : unknowns.terms(dof))
-          result[unknown] = Role::free;
+          result[unknown] = Role::outside;
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode == Slip::nowhere)
-      for (const unsigned int unknown : traces[k].unknowns)
+    for (const unsigned int unknown : traces[k].unknowns)
+      if (slips[k].mode == Slip::nowhere)
         result[unknown] = Role::fixed;
+      else if (!faces[k].friction.vanishes() && result[unknown] == Role::outside)
+        result[unknown] = Role::free;
   for (const ContactFace<dim> &face : faces)
     if (face.condition->has_pressure())
       for (const unsigned int unknown : normal_unknowns(face, solution, unknowns))
@@ -423,13 +443,13 @@ std::vector<Role> Search<dim>::roles() const
   return result;
 }
 
-/** The unknowns of a displacement that is u_Nt where the body sticks or slips in part; elsewhere of no use. */
+/** The unknowns of a displacement that is u_Nt where the body sticks; elsewhere of no use. */
 template <int dim>
 Vector<double> Search<dim>::stuck_displacement() const
 {
   Vector<double> u(solution.u.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode != Slip::everywhere)
+    if (slips[k].mode == Slip::nowhere)
     {
       const Tensor<1, dim> tangent = faces[k].frame(0.5).tangent;
       const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
@@ -491,70 +511,52 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
   return result;
 }
 
-/** w_t = u_Nt on faces that slip in part, too. */
-template <int dim>
-void Search<dim>::try_all_stuck(const Strip &strip, Candidate &best) const
-{
-  const Vector<double> stuck = stuck_displacement();
-  std::vector<bool> is_stuck(strip.n_kept());
-  InequalityProgram program(strip.H(), strip.h());
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode == Slip::partly)
-      for (const unsigned int unknown : traces[k].unknowns)
-        if (const unsigned int place = strip.place(unknown); place != none && !is_stuck[place])
-        {
-          is_stuck[place] = true;
-          Vector<double> row(strip.n_kept());
-          row[place] = 1.;
-          program.add_equality(row, stuck[unknown]);
-        }
-  take_better(best, strip.minimiser(program.minimiser()));
-}
-
 /** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
 template <int dim>
 void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
                                     const Vector<double> &fixed, Candidate &best) const
 {
   Vector<double> h = strip.h();
-  std::vector<std::pair<Vector<double>, double>> rows;
   for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    if (!nearby[k])
-      continue;
-    const Trace &trace = traces[k];
-    const unsigned int n = faces[k].degree + 1;
-    const double direction = slips[k].direction;
-    std::vector<unsigned int> places;
-    for (const unsigned int unknown : trace.unknowns)
-      places.push_back(strip.place(unknown));
-    const auto add = [&](const Vector<double> &values, const double factor, Vector<double> &row)
+    for (unsigned int q = 0; nearby[k] && q < faces[k].friction.points.size(); ++q)
     {
-      for (unsigned int m = 0; m < places.size(); ++m)
-        for (unsigned int i = 0; places[m] != none && i < n; ++i)
-          row[places[m]] += factor * values[i] * trace.legendre(i, m);
-    };
-    const FrictionRule &rule = faces[k].friction;
-    for (unsigned int q = 0; q < rule.points.size(); ++q)
-      add(legendre_basis(n, rule.points[q]),
-          faces[k].length * rule.weights[q] * rule.values[q] *
-              (direction - friction.value(k, rule.points[q])),
-          h);
-    const EdgePolynomial rest = trace.rest(fixed);
-    for (unsigned int i = 0; i <= 2 * n; ++i)
-    {
-      const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / (2 * n));
-      Vector<double> row(strip.n_kept());
-      add(legendre_basis(n, s), -direction, row);
-      if (row.linfty_norm() > 1e-9) // else w is fixed there
-        rows.emplace_back(row, -direction * rest(s));
+      const FrictionRule &rule = faces[k].friction;
+      const double s = rule.points[q];
+      h.add(faces[k].length * rule.weights[q] * rule.values[q] *
+                (slips[k].direction - friction.value(k, s)),
+            trace_row(strip, k, s));
     }
-  }
   InequalityProgram program(strip.H(), h);
-  for (const auto &[row, least] : rows)
-    program.add_inequality(row, least);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (nearby[k])
+    {
+      const EdgePolynomial rest = traces[k].rest(fixed);
+      for (unsigned int i = 0, n = 2 * faces[k].degree + 2; i <= n; ++i)
+      {
+        const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / n);
+        Vector<double> row = trace_row(strip, k, s);
+        row *= -slips[k].direction;
+        if (row.linfty_norm() > 1e-9) // else w is fixed there
+          program.add_inequality(row, -slips[k].direction * rest(s));
+      }
+    }
   if (program.solve())
     take_better(best, strip.minimiser(program.minimiser()));
+}
+
+/** w_t at a point of a face by the unknowns of the strip that are kept. */
+template <int dim>
+Vector<double> Search<dim>::trace_row(const Strip &strip, const unsigned int face,
+                                      const double s) const
+{
+  const Trace &trace = traces[face];
+  const Vector<double> L = legendre_basis(trace.legendre.m(), s);
+  Vector<double> values(trace.unknowns.size()), row(strip.n_kept());
+  trace.legendre.Tvmult(values, L);
+  for (unsigned int m = 0; m < values.size(); ++m)
+    if (const unsigned int place = strip.place(trace.unknowns[m]); place != none)
+      row[place] += values[m];
+  return row;
 }
 
 template <int dim>
@@ -571,10 +573,7 @@ Candidate Search<dim>::best(Candidate result) const
   const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
   take_better(result, strip.minimiser());
   if (strip.n_kept() > 0)
-  {
-    try_all_stuck(strip, result);
     try_one_direction(strip, nearby, fixed, result);
-  }
   return result;
 }
 } // namespace

@@ -98,6 +98,12 @@ unsigned int own_start_degree(const Method method)
   return 2;
 }
 
+template <int dim>
+double Loading<dim>::time(const unsigned int step) const
+{
+  return static_cast<double>(step) / steps;
+}
+
 // ---------------------------------------------------------------- the scene
 
 template <int dim>
@@ -161,6 +167,12 @@ bool Scene<dim>::has_body_force() const
 }
 
 template <int dim>
+bool Scene<dim>::has_load_history() const
+{
+  return loading.steps > 0 || loading.at;
+}
+
+template <int dim>
 bool Scene<dim>::has_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
@@ -178,6 +190,23 @@ bool Scene<dim>::has_friction() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &b) { return b.has_contact() && b.friction; });
+}
+
+template <int dim>
+std::string Scene<dim>::no_error_bound() const
+{
+  if (has_coulomb_friction())
+    return "Coulomb's law minimises no energy";
+  if (has_unilateral_contact())
+    return "contact is unilateral";
+  if (adaptivity.start_degree < 2)
+    return "cells have degree 1";
+  if (!geometry.has_affine_cells())
+    return "cells are no parallelograms";
+  for (const BoundaryCondition<dim> &boundary : boundaries)
+    if (boundary.friction.past)
+      return "friction acts on increments after the first load step";
+  return {};
 }
 
 template <int dim>
@@ -217,5 +246,6 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 template Expression<2> expression<2>(double);
 template Expression<2> expression<2>(const std::function<double(const Point<2> &)> &);
 template struct BoundaryCondition<2>;
+template struct Loading<2>;
 template struct Scene<2>;
 } // namespace hpvi

@@ -5,7 +5,6 @@
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
-#include <string>
 #include <vector>
 
 namespace hpvi
@@ -36,21 +35,17 @@ struct ErrorBound
   /** By active cell: eta_K^2 and what oscillation and slip add; to mark by. */
   std::vector<double> squares;
 
+  std::vector<double> indicators() const; ///< roots of squares
+
   /** Largest imbalance of a patch, relative to its tractions: what round-off leaves of equilibrium. */
   double imbalance = 0;
 };
-
-/** Has the mesh cells that are no parallelograms? All of them are none then: bisection keeps them so. */
-bool has_distorted_cells(const Scene<2> &scene);
-
-/** Why there is no bound for a scene, in words; empty if there is one. */
-std::string no_error_bound(const Scene<2> &scene);
 
 /** Computes the bound step by step, with what it keeps between steps. */
 class ErrorBounds
 {
 public:
-  /** no_error_bound(scene) must be empty. */
+  /** Scene::no_error_bound() must be empty. */
   ErrorBound compute(const Solution<2> &solution, const Discretisation<2> &discretisation);
 
 private:

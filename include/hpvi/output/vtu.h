@@ -17,7 +17,7 @@ namespace hpvi
 template <int dim>
 std::string vtu(const StepReport<dim> &step);
 
-/** `solution.pvd`: pairs of step and file name in order, to be opened at once. */
+/** `solution.pvd`: pairs of step, or time, and file name in order, to be opened at once. */
 std::string pvd(const std::vector<std::pair<double, std::string>> &files);
 } // namespace hpvi
 

@@ -17,16 +17,18 @@ inline const std::vector<std::string> boundary_names = {"left", "right", "bottom
 inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
-/** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact, NormalContact,
-    CoulombMethod. */
+/** In the order of the enumerators of SmoothnessReading, Indicator, QpSolver, Shape, PlaneModel, Contact, NormalContact,
+    CoulombMethod, LoadAdaptivity. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
+                                      indicator_names = {"residual", "bound"},
                                       qp_solver_names = {"mprgp", "active set"},
                                       shape_names = {"box", "quadrilateral"},
                                       plane_names = {"stress", "strain"},
                                       contact_names = {"none", "bilateral", "unilateral",
                                                        "tangential"},
                                       normal_contact_names = {"multiplier", "nodes"},
-                                      coulomb_method_names = {"newton", "fixed point"};
+                                      coulomb_method_names = {"newton", "fixed point"},
+                                      load_adaptivity_names = {"first step", "every step"};
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry
@@ -50,12 +52,14 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Maximum unknowns", adaptivity.maximum_unknowns);
   visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
+  visit("Error", "Bound", scene.error_bound);
   auto &solver = scene.solver;
   visit("Solver", "QP warm start", solver.qp_warm_start);
   visit("Solver", "QP tolerance", solver.qp_tolerance);
   visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
   visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
   visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
+  visit("Solver", "Check uniqueness", solver.check_uniqueness);
   visit("Solver", "Condition number", solver.condition_number);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);
