@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace hpvi
@@ -11,41 +12,64 @@ using namespace dealii;
 
 namespace
 {
-/** A parallelogram. */
-struct Parallelogram
+/** The constants of a convex cell. */
+class CellConstants
 {
-  explicit Parallelogram(const CellMap<2> &map)
-      : xi(map.vertices()[1] - map.vertices()[0]), eta(map.vertices()[2] - map.vertices()[0]),
-        area(determinant(map.jacobian({0.5, 0.5}))),
-        diameter(std::max((xi + eta).norm(), (xi - eta).norm()))
+public:
+  explicit CellConstants(const CellMap<2> &map) : map(map), v(map.vertices())
   {
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        diameter = std::max(diameter, v[i].distance(v[j]));
   }
 
-  double along(const unsigned int face) const ///< length of a face
+  double poincare() const
   {
-    return face < 2 ? eta.norm() : xi.norm();
-  }
-  double across(const unsigned int face) const ///< length of the edges that meet it
-  {
-    return face < 2 ? xi.norm() : eta.norm();
+    return diameter / numbers::PI;
   }
 
   /** C with `|grad v| <= C |eps(v)|` for some rotation of v: `2^{1/2}/beta`. */
   double korn() const
   {
-    const double ratio = area / std::max(xi.norm(), eta.norm()) / diameter; // rho/R
+    const Point<2> centre = map.point({0.5, 0.5});
+    double inner = diameter, outer = 0;
+    for (unsigned int face = 0; face < 4; ++face)
+      inner = std::min(inner, distance(centre, face));
+    for (const Point<2> &vertex : v)
+      outer = std::max(outer, centre.distance(vertex));
+    const double ratio = inner / outer;
     return 2 / ratio * std::sqrt(1 + std::sqrt(std::max(0., 1 - ratio * ratio)));
   }
 
   /** C with `|v|_E <= C |grad v|_K` for v of mean zero. */
   double trace(const unsigned int face) const
   {
-    const double poincare = diameter / numbers::PI;
-    return std::sqrt((poincare * poincare + 2 * across(face) * poincare) * along(face) / area);
+    const unsigned int a = start(face), step = face < 2 ? 1 : 2;
+    if (map.is_affine())
+    {
+      const double across = v[0].distance(v[step]);
+      return std::sqrt((poincare() + 2 * across) * poincare() / distance(v[start(face ^ 1)], face));
+    }
+    const Point<2> apex = point_on_face<2>(face ^ 1, Point<1>(0.5)), P = map.point(apex);
+    const double reach = std::max(P.distance(v[a]), P.distance(v[a + 3 - step]));
+    return std::sqrt(2 * (poincare() + reach) * poincare() / distance(P, face));
   }
 
-  const Tensor<1, 2> xi, eta;
-  const double area, diameter;
+private:
+  static unsigned int start(const unsigned int face) ///< first vertex
+  {
+    return face < 2 ? face : 2 * (face - 2);
+  }
+
+  double distance(const Point<2> &x, const unsigned int face) const ///< from the line of a face
+  {
+    const Point<2> &a = v[start(face)], &b = v[start(face) + (face < 2 ? 2 : 1)];
+    return std::abs((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0])) / a.distance(b);
+  }
+
+  const CellMap<2> map;
+  const CellMap<2>::Vertices v;
+  double diameter = 0;
 };
 
 /** |G - Pi G| on an edge, in the components that are prescribed. */
@@ -67,6 +91,56 @@ double missed_traction(const EquilibratedStress &stress, const unsigned int inde
       }
   }
   return std::sqrt(sum);
+}
+
+/**
+ * |d|_a^2 on a cell that is no parallelogram, least over some q; d = delta(s) (1 - n)^q from Legendre
+ * coefficients of delta and its slope.
+ */
+double distorted_energy(const CellMap<2> &map, const unsigned int face,
+                        const std::array<Vector<double>, 2> &delta,
+                        const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law,
+                        const ShapeTables<2> &tables)
+{
+  const unsigned int n = delta[0].size(), along = face < 2 ? 1 : 0;
+  const QGauss<1> &along_face = tables.gauss(n + 2), &across = tables.gauss(64);
+  const auto at = [&](const std::array<Vector<double>, 2> &coefficients, const double s)
+  {
+    const std::vector<double> L = legendre::values(n, 2 * s - 1);
+    Tensor<1, 2> value;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        value[c] += coefficients[c][i] * L[i];
+    return value;
+  };
+  constexpr unsigned int powers[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 36, 60};
+  std::array<double, std::size(powers)> energies{};
+  for (unsigned int a = 0; a < along_face.size(); ++a)
+  {
+    const double s = along_face.point(a)[0];
+    const Tensor<1, 2> value = at(delta, s), by_s = at(slope, s);
+    for (unsigned int b = 0; b < across.size(); ++b)
+    {
+      const double left = across.point(b)[0]; // 1 - n
+      Point<2> xi;
+      xi[along] = s;
+      xi[1 - along] = face % 2 ? left : 1 - left;
+      const Tensor<2, 2> J = map.jacobian(xi), inverse = invert(J);
+      const double weight = along_face.weight(a) * across.weight(b) * determinant(J);
+      for (unsigned int k = 0; k < energies.size(); ++k)
+      {
+        const double power = std::pow(left, powers[k] - 1.);
+        Tensor<2, 2> reference;
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          reference[c][along] = by_s[c] * power * left;
+          reference[c][1 - along] = (face % 2 ? 1. : -1.) * powers[k] * value[c] * power;
+        }
+        energies[k] += weight * law.energy_product(reference * inverse);
+      }
+    }
+  }
+  return *std::min_element(energies.begin(), energies.end());
 }
 
 /** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
@@ -100,6 +174,9 @@ double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress
       for (unsigned int j = 0; j < i; ++j)
         slope[c][j] += 2 * legendre::derivative(i, j) * delta[c][i]; // by s in [0,1]
   }
+  if (!map.is_affine())
+    return distorted_energy(map, face, delta, slope,
+                            HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);
   // d = delta(s) b(n), b = (1 - n)^q; reference directions along and across the face
   const bool along_xi = face >= 2;
   const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5}));
@@ -147,7 +224,7 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     if (!edge.at_boundary())
       continue;
     const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
-    const Parallelogram shape(map_of<2>(patches.cells()[cell].iterator));
+    const CellConstants shape(map_of<2>(patches.cells()[cell].iterator));
     const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
     if (condition.has_traction() || condition.friction)
       oscillation[cell] += shape.trace(face) * missed_traction(stress, e);
@@ -157,8 +234,8 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
   {
     const auto &iterator = patches.cells()[cell].iterator;
-    const Parallelogram shape(map_of<2>(iterator));
-    oscillation[cell] += shape.diameter / numbers::PI * stress.missed_force(cell);
+    const CellConstants shape(map_of<2>(iterator));
+    oscillation[cell] += shape.poincare() * stress.missed_force(cell);
     oscillation[cell] *=
         shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
     lift += lifts[cell] * lifts[cell];

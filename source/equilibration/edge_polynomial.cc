@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/equilibration/edge_polynomial.h>
-#include <hpvi/equilibration/legendre.h>
+#include <hpvi/stresses/legendre.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 

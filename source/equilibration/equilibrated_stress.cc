@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/fe/fe_tools.h>
 #include <hpvi/body/load_points.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
@@ -50,19 +49,12 @@ Modes<n_components> times(const unsigned int variable, const Modes<n_components>
   return result;
 }
 
-/** Legendre coefficients (row xi, column eta) of one component of u_N. */
-FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
-                                      const unsigned int component, const unsigned int degree,
-                                      const FullMatrix<double> &from_nodes)
+bool has_distorted_cells(const Solution<2> &solution)
 {
-  const unsigned int n = degree + 1;
-  const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
-  FullMatrix<double> nodal(n, n), half(n, n), result(n, n);
-  for (unsigned int i = 0; i < n * n; ++i)
-    nodal(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
-  from_nodes.mmult(half, nodal);
-  half.mTmult(result, from_nodes);
-  return result;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    if (!map_of<2>(cell).is_affine())
+      return true;
+  return false;
 }
 
 void add(Modes<2> &sum, const Modes<2> &part)
@@ -77,16 +69,23 @@ void add(Modes<2> &sum, const Modes<2> &part)
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Friction &friction,
                                        EquilibrationCache &cache)
     : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
-      cache(cache), vertex_patches(solution)
+      cache(cache), vertex_patches(solution, has_distorted_cells(solution))
 {
   known.resize(vertex_patches.edges().size());
   for (unsigned int e = 0; e < known.size(); ++e)
     if (vertex_patches.edges()[e].at_boundary())
       set_known_tractions(e);
-  set_cells();
-  set_data();
+  if (vertex_patches.has_macro_cells)
+    macro_stresses = std::make_unique<const MacroStresses>(solution, vertex_patches, cache);
+  else
+  {
+    set_cells();
+    set_data();
+  }
   solve_patches();
   measure();
+  if (macro_stresses)
+    cache.drop_unused();
 }
 
 const VertexPatches &EquilibratedStress::patches() const
@@ -201,6 +200,8 @@ EquilibratedStress::prescribed_points(const unsigned int index) const
 /** |F - Pi F| on a cell. */
 double EquilibratedStress::missed_force(const unsigned int index) const
 {
+  if (macro_stresses)
+    return macro_stresses->missed_force(index);
   const Cell &cell = cells[index];
   if (cell.force.empty())
     return 0.;
@@ -467,6 +468,18 @@ void EquilibratedStress::set_data()
   }
 }
 
+PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigned int hat) const
+{
+  if (macro_stresses)
+    return macro_stresses->patch_cell(index, hat);
+  const Cell &cell = cells[index];
+  const Batch &batch = batches.at(cell.element);
+  const std::size_t column = cell.first_column + hat;
+  return {traction_energy(*cell.element), cell.h * cell.h,
+          &batch.gradients[column * cell.element->n_edges],
+          &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]};
+}
+
 void EquilibratedStress::solve_patches()
 {
   for (const StressEdge &edge : vertex_patches.edges())
@@ -478,12 +491,7 @@ void EquilibratedStress::solve_patches()
     std::map<unsigned int, PatchEdge> edges;
     for (const auto &[index, hat] : hats)
     {
-      const Cell &cell = cells[index];
-      const Batch &batch = batches.at(cell.element);
-      const std::size_t column = cell.first_column + hat;
-      patch.push_back(
-          {cell.element, cell.h * cell.h, &batch.gradients[column * cell.element->n_edges],
-           &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]});
+      patch.push_back(patch_cell(index, hat));
       for (const unsigned int e : vertex_patches.cells()[index].edges)
       {
         const StressEdge &edge = vertex_patches.edges()[e];
@@ -507,16 +515,10 @@ void EquilibratedStress::solve_patches()
   defect = defect == 0 ? 0. : defect / largest;
 }
 
-/** Tractions and loads of a cell without those of sigma(u_N). */
-std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
+void EquilibratedStress::add_tractions(const unsigned int index, const TractionEnergy &element,
+                                       double *const all) const
 {
-  const Cell &cell = cells[index];
-  const StressElement &element = *cell.element;
   const VertexPatches::Cell &geometry = vertex_patches.cells()[index];
-  const double *const column =
-      &batches.at(&element)
-           .r[std::size_t(element.n_data) * (cell.first_column + geometry.hats.size())];
-  std::vector<double> r(column, column + element.n_data);
   for (unsigned int face = 0; face < 4; ++face)
   {
     const StressEdge &edge = vertex_patches.edges()[geometry.edges[face]];
@@ -527,7 +529,7 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
         const StressEdge::Component &component = edge.components[c];
         const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
         const std::vector<double> &t = sums[geometry.edges[face]][c];
-        double *const target = &r[element.n_divergence + element.edge_entry(face, row)];
+        double *const target = all + element.edge_entry(face, row);
         for (unsigned int i = 0; i < component.n; ++i)
           if (part == whole_edge)
             target[i] += weight * t[i];
@@ -536,11 +538,34 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
               target[i] += weight * cache.legendre.half(component.n, part)(i, j) * t[j];
       }
   }
+}
+
+/** Tractions and loads of a cell without those of sigma(u_N). */
+std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
+{
+  const Cell &cell = cells[index];
+  const StressElement &element = *cell.element;
+  const VertexPatches::Cell &geometry = vertex_patches.cells()[index];
+  const double *const column =
+      &batches.at(&element)
+           .r[std::size_t(element.n_data) * (cell.first_column + geometry.hats.size())];
+  std::vector<double> r(column, column + element.n_data);
+  add_tractions(index, traction_energy(element), &r[element.n_divergence]);
   return r;
+}
+
+std::vector<double> EquilibratedStress::macro_tractions(const unsigned int cell) const
+{
+  const TractionEnergy element = macro_stresses->patch_cell(cell, 0).element;
+  std::vector<double> result(element.n_edges());
+  add_tractions(cell, element, result.data());
+  return result;
 }
 
 void EquilibratedStress::measure()
 {
+  for (unsigned int cell = 0; macro_stresses && cell < squares.size(); ++cell)
+    squares[cell] = macro_stresses->square(cell, macro_tractions(cell));
   for (const auto &[element, batch] : batches)
   {
     std::vector<double> R;
@@ -557,6 +582,17 @@ void EquilibratedStress::measure()
           std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
     }
   }
+}
+
+bool EquilibratedStress::has_macro_cells() const
+{
+  return vertex_patches.has_macro_cells;
+}
+
+Tensor<2, 2> EquilibratedStress::macro_value(const unsigned int cell,
+                                             const Point<2> &reference) const
+{
+  return macro_stresses->value(cell, macro_tractions(cell), reference);
 }
 
 StressElement::Stress EquilibratedStress::stress(const unsigned int cell) const

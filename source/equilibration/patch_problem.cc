@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hpvi
 {
@@ -78,7 +79,7 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
         if (std::abs(weight) < 1e-12)
           continue;
         const unsigned int unknown = first_unknown.at(found->first)[c];
-        result.push_back({cell.element->edge_entry(face, row), component.n, weight,
+        result.push_back({cell.element.edge_entry(face, row), component.n, weight,
                           part == whole_edge ? nullptr : &cache.legendre.half(component.n, part),
                           unknown, &found->second.traction[c]});
       }
@@ -102,7 +103,7 @@ EquilibrationCache::Signature PatchProblem::signature() const
   }
   for (const PatchCell &cell : cells)
   {
-    key.push_back(reinterpret_cast<long>(cell.element));
+    key.push_back(reinterpret_cast<long>(cell.element.G.entries));
     key.push_back(std::lround(1e6 * std::log2(cell.area / cells[0].area)));
     for (unsigned int face = 0; face < 4; ++face)
     {
@@ -117,16 +118,15 @@ EquilibrationCache::Signature PatchProblem::signature() const
 void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &parts,
                               const double scale, PatchFactor &factor) const
 {
-  const StressElement &element = *cell.element;
+  const TractionEnergy &element = cell.element;
   std::vector<double> first, second;
   for (const Block &b : parts)
     for (const Block &d : parts)
     {
       if (b.unknown == none || d.unknown == none || d.unknown > b.unknown)
         continue; // the lower triangle is enough
-      DensePart G{&element.edge_energy()[std::size_t(d.row) * element.n_data +
-                                         element.n_divergence + b.row],
-                  element.n_data};
+      DensePart G = element.G;
+      G.entries += std::size_t(d.row) * G.stride + b.row;
       if (b.R) // matrices of deal.II are transposed, by columns
       {
         first.resize(b.n * d.n);
@@ -144,10 +144,9 @@ void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &p
           factor.H[std::size_t(d.unknown + j) * n + b.unknown + i] +=
               scale * b.weight * d.weight * G.entries[j * G.stride + i];
     }
-  for (unsigned int k = 0; k < element.n_conditions(); ++k)
+  for (unsigned int k = 0; k < element.n_conditions; ++k)
   {
-    const double *const N =
-        &element.conditions()[std::size_t(k) * element.n_data + element.n_divergence];
+    const double *const N = element.N.entries + std::size_t(k) * element.N.stride;
     const std::size_t column = factor.conditions.size();
     factor.conditions.resize(column + n);
     for (const Block &b : parts)
@@ -159,7 +158,7 @@ void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &p
         factor.conditions[column + b.unknown + i] += b.weight * sum;
       }
   }
-  factor.n_conditions += element.n_conditions();
+  factor.n_conditions += element.n_conditions;
 }
 
 void PatchProblem::factorise(PatchFactor &factor) const
@@ -182,8 +181,8 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
                             const double scale, std::vector<double> &g,
                             std::vector<double> &right) const
 {
-  const StressElement &element = *cell.element;
-  const unsigned int n_edges = element.n_edges, n_conditions = element.n_conditions();
+  const TractionEnergy &element = cell.element;
+  const unsigned int n_edges = element.n_edges(), n_conditions = element.n_conditions;
   std::vector<double> known(n_edges), gradient(cell.gradient, cell.gradient + n_edges),
       defect(cell.defect, cell.defect + n_conditions);
   bool has_known = false;
@@ -199,12 +198,10 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
       }
   if (has_known)
   {
-    multiply('N', 'N', n_edges, 1, n_edges, 1.,
-             {&element.edge_energy()[element.n_divergence], element.n_data},
-             {known.data(), n_edges}, 1., gradient.data(), n_edges);
-    multiply('T', 'N', n_conditions, 1, n_edges, 1.,
-             {&element.conditions()[element.n_divergence], element.n_data}, {known.data(), n_edges},
-             1., defect.data(), n_conditions);
+    multiply('N', 'N', n_edges, 1, n_edges, 1., element.G, {known.data(), n_edges}, 1.,
+             gradient.data(), n_edges);
+    multiply('T', 'N', n_conditions, 1, n_edges, 1., element.N, {known.data(), n_edges}, 1.,
+             defect.data(), n_conditions);
   }
   for (const Block &b : parts)
     for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
@@ -221,7 +218,8 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
 double PatchProblem::solve()
 {
   const auto [found, is_new] = cache.patches.try_emplace(signature());
-  PatchFactor &factor = found->second;
+  found->second.is_used = true;
+  PatchFactor &factor = found->second.value;
   if (is_new)
     factorise(factor);
   std::vector<double> x(n), right;
@@ -251,6 +249,39 @@ double PatchProblem::solve()
   return largest;
 }
 } // namespace
+
+void EquilibrationCache::drop_unused()
+{
+  const auto drop = [](auto &map)
+  {
+    for (auto entry = map.begin(); entry != map.end();)
+      if (std::exchange(entry->second.is_used, false))
+        ++entry;
+      else
+        entry = map.erase(entry);
+  };
+  drop(macro_elements);
+  drop(patches); // whose signatures hold addresses of elements
+}
+
+TractionEnergy traction_energy(const StressElement &element)
+{
+  return {element.n_normal,
+          element.n_tangential,
+          element.n_conditions(),
+          {&element.edge_energy()[element.n_divergence], element.n_data},
+          {&element.conditions()[element.n_divergence], element.n_data}};
+}
+
+TractionEnergy traction_energy(const MacroStressElement &element)
+{
+  const unsigned int n = element.n_edges / 8;
+  return {n,
+          n,
+          MacroStressElement::n_conditions,
+          {element.edge_energy().data(), element.n_edges},
+          {element.conditions().data(), element.n_edges}};
+}
 
 double solve_patch(const std::vector<PatchCell> &cells, std::map<unsigned int, PatchEdge> &edges,
                    EquilibrationCache &cache)

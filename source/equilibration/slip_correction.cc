@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/equilibration/legendre.h>
 #include <hpvi/equilibration/slip_correction.h>
 #include <hpvi/solver/inequality_program.h>
+#include <hpvi/stresses/legendre.h>
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,8 @@ namespace hpvi
 {
 using namespace dealii;
 
-VertexPatches::VertexPatches(const Solution<2> &solution)
+VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_macro_cells)
+    : has_macro_cells(has_macro_cells)
 {
   collect_edges(solution);
   for (StressEdge &edge : all_edges)
@@ -70,7 +71,8 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
 /** Along normal and tangent, but along x and y where one of these displacements alone is prescribed. */
 void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
 {
-  edge.components = {{{edge.normal, edge.degree - 1, true}, {edge.tangent, edge.degree, true}}};
+  const unsigned int n_normal = has_macro_cells ? edge.degree : edge.degree - 1;
+  edge.components = {{{edge.normal, n_normal, true}, {edge.tangent, edge.degree, true}}};
   if (!edge.at_boundary())
     return;
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
@@ -85,8 +87,7 @@ void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) cons
   const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;
   if (held[0] != held[1] && !axis_parallel)
     for (unsigned int c = 0; c < 2; ++c)
-      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), edge.degree - 1,
-                            held[c]};
+      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), n_normal, held[c]};
   else
     for (auto &component : edge.components)
       component.is_unknown = held[std::abs(component.direction[1]) > 0.5] && (held[0] || held[1]);

@@ -19,12 +19,17 @@ namespace hpvi
  *
  * by Payne and Weinberger (10.1007/BF00252910) and by the trace inequality that integrates
  * div(t b v^2), t from 0 on the edge opposite to E to 1 on E, b along the other edges, H the height over E;
- * and `|grad(e - z)|_K <= 2^{1/2}/(beta c^{1/2}) |e|_{a,K}` with the coercivity c of the material and
+ * and where K is no parallelogram, with the triangle of E and the middle P of the opposite edge, H the
+ * distance of P from E and l that of its farther end, by div((x - P) v^2)
+ *
+ *     |v|_E^2 <= 2 (d^2/pi^2 + l d/pi)/H |grad v|_K^2   for v of mean zero;
+ *
+ * `|grad(e - z)|_K <= 2^{1/2}/(beta c^{1/2}) |e|_{a,K}` with the coercivity c of the material and
  * `beta >= rho/(2^{1/2} R) (1 + (1 - rho^2/R^2)^{1/2})^{-1/2}` for radii rho, R of an inner and an outer
  * circle about the centre (Horgan and Payne; proof by Costabel and Dauge, arXiv:1303.6141).
  *
  * Prescribed displacements u_D outside V_N: `d = (u_D - u_N)(t) (1 - n)^q` in the cells at the boundary,
- * n from 0 there to 1 on the opposite edge, with the best q. u_D is read at the Gauss-Lobatto points of a
+ * n from 0 there to 1 on the opposite edge in the reference cell, with the best q up to 60. u_D is read at the Gauss-Lobatto points of a
  * polynomial of degree p + 12 on each edge.
  */
 class DataError

@@ -2,7 +2,7 @@
 #ifndef hpvi_equilibrated_stress_h
 #define hpvi_equilibrated_stress_h
 
-#include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/equilibration/macro_stresses.h>
 
 #include <functional>
 #include <vector>
@@ -46,11 +46,17 @@ public:
 
   const LegendreTables &legendre_tables() const;
 
-  /** s on a cell. */
+  /** s on a cell of a mesh of parallelograms. */
   StressElement::Stress stress(unsigned int cell) const;
 
   /** B of the element of a cell: `s = B S B'`. */
   dealii::Tensor<2, 2> frame(unsigned int cell) const;
+
+  /** Has the mesh cells that are no parallelograms, so that all are macro cells? */
+  bool has_macro_cells() const;
+
+  /** s on a macro cell at reference coordinates in [0,1]. */
+  dealii::Tensor<2, 2> macro_value(unsigned int cell, const dealii::Point<2> &reference) const;
 
 private:
   /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
@@ -87,13 +93,17 @@ private:
   void set_stress(unsigned int cell);
   Modes<2> load(unsigned int cell, const std::array<double, 4> &psi) const;
   void solve_patches();
+  PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
+  void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;
   std::vector<double> data_of(unsigned int cell) const;
+  std::vector<double> macro_tractions(unsigned int cell) const;
   void measure();
 
   const Solution<2> &solution;
   const Friction friction;
   EquilibrationCache &cache;
   const VertexPatches vertex_patches;
+  std::unique_ptr<const MacroStresses> macro_stresses; ///< or what follows, up to batches
   std::vector<Cell> cells;
   std::map<const StressElement *, Batch> batches;
   /** psi times what is prescribed, by edge, end and component. */

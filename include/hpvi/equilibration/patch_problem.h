@@ -3,9 +3,10 @@
 #define hpvi_patch_problem_h
 
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/equilibration/legendre.h>
-#include <hpvi/equilibration/stress_element.h>
 #include <hpvi/equilibration/vertex_patches.h>
+#include <hpvi/stresses/legendre.h>
+#include <hpvi/stresses/macro_stress_element.h>
+#include <hpvi/stresses/stress_element.h>
 
 #include <map>
 #include <memory>
@@ -28,14 +29,48 @@ struct EquilibrationCache
 {
   using Signature = std::vector<long>;
   LegendreTables legendre;
+  TriangleStresses triangles;
   std::map<Signature, std::unique_ptr<const StressElement>> elements;
-  std::map<Signature, PatchFactor> patches;
+
+  /** What few other cells can share: kept as long as each step uses it. */
+  template <class T>
+  struct Kept
+  {
+    T value;
+    bool is_used = false;
+  };
+  std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
+  std::map<Signature, Kept<PatchFactor>> patches;
+
+  /** Drops macro elements and patches that have not been used since the last call. */
+  void drop_unused();
 };
+
+/** What a patch sees of an element: energy and conditions of the tractions on its faces. */
+struct TractionEnergy
+{
+  unsigned int n_normal, n_tangential, n_conditions;
+  DensePart G, N; ///< n_edges() x n_edges(), n_edges() x n_conditions
+
+  unsigned int n_edges() const
+  {
+    return 4 * (n_normal + n_tangential);
+  }
+
+  /** Place of a coefficient of the traction of @p face among those of all faces. */
+  unsigned int edge_entry(const unsigned int face, const unsigned int tangential) const
+  {
+    return face * (n_normal + n_tangential) + tangential * n_normal;
+  }
+};
+
+TractionEnergy traction_energy(const StressElement &element);
+TractionEnergy traction_energy(const MacroStressElement &element);
 
 /** Of one cell with one hat function: data without tractions, seen by its element. */
 struct PatchCell
 {
-  const StressElement *element;
+  TractionEnergy element;
   double area;            ///< h^2 of the element
   const double *gradient; ///< G r on the edges, n_edges
   const double *defect;   ///< N' r

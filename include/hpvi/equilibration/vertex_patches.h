@@ -51,7 +51,10 @@ struct StressEdge
 class VertexPatches
 {
 public:
-  explicit VertexPatches(const Solution<2> &solution);
+  /** For macro cells normal parts are in P_{m-1} too. */
+  VertexPatches(const Solution<2> &solution, bool has_macro_cells);
+
+  const bool has_macro_cells;
 
   /** psi_a on one cell. */
   struct Hat

@@ -59,6 +59,11 @@ private:
   mutable Matrices halves, projections;
   mutable std::map<unsigned int, dealii::FullMatrix<double>> nodal;
 };
+
+/** Legendre coefficients (row xi, column eta) of one component of u_N on a cell, as Solution gives it. */
+dealii::FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
+                                              unsigned int component, unsigned int degree,
+                                              const dealii::FullMatrix<double> &from_nodes);
 } // namespace hpvi
 
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/equilibration/legendre.h>
+#include <deal.II/fe/fe_tools.h>
+#include <hpvi/stresses/legendre.h>
 
 #include <cmath>
 
@@ -99,6 +100,20 @@ const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) 
     result.reinit(n, n);
     projection(n, n).mmult(result, lagrange);
   }
+  return result;
+}
+
+FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
+                                      const unsigned int component, const unsigned int degree,
+                                      const FullMatrix<double> &from_nodes)
+{
+  const unsigned int n = degree + 1;
+  const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
+  FullMatrix<double> nodal(n, n), half(n, n), result(n, n);
+  for (unsigned int i = 0; i < n * n; ++i)
+    nodal(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
+  from_nodes.mmult(half, nodal);
+  half.mTmult(result, from_nodes);
   return result;
 }
 } // namespace hpvi

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/equilibration/legendre.h>
-#include <hpvi/equilibration/stress_element.h>
+#include <hpvi/stresses/legendre.h>
+#include <hpvi/stresses/stress_element.h>
 
 #include <algorithm>
 #include <cmath>
