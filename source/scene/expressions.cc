@@ -156,7 +156,8 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   const std::string problem = complaint<dim>(text, constants);
   if (!problem.empty())
     parameters.reject(section, name,
-                      "\"" + printable(text) + "\" is not an expression of x and y (" + problem +
+                      "\"" + printable(text) + "\" is not an expression of " +
+                          (dim == 2 ? "x and y (" : "x, y and z (") + problem +
                           "); mend it, constants are pi, E, nu, mu");
   const auto function = std::make_shared<FunctionParser<dim>>(1);
   function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
@@ -230,4 +231,11 @@ ExpressionReader<2>::read<1>(const std::string &, const std::string &, const std
 template std::array<ExpressionReader<2>::Expression, 2>
 ExpressionReader<2>::read<2>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<2>> &, const ExactField &) const;
+template class ExpressionReader<3>;
+template std::array<ExpressionReader<3>::Expression, 1>
+ExpressionReader<3>::read<1>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
+template std::array<ExpressionReader<3>::Expression, 3>
+ExpressionReader<3>::read<3>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
 } // namespace hpvi

@@ -18,7 +18,7 @@ inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "h
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
 /** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact, NormalContact,
-    CoulombMethod. */
+    CoulombMethod, SolutionPath, LinearMethod. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       qp_solver_names = {"mprgp", "active set"},
                                       shape_names = {"box", "quadrilateral"},
@@ -26,7 +26,9 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       contact_names = {"none", "bilateral", "unilateral",
                                                        "tangential"},
                                       normal_contact_names = {"multiplier", "nodes"},
-                                      coulomb_method_names = {"newton", "fixed point"};
+                                      coulomb_method_names = {"newton", "fixed point"},
+                                      path_names = {"auto", "reduced", "primal"},
+                                      linear_names = {"amg", "direct"};
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry
@@ -51,6 +53,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
   auto &solver = scene.solver;
+  visit("Solver", "Primal tolerance", solver.primal_tolerance);
   visit("Solver", "QP warm start", solver.qp_warm_start);
   visit("Solver", "QP tolerance", solver.qp_tolerance);
   visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
