@@ -778,6 +778,40 @@ def row_11(lab):
     put_table("aspect", table)
 
 
+# ---------------------------------------------------------------- 13 Coulomb friction
+
+
+def row_13(lab):
+    """The fixed point over the coefficient, Newton's ladder, and problems with two solutions."""
+    cases = [("SSNV128", "ssnv128", f) for f in (0.1, 0.3, 0.6, 1, 2, 5)] + \
+        [("strut", "strut", f) for f in (0.3, 1, 2, 5)]
+    table = []
+    for name, scene, f in cases:
+        runs = {solver: lab.run(scene, f"coulomb-{scene}-{f}-{solver[0]}", "Adaptivity/Maximum steps=12",
+                                f"Boundary bottom/Friction coefficient={f}",
+                                f"Solver/Coulomb solver={solver}",
+                                f"Solver/Check uniqueness={'true' if solver == 'newton' else 'false'}")
+                for solver in ("newton", "fixed point")}
+        newton, fixed = runs["newton"], runs["fixed point"]
+        resultant = {solver: run.value("normal_resultant") for solver, run in runs.items()}
+        off = abs(resultant["newton"] - resultant["fixed point"])
+        table.append({"problem": name, "f": f,
+                      "Newton: most steps": plain(np.max(newton.column("coulomb_newton")), 0)
+                      if newton.rows else "-",
+                      "fallbacks": sum(r["coulomb_method"] != "newton" for r in newton.rows),
+                      "second start differs by": number(newton.value("coulomb_difference"), 2)
+                      if newton.rows else "-",
+                      "Newton ended": ended(newton),
+                      "fixed point: most problems":
+                          plain(np.max(fixed.column("coulomb_fixed_point")), 0)
+                          if fixed.rows else "-",
+                      "contraction": plain(np.nanmax([0, *fixed.column("coulomb_contraction")])),
+                      "steps": len(fixed.rows), "fixed point ended": ended(fixed),
+                      "resultants agree": "-" if not fixed.rows or fixed.status != "0" else
+                      "yes" if off <= 1e-6 * max(map(abs, resultant.values())) else "no"})
+    put_table("coulomb", table)
+
+
 # ---------------------------------------------------------------- 14 tension on the contact
 
 
@@ -1206,7 +1240,8 @@ ROWS = {"1": ("locking", row_01), "2": ("inf-sup constant", row_02),
         "4": ("semicoercive", row_04), "5": ("limits of the friction bound", row_05),
         "6": ("exact threshold of slip", row_06), "7": ("transition inside an edge", row_07),
         "8": ("deep meshes", row_08), "9": ("conditioning", row_09),
-        "11": ("aspect ratio and distortion", row_11), "14": ("tension on the contact", row_14),
+        "11": ("aspect ratio and distortion", row_11), "13": ("Coulomb friction", row_13),
+        "14": ("tension on the contact", row_14),
         "15": ("effectivity along uniform p", row_15), "16": ("determinism", determinism),
         "17": ("solvers of the quadratic program", solvers),
         "18": ("opening at a vertex", row_18), "19": ("one point touches", row_19),

@@ -6,12 +6,12 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -38,6 +38,7 @@ struct AdaptiveSolver<dim>::Stages
   CondensedElements<dim> elements;
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
+  ErrorBounds error_bounds;
   std::unique_ptr<const Discretisation<dim>> discretisation;
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
@@ -64,9 +65,11 @@ struct AdaptiveSolver<dim>::Stages
   Solution<dim> solve(ReducedSolution &reduced);
   void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
-  Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate);
+  std::optional<ErrorBound> bound(const Solution<dim> &solution);
+  Refinement mark(const Solution<dim> &solution, const ErrorEstimate &estimate,
+                  const std::optional<ErrorBound> &bound);
   StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
-                         const ReducedSolution &reduced);
+                         const std::optional<ErrorBound> &bound, const ReducedSolution &reduced);
   std::string end_of_run(const Solution<dim> &solution, const Refinement &refinement) const;
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
@@ -156,13 +159,28 @@ ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solutio
 }
 
 template <int dim>
+std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim> &solution)
+{
+  if (!scene.error_bound || !scene.no_error_bound().empty())
+    return {};
+  begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
+  StageTimer timer(times.bound);
+  const ErrorBound result = error_bounds.compute(solution, *discretisation);
+  check_finite("the error bound", result.total);
+  return result;
+}
+
+template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
-                                             const ErrorEstimate &estimate)
+                                             const ErrorEstimate &estimate,
+                                             const std::optional<ErrorBound> &bound)
 {
   begin("deciding on h and p");
   StageTimer timer(times.decide);
   Refinement refinement =
-      hpvi::mark(scene.adaptivity, degrees, estimate,
+      hpvi::mark(scene.adaptivity, degrees,
+                 scene.adaptivity.indicator == Indicator::bound && bound ? bound->indicators()
+                                                                         : estimate.indicators(),
                  [&](const unsigned int cell) { return smoothness.decay_rate(solution, cell); });
   if (scene.adaptivity.method != Method::pu)
   {
@@ -213,7 +231,7 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
   const Solution<dim> solution(scene, spaces, state.u, state.z);
   history = state.history;
   keep_start(solution.z, state.motion);
-  const Refinement refinement = mark(solution, estimate(solution));
+  const Refinement refinement = mark(solution, estimate(solution), bound(solution));
   const std::string limit = end_of_run(solution, refinement);
   if (!limit.empty())
     format.reject(state.name, "there is nothing to go on with after step " +
@@ -227,6 +245,7 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
 template <int dim>
 StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
                                                     const ErrorEstimate &estimate,
+                                                    const std::optional<ErrorBound> &bound,
                                                     const ReducedSolution &reduced)
 {
   Energies step_energies;
@@ -240,13 +259,17 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
   const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
   history.push_back(
       {estimate.total(), ratio(scaled_estimate, step_energies.norm),
+       bound ? ratio(bound->total, step_energies.norm) : std::numeric_limits<double>::quiet_NaN(),
        (history.empty() ? 0. : history.back().seconds) + times.total(),
        !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled)});
   return {static_cast<unsigned int>(history.size()),
           solution,
+          discretisation->system,
           estimate,
           scaled_estimate,
           history.back().relative_estimate,
+          bound,
+          history.back().relative_bound,
           step_energies,
           contact,
           true_error.measure(solution, contact),
@@ -257,6 +280,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           reduced.condition_scaled,
           std::exchange(times, {}),
           history.back().seconds,
+          {},
           {},
           {},
           {}};
@@ -276,14 +300,18 @@ template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
   step.warnings = warnings(step.solution, step.contact, history, step.algebraic);
-  if (!dense_note().empty())
-    step.warnings.push_back(dense_note());
+  for (const std::string &line : {several_solutions(step.coulomb), dense_note()})
+    if (!line.empty())
+      step.warnings.push_back(line);
   step.equilibrium = equilibrium(step.solution, discretisation->system);
 }
 
 template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
 {
+  if (scene.has_load_history())
+    throw InputError(scene.origin() + ": Loading/Steps: asks for a history, of which this is one "
+                                      "load step only; run it by LoadHistory, or remove it");
   scene.check(); // it may have been built by code, or changed since it was read
   stages = std::make_unique<Stages>(scene);
 }
@@ -296,7 +324,23 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState &sta
 }
 
 template <int dim>
+AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const Start &start)
+    : AdaptiveSolver(scene)
+{
+  stages->mesh = start.mesh;
+  stages->degrees = start.degrees;
+  stages->previous = start.multiplier;
+  stages->motion = start.motion;
+}
+
+template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
+
+template <int dim>
+typename AdaptiveSolver<dim>::Start AdaptiveSolver<dim>::end() const
+{
+  return {stages->mesh, stages->degrees, stages->previous, stages->motion};
+}
 
 template <int dim>
 RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const
@@ -319,8 +363,9 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
     ReducedSolution reduced;
     const Solution<dim> solution = stages->solve(reduced);
     const ErrorEstimate estimate = stages->estimate(solution);
-    const Refinement refinement = stages->mark(solution, estimate);
-    StepReport<dim> step = stages->report(solution, estimate, reduced);
+    const std::optional<ErrorBound> bound = stages->bound(solution);
+    const Refinement refinement = stages->mark(solution, estimate, bound);
+    StepReport<dim> step = stages->report(solution, estimate, bound, reduced);
     step.stopped_by = stages->end_of_run(solution, refinement);
     finished = !step.stopped_by.empty();
     if (finished)

@@ -99,7 +99,7 @@ private:
 bool decides(const std::string &section, const std::string &entry)
 {
   const bool limit = section == "Adaptivity" &&
-                     (entry.rfind("Maximum ", 0) == 0 || entry == "Tolerance") &&
+                     (entry.rfind("Maximum ", 0) == 0 || entry.rfind("Tolerance", 0) == 0) &&
                      entry != "Maximum degree";
   return !limit && section != "Output" && section != "Error" && section != "Units" &&
          entry != "Title";
@@ -113,7 +113,7 @@ std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
 
 const FileFormat &RunState::format()
 {
-  static const FileFormat format("run state", 2,
+  static const FileFormat format("run state", 3,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -127,7 +127,8 @@ void RunState::write(std::ostream &out) const
   content << "steps " << history.size() << '\n';
   for (const PastStep &step : history)
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
-            << text(step.seconds) << ' ' << step.lacks_condition << '\n';
+            << text(step.relative_bound) << ' ' << text(step.seconds) << ' ' << step.lacks_condition
+            << '\n';
   content << "refinements " << refinements.size() << '\n';
   for (const Refinement &refinement : refinements)
     write_refinement(content, refinement);
@@ -150,6 +151,7 @@ RunState RunState::read(std::istream &in, const std::string &name)
     PastStep &step = state.history.emplace_back();
     step.estimate = reader.number<double>();
     step.relative_estimate = reader.number<double>();
+    step.relative_bound = reader.number<double>();
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
   }

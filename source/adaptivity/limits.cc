@@ -4,6 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/residual_estimator.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -70,7 +71,8 @@ std::string reached_limit(const Solution<dim> &solution, const History &history)
   const PastStep &last = history.back();
   if (is_exact_to_round_off(solution, last.estimate))
     return "round-off";
-  if (last.relative_estimate < limits.tolerance)
+  const bool on_bound = limits.tolerance_on == Indicator::bound && !std::isnan(last.relative_bound);
+  if ((on_bound ? last.relative_bound : last.relative_estimate) < limits.tolerance)
     return "Tolerance";
   if (history.size() >= limits.maximum_steps)
     return "Maximum steps";

@@ -9,14 +9,6 @@ namespace hpvi
 {
 namespace
 {
-std::vector<double> indicators(const ErrorEstimate &estimate)
-{
-  std::vector<double> eta(estimate.volume.size());
-  for (unsigned int cell = 0; cell < eta.size(); ++cell)
-    eta[cell] = estimate.indicator(cell);
-  return eta;
-}
-
 /** Cell indices by falling indicator, ties by index. */
 std::vector<unsigned int> by_falling_indicator(const std::vector<double> &eta)
 {
@@ -72,7 +64,8 @@ void raise_where_smooth(Refinement &refinement, const std::vector<unsigned int> 
 }
 } // namespace
 
-Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
+Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
+                const std::vector<double> &eta,
                 const std::function<double(unsigned int)> &decay_rate)
 {
   const unsigned int n = degrees.size(), maximum = adaptivity.maximum_degree;
@@ -87,7 +80,7 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const Erro
   case Method::hap2:
   case Method::hap3:
   case Method::hap4:
-    bisect_above_mean(result, indicators(estimate), adaptivity.hap_threshold);
+    bisect_above_mean(result, eta, adaptivity.hap_threshold);
     break;
   case Method::pu:
     for (unsigned int &degree : result.degrees)
@@ -95,7 +88,7 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const Erro
     break;
   case Method::hpa1:
   {
-    const auto order = by_falling_indicator(indicators(estimate));
+    const auto order = by_falling_indicator(eta);
     const unsigned int first = share_of(adaptivity.hpa1_bisected, n);
     const unsigned int last = std::min(n, first + share_of(adaptivity.hpa1_raised, n));
     for (unsigned int k = 0; k < first; ++k)
@@ -106,15 +99,14 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const Erro
   }
   case Method::hpa2:
   {
-    auto marked = by_falling_indicator(indicators(estimate));
+    auto marked = by_falling_indicator(eta);
     marked.resize(share_of(adaptivity.hpa2_marked, n));
     raise_where_smooth(result, marked, decay_rate, adaptivity.hpa2_decay, maximum);
     break;
   }
   case Method::hpa3:
-    raise_where_smooth(result,
-                       above_share_of_maximum(indicators(estimate), adaptivity.hpa3_threshold),
-                       decay_rate, adaptivity.hpa3_decay, maximum);
+    raise_where_smooth(result, above_share_of_maximum(eta, adaptivity.hpa3_threshold), decay_rate,
+                       adaptivity.hpa3_decay, maximum);
     break;
   }
   return result;

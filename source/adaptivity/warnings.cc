@@ -389,6 +389,19 @@ std::string unresolved_jump(const Solution<dim> &solution)
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
 
+/** A scene that asks for a guaranteed tolerance gets what there is, and hears so. */
+template <int dim>
+std::string no_guaranteed_tolerance(const Scene<dim> &scene)
+{
+  const std::string reason = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  if (reason.empty() || scene.adaptivity.tolerance == 0 ||
+      scene.adaptivity.tolerance_on == Indicator::residual)
+    return {};
+  return "Adaptivity/Tolerance was compared with the residual indicator, which guarantees nothing: "
+         "there is no bound of the error, because " +
+         reason;
+}
+
 /** Empty fields of the table are explained once. */
 std::string no_condition_number(const History &history)
 {
@@ -418,10 +431,25 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
         locking(solution), rich_multiplier(solution), whole_body_slips(solution, contact),
         free_place(solution, contact), coarse_bound(solution), unresolved_jump(solution),
-        no_condition_number(history)})
+        no_condition_number(history), no_guaranteed_tolerance(solution.scene)})
     if (!warning.empty())
       result.push_back(warning);
   return result;
+}
+
+std::string several_solutions(const CoulombReport &report)
+{
+  if (!report.difference || *report.difference <= CoulombReport::same)
+    return {};
+  if (std::isnan(*report.difference))
+    return "Coulomb friction: from a second start no solution was found, so that it is not known "
+           "whether there is another than this one";
+  return line(
+      "Coulomb friction has another solution, found from a second start: in the energy norm "
+      "the tractions differ by ",
+      *report.difference,
+      " of the larger ones; what came before the loads decides between them, or lower "
+      "Friction coefficient");
 }
 
 template std::vector<std::string> warnings(const Solution<2> &,

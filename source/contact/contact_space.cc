@@ -141,6 +141,12 @@ double ContactFace<dim>::friction_coefficient(const Point<dim> &x) const
   return condition->friction.coefficient ? condition->friction.coefficient->value(x) : 0.;
 }
 
+template <int dim>
+double ContactFace<dim>::past_slip(const Point<dim> &x) const
+{
+  return condition->friction.past ? condition->friction.past->value(x) : 0.;
+}
+
 std::vector<double> lagrange_basis(const std::vector<double> &points, const double s)
 {
   std::vector<double> values(points.size(), 1.);
@@ -212,6 +218,22 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
     unknowns.push_back({Kind::friction, frame.x, frame.tangent, points.weight(i) * frame.measure,
                         checked_bound(face, frame.x)});
     unknowns.back().coefficient = face.friction_coefficient(frame.x);
+  }
+  if (face.condition->friction.past)
+    add_past(face, tables.gauss(std::max(face.degree, face.n_points) + 1));
+}
+
+/** What slip is counted from is a polynomial of degree p: @p gauss is exact. */
+template <int dim>
+void ContactSpace<dim>::add_past(const ContactFace<dim> &face, const QGauss<1> &gauss)
+{
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const ContactFrame<dim> frame = face.frame(gauss.point(q)[0]);
+    const double past = gauss.weight(q) * frame.measure * face.past_slip(frame.x);
+    const std::vector<double> basis = basis_values(face, gauss.point(q)[0]);
+    for (unsigned int i = 0; i < basis.size(); ++i)
+      unknowns[face.first_multiplier + i].gap += past * basis[i];
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/load_points.h>
 #include <hpvi/discretisation/elastic_system.h>
 
 #include <algorithm>
@@ -180,7 +181,6 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene,
                                         const ShapeTables<dim> &tables)
 {
   const bool interior_loads = scene.has_body_force();
-  // One point more than a linear load needs, so that smooth loads are integrated well too.
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned() && (interior_loads || cell->at_boundary()))
     {
@@ -190,7 +190,7 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene,
       Vector<double> local(numbering.shape.size());
       if (interior_loads)
         integrate_load(
-            tables.cell(degree, degree + 2), numbering, map,
+            tables.gradients(degree, body_force_points(scene, map, degree, tables)), numbering, map,
             [&](const Point<dim> &reference, const Point<dim> &x) {
               return std::abs(determinant(map.jacobian(reference))) *
                      value<dim>(scene.body_force, x);
@@ -202,7 +202,8 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene,
           const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
           if (condition.has_traction())
             integrate_load(
-                tables.face(degree, face, degree + 2), numbering, map,
+                tables.face(degree, face, traction_points(condition, map, face, degree, tables)),
+                numbering, map,
                 [&](const Point<dim> &reference, const Point<dim> &x)
                 { return map.face_measure(face, reference) * value<dim>(condition.traction, x); },
                 local);

@@ -18,16 +18,29 @@ using namespace dealii;
 
 namespace
 {
-std::string not_converged(const CoulombReport &report, const unsigned int size)
+std::string not_converged(const CoulombReport &report, const ConeProgram &program,
+                          const SolverSettings &solver)
 {
   std::ostringstream line;
-  line << "Coulomb friction (" << size << " unknowns) has not converged after "
-       << report.newton_steps << " steps of Newton's method and " << report.fixed_point_steps
-       << " problems of Tresca: relative residual " << report.residual;
+  line << "Coulomb friction (" << program.d.size() << " unknowns) ";
+  if (std::isnan(report.residual))
+  {
+    line << "holds numbers that overflow; choose units in which Friction coefficient and loads are "
+            "moderate";
+    return line.str();
+  }
+  line << "has not converged after " << report.newton_steps << " steps of Newton's method and "
+       << report.fixed_point_steps << " problems of Tresca: relative residual " << report.residual
+       << ", tolerance " << solver.qp_tolerance;
   if (report.contraction > 0)
     line << ", contraction number " << report.contraction;
-  line << "; lower Friction coefficient, of which there may be no or several solutions, refine the "
-          "first mesh, or try the other Solver/Coulomb solver";
+  line << "; set Solver/Coulomb solver = "
+       << (solver.coulomb_method == CoulombMethod::newton ? "fixed point" : "newton")
+       << ", raise Geometry/Subdivisions, or lower Friction coefficient, for where it is large "
+          "there "
+          "may be no solution";
+  if (program.balance.e.size() > 0)
+    line << "; or add a support: contact and friction alone may not hold the body";
   return line.str();
 }
 
@@ -163,11 +176,13 @@ void solve_cones(const ConeProgram &program, const SolverSettings &solver, Reduc
                           ? CoulombSolver::Method::newton
                           : CoulombSolver::Method::fixed_point;
   const bool warm = !result.z.all_zero();
-  result.coulomb =
-      CoulombSolver(qp_settings(solver), method).solve(program, result.z, result.motion, warm);
+  const CoulombSolver coulomb_solver(qp_settings(solver), method);
+  result.coulomb = coulomb_solver.solve(program, result.z, result.motion, warm);
   result.qp = result.coulomb.qp;
   if (!result.qp.converged)
-    throw NumericalFailure(not_converged(result.coulomb, program.d.size()));
+    throw NumericalFailure(not_converged(result.coulomb, program, solver));
+  if (solver.check_uniqueness)
+    result.coulomb.difference = coulomb_solver.difference_from_second_start(program, result.z);
 }
 } // namespace
 

@@ -14,6 +14,9 @@ using namespace dealii;
 
 namespace
 {
+/** Of a sum of loads, in parts of the sum of their absolute values. */
+constexpr double round_off = 1e-14;
+
 /** Why a body that contact alone could hold has nothing that holds it on this mesh. */
 template <int dim>
 std::string nothing_resists(const RigidBodyMotion<dim> &motion, const double load)
@@ -118,6 +121,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
   split_by_contact(std::move(weighted), 1e-20 * contact);
   equations.G.reinit(multipliers.size(), n_seen());
   equations.e.reinit(n_seen());
+  equations.round_off.reinit(n_seen());
   for (unsigned int m = 0; m < n; ++m)
   {
     R.emplace_back(unknowns.n());
@@ -129,6 +133,10 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
       for (unsigned int i = 0; i < multipliers.size(); ++i)
         equations.G(i, m) += combinations[m][j] * B_columns[j][i];
     equations.e[m] = dot(system.f, R[m]);
+    for (unsigned int k = 0; k < R[m].size(); ++k)
+      equations.round_off[m] += round_off * std::abs(system.f[k] * R[m][k]);
+    if (std::abs(equations.e[m]) <= equations.round_off[m])
+      equations.e[m] = 0.;
   }
   stabilise_seen(rows, multipliers, system.A);
   hold_unseen(system);

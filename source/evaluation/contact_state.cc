@@ -136,7 +136,8 @@ std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
          face.condition->gap_at(frame.x) - frame.normal * u, frame.normal * u, frame.tangent * u,
          has_pressure ? 0. - solution.contact_space.pressure(face, solution.z, s)
                       : traces.normal_traction(q),
-         0. - z}); // never -0
+         0. - z, // never -0
+         frame.tangent * u - face.past_slip(frame.x)});
   }
   if (face.frame(0.5).tangent * (face.point(1.) - face.point(0.)) < 0)
     std::reverse(points.begin(), points.end());

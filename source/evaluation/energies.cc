@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/energies.h>
+#include <hpvi/evaluation/equilibrium.h>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -65,9 +67,11 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
   double friction = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     if (face.n_multipliers > 0)
-      friction += friction_work(face, solution,
-                                EdgeDisplacement<dim>(face, solution, &ContactFrame<dim>::tangent),
-                                solution.tables.gauss(face.degree + 2));
+    {
+      EdgeDisplacement<dim> slip(face, solution, &ContactFrame<dim>::tangent);
+      slip.subtract_past(face, solution.tables);
+      friction += friction_work(face, solution, slip, solution.tables.gauss(face.degree + 2));
+    }
   const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
   double coupling = 0;
   for (unsigned int i = 0; i < moments.size(); ++i)
@@ -78,5 +82,26 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
   return {potential + coupling, potential + friction, norm, friction - coupling};
 }
 
+template <int dim>
+Work work(const Solution<dim> &solution, const ElasticSystem<dim> &system,
+          const Vector<double> &last)
+{
+  Vector<double> du(solution.u);
+  du -= last;
+  Work result;
+  result.external =
+      system.work(du) + work_of_supports(solution, system, du) -
+      0.5 * internal_forces(solution.scene, solution.displacement_space, solution.tables, du)
+                .energy_product;
+  const Vector<double> moments = solution.spaces->contact_operator.moments(du);
+  for (unsigned int i = 0; i < moments.size(); ++i)
+    if (solution.contact_space.multipliers()[i].kind == ContactMultiplier<dim>::Kind::friction)
+      result.dissipated += solution.z[i] * moments[i];
+    else
+      result.external -= solution.z[i] * moments[i];
+  return result;
+}
+
+template Work work(const Solution<2> &, const ElasticSystem<2> &, const Vector<double> &);
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, double);
 } // namespace hpvi

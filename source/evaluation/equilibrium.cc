@@ -111,7 +111,46 @@ void carry_to_masters(const AffineConstraints<double> &hanging, Vector<double> &
       forces[dof] = 0.;
     }
 }
+/** `a(u_N, v_i) + b(v_i, z_N) - L(v_i)`: what supports do, on nodes that do not hang. */
+template <int dim>
+Vector<double> support_reactions(const Solution<dim> &solution, const ElasticSystem<dim> &system)
+{
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const ShapeTables<dim> &tables = solution.tables;
+  Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
+  reactions -= system.loads();
+  for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
+    if (boundary.has_contact() && solution.z.size() > 0)
+      reactions += solution.spaces->contact_operator.forces(solution.z, boundary.id);
+  AffineConstraints<double> hanging;
+  constrain_hanging_nodes(space.numbering(), tables, hanging);
+  hanging.close();
+  carry_to_masters(hanging, reactions);
+  return reactions;
+}
 } // namespace
+
+template <int dim>
+double work_of_supports(const Solution<dim> &solution, const ElasticSystem<dim> &system,
+                        const Vector<double> &v)
+{
+  const Vector<double> reactions = support_reactions(solution, system);
+  double sum = 0;
+  for (const SupportedNode<dim> &node :
+       supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
+  {
+    Tensor<1, dim> force, at_node;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      force[c] = reactions[node.dofs[c]];
+      at_node[c] = v[node.dofs[c]];
+    }
+    const std::vector<double> shares = node.split(force); // of what supports can exert there
+    for (unsigned int k = 0; k < shares.size(); ++k)
+      sum += shares[k] * (node.conditions[k].direction * at_node);
+  }
+  return sum;
+}
 
 template <int dim>
 Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system)
@@ -124,14 +163,11 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
     if (system.loads()[dof] != 0.)
       resultants.add_load(nodes.component[dof], system.loads()[dof], nodes.x[dof]);
 
-  Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
-  reactions -= system.loads();
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
     {
       const Vector<double> friction =
           solution.spaces->contact_operator.forces(solution.z, boundary.id);
-      reactions += friction;
       for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
         if (friction[dof] != 0.)
         {
@@ -141,10 +177,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
         }
     }
 
-  AffineConstraints<double> hanging;
-  constrain_hanging_nodes(space.numbering(), tables, hanging);
-  hanging.close();
-  carry_to_masters(hanging, reactions);
+  const Vector<double> reactions = support_reactions(solution, system);
   for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space.numbering(), tables))
   {
     Tensor<1, dim> force;
@@ -160,4 +193,6 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
 
 template struct Equilibrium<2>;
 template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &);
+template double work_of_supports(const Solution<2> &, const ElasticSystem<2> &,
+                                 const Vector<double> &);
 } // namespace hpvi

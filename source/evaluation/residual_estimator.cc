@@ -16,15 +16,24 @@ using namespace dealii;
 double ErrorEstimate::indicator(const unsigned int cell) const
 {
   double sum = volume[cell] + jumps[cell] + neumann[cell] + contact[cell];
-  for (const auto *part : {&normal, &penetration, &tension})
+  for (const auto *part : {&normal, &penetration, &tension, &excess})
     sum += part->empty() ? 0. : (*part)[cell];
   return std::sqrt(sum);
+}
+
+std::vector<double> ErrorEstimate::indicators() const
+{
+  std::vector<double> eta(volume.size());
+  for (unsigned int cell = 0; cell < eta.size(); ++cell)
+    eta[cell] = indicator(cell);
+  return eta;
 }
 
 double ErrorEstimate::total() const
 {
   double sum = 0;
-  for (const auto *part : {&volume, &jumps, &neumann, &contact, &normal, &penetration, &tension})
+  for (const auto *part :
+       {&volume, &jumps, &neumann, &contact, &normal, &penetration, &tension, &excess})
     sum = std::accumulate(part->begin(), part->end(), sum);
   return std::sqrt(sum);
 }
@@ -78,6 +87,8 @@ Residuals<dim>::Residuals(const Solution<dim> &solution)
   if (solution.scene.has_pressure())
     for (auto *part : {&result.normal, &result.penetration, &result.tension})
       part->assign(n_cells, 0.);
+  if (solution.scene.has_coulomb_friction())
+    result.excess.assign(n_cells, 0.);
   coefficients.resize(n_cells);
   for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
@@ -259,14 +270,14 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
   const auto &condition = solution.scene.boundaries[face.condition->id];
   const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
   const auto own = tractions(face.cell, table, face_points(face.cell, face.face_no, table).normals);
-  double tangential = 0, normal = 0, tension = 0;
+  double tangential = 0, normal = 0, tension = 0, excess = 0;
   for (unsigned int q = 0; q < n_gauss; ++q)
   {
     const double s = tables.gauss(n_gauss).point(q)[0];
     const ContactFrame<dim> frame = face.frame(s);
-    const double pressure = solution.contact_space.pressure(face, solution.z, s);
-    double along = own[q] * frame.tangent + solution.contact_space.value(face, solution.z, s),
-           across = own[q] * frame.normal + pressure;
+    const double pressure = solution.contact_space.pressure(face, solution.z, s),
+                 friction = solution.contact_space.value(face, solution.z, s);
+    double along = own[q] * frame.tangent + friction, across = own[q] * frame.normal + pressure;
     for (unsigned int c = 0; c < dim; ++c)
       if (condition.traction[c])
       {
@@ -278,6 +289,10 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
     tangential += ds * along * along;
     normal += ds * across * across;
     tension += condition.is_unilateral() ? ds * std::pow(std::min(pressure, 0.), 2) : 0.;
+    if (condition.friction.coefficient)
+      excess += ds * std::pow(std::max(0., std::abs(friction) -
+                                               solution.contact_space.bound(face, solution.z, s)),
+                              2);
   }
   result.contact[index] += weight(index) * tangential;
   if (condition.contact == Contact::tangential)
@@ -286,6 +301,8 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
     return;
   result.normal[index] += weight(index) * normal;
   result.tension[index] += weight(index) * tension;
+  if (condition.friction.coefficient)
+    result.excess[index] += weight(index) * excess;
   result.penetration[index] += penetration(face) / weight(index);
 }
 

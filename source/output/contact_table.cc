@@ -10,7 +10,8 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundary)
+Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundary,
+           const bool has_history)
 {
   Record record;
   for (unsigned int d = 0; d < dim; ++d)
@@ -23,6 +24,8 @@ Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundar
   record.emplace_back("state", mode_name(point.mode()));
   record.emplace_back("boundary", boundary.name);
   record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(point.gap));
+  if (has_history)
+    record.emplace_back("slip", text(point.slip));
   return record;
 }
 
@@ -64,7 +67,7 @@ std::string contact_table(const Scene<dim> &scene, const std::vector<ContactStat
   std::vector<Record> rows;
   for (const ContactState<dim> &state : contact)
     for (const ContactPoint<dim> &point : state.points)
-      rows.push_back(row(point, scene.boundaries[state.boundary]));
+      rows.push_back(row(point, scene.boundaries[state.boundary], scene.has_load_history()));
   return csv(rows);
 }
 

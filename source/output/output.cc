@@ -47,6 +47,7 @@ bool Output<dim>::writes(const std::string &name) const
   const auto matches = [&name](const char *pattern)
   { return std::regex_match(name, std::regex(pattern)); };
   return matches("scene\\.prm|convergence\\.csv|degrees\\.csv|summary\\.json") ||
+         (scene.has_load_history() && matches("loading\\.csv")) ||
          (scene.output.contact && scene.has_contact() && matches("contact-[0-9]{2,}\\.csv")) ||
          (scene.output.mesh_picture && matches("mesh-[0-9]{2,}\\.svg")) ||
          (scene.output.vtu && matches("solution(-[0-9]{2,}\\.vtu|\\.pvd)")) ||
@@ -96,7 +97,10 @@ void Output<dim>::write_step(const StepReport<dim> &step)
   {
     const std::string name = numbered("solution", step.number, ".vtu");
     write(name, vtu(step));
-    vtu_files.emplace_back(step.number, name);
+    if (!scene.has_load_history())
+      vtu_files.emplace_back(step.number, name);
+    else if (!step.stopped_by.empty()) // a history is that of its load steps
+      vtu_files.emplace_back(step.load.t, name);
     write("solution.pvd", pvd(vtu_files));
   }
   if (scene.output.reference && !step.stopped_by.empty())
@@ -108,6 +112,8 @@ void Output<dim>::write_step(const StepReport<dim> &step)
   tables.add(step); // last: the tables name no step whose files are missing
   write("convergence.csv", tables.convergence());
   write("degrees.csv", tables.degrees());
+  if (scene.has_load_history())
+    write("loading.csv", tables.loading());
   summary.add(step, tables.last_row());
   write_summary();
 }

@@ -30,6 +30,16 @@ std::string known(const double value)
   return std::isfinite(value) ? text(value) : "";
 }
 
+/** The items of an array, each on a line of its own. */
+template <class Lines>
+std::string json_lines(const Lines &lines)
+{
+  std::string list;
+  for (const std::string &line : lines)
+    list += (list.empty() ? "\n    " : ",\n    ") + json_string(line);
+  return list.empty() ? "" : list + "\n  ";
+}
+
 /** int T_n and, by component, int T_t of the one contact boundary; empty where there are more. */
 template <int dim>
 Record resultants(const std::vector<MomentPoint<dim>> &points)
@@ -94,6 +104,7 @@ Record convergence_record(const PrimalReport<dim> &step)
                 {"newton_steps", text(step.newton.steps)},
                 {"newton_cg", text(step.newton.cg_steps)},
                 {"newton_setups", text(step.newton.setups)},
+                {"newton_fell_back", text(static_cast<unsigned int>(step.newton.fell_back))},
                 {"newton_line_searches", text(step.newton.line_searches)},
                 {"newton_residual", text(step.newton.residual)},
                 {"newton_error", text(step.newton.error)},
@@ -205,6 +216,7 @@ void PrimalOutput<dim>::write_tables(const PrimalReport<dim> &step)
   write("degrees.csv", csv(degrees));
   times += step.times;
   stopped_by = step.stopped_by;
+  warnings = step.warnings;
   write("summary.json", summary());
 }
 
@@ -245,9 +257,6 @@ void PrimalOutput<dim>::give_up(const std::string &new_status, const std::string
 template <int dim>
 std::string PrimalOutput<dim>::summary() const
 {
-  std::string files;
-  for (const std::string &file : directory->files())
-    files += (files.empty() ? "\n    " : ",\n    ") + json_string(file);
   std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
   if (!stopped_by.empty())
     json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
@@ -263,8 +272,8 @@ std::string PrimalOutput<dim>::summary() const
          ",\n    \"stress\": " + json_string(scene.stress_unit) +
          "\n  },\n  \"steps\": " + std::to_string(rows.size()) +
          ",\n  \"final\": " + (rows.empty() ? "null" : json_object(rows.back())) +
-         ",\n  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"files\": [" + files +
-         (files.empty() ? "" : "\n  ") + "]\n}\n";
+         ",\n  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
+         json_lines(warnings) + "],\n  \"files\": [" + json_lines(directory->files()) + "]\n}\n";
 }
 
 template class PrimalOutput<2>;

@@ -31,7 +31,7 @@ bool is_result(const std::string &name)
 {
   static const std::regex pattern(
       "(contact-[0-9]{2,}\\.csv|solution-[0-9]{2,}\\.vtu|"
-      "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|"
+      "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|loading\\.csv|"
       "degrees\\.csv|reference\\.dat|summary\\.json|scene\\.prm)(\\.tmp)?");
   return std::regex_match(name, pattern);
 }

@@ -31,6 +31,18 @@ std::string json_equilibrium(const Equilibrium<dim> &equilibrium)
          ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
 }
 
+/** A member of summary.json: what became of a history of loads; nothing without one. */
+std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
+{
+  if (n_load_steps == 0)
+    return {};
+  return "  \"loading\": {\n    \"load_steps\": " + text(n_load_steps) +
+         ",\n    \"finished\": " + text(load.number) + ",\n    \"t\": " + text(load.t) +
+         ",\n    \"dissipated_energy\": " + text(load.dissipated) +
+         ",\n    \"work\": " + text(load.work) + ",\n    \"stored_energy\": " + text(load.stored) +
+         "\n  },\n";
+}
+
 /** The items of an array, each on a line of its own. */
 template <class Lines>
 std::string json_lines(const Lines &lines)
@@ -52,6 +64,31 @@ void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
   warnings = step.warnings;
   equilibrium = step.equilibrium;
   contact = step.contact;
+  bound = step.bound;
+  relative_bound = step.relative_bound;
+  energy = step.energies.energy;
+  if (!step.stopped_by.empty())
+    load = step.load;
+}
+
+/** The guaranteed bound, or null and the reason. */
+template <int dim>
+std::string Summary<dim>::json_bound(const Scene<dim> &scene) const
+{
+  if (!bound)
+  {
+    std::string reason = scene.no_error_bound();
+    if (reason.empty() && scene.error_bound)
+      reason = "friction acts on increments after the first load step";
+    return "  \"error_bound\": null,\n  \"no_error_bound\": " +
+           json_string(reason.empty() ? "Error/Bound = false" : reason) + ",\n";
+  }
+  return "  \"error_bound\": {\n    \"guaranteed\": true,\n    \"energy_norm\": " +
+         text(bound->total) + ",\n    \"relative\": " + text(relative_bound) +
+         ",\n    \"energy\": " +
+         (bound->data == 0 ? "[" + text(energy - bound->energy) + ", " + text(energy) + "]"
+                           : "null") +
+         "\n  },\n";
 }
 
 template <int dim>
@@ -71,9 +108,11 @@ std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::stri
          ",\n    \"stress\": " + json_string(scene.stress_unit) +
          "\n  },\n  \"steps\": " + std::to_string(steps) +
          ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
-         (stopped_by.empty() ? ""
-                             : json_equilibrium(equilibrium) + "  \"contact\": " +
-                                   contact_json(scene, contact, equilibrium) + ",\n") +
+         json_loading(load, scene.loading.steps) +
+         (stopped_by.empty()
+              ? ""
+              : json_bound(scene) + json_equilibrium(equilibrium) +
+                    "  \"contact\": " + contact_json(scene, contact, equilibrium) + ",\n") +
          "  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
          json_lines(warnings) + "],\n  \"files\": [" + json_lines(files) + "]\n}\n";
 }

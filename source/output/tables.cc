@@ -102,9 +102,58 @@ Record convergence_record(const StepReport<dim> &step)
       {"coulomb_fixed_point", coulomb ? text(step.coulomb.fixed_point_steps) : ""},
       {"coulomb_contraction", coulomb ? condition(step.coulomb.contraction) : ""},
       {"coulomb_method", step.coulomb.method},
-      {"estimate_tension", root_of_sum(step.estimate.tension)}};
+      {"estimate_tension", root_of_sum(step.estimate.tension)},
+      {"estimate_excess", root_of_sum(step.estimate.excess)},
+      {"coulomb_difference", step.coulomb.difference ? known(*step.coulomb.difference) : ""}};
+  const auto bound = [&](double ErrorBound::*const part)
+  { return step.bound ? text((*step.bound).*part) : ""; };
+  record.insert(record.end(), {{"error_bound", bound(&ErrorBound::total)},
+                               {"error_bound_relative", known(step.relative_bound)},
+                               {"energy_bound", bound(&ErrorBound::energy)},
+                               {"bound_stress", bound(&ErrorBound::stress)},
+                               {"bound_slip", bound(&ErrorBound::slip)},
+                               {"bound_oscillation", bound(&ErrorBound::oscillation)},
+                               {"bound_data", bound(&ErrorBound::data)},
+                               {"bound_imbalance", bound(&ErrorBound::imbalance)}});
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);
+  if (step.load.number > 0)
+  {
+    record.emplace_back("load_step", text(step.load.number));
+    record.emplace_back("t", text(step.load.t));
+  }
+  return record;
+}
+
+/** The length of all zones of one mode. */
+template <int dim>
+double length(const ContactState<dim> &state, const ContactMode mode)
+{
+  double sum = 0;
+  for (const ContactZone<dim> &zone : state.zones)
+    sum += zone.mode == mode ? zone.begin.distance(zone.end) : 0.;
+  return sum;
+}
+
+/** The row of loading.csv. */
+template <int dim>
+Record loading_record(const StepReport<dim> &step)
+{
+  Record record{
+      {"load_step", text(step.load.number)}, {"t", text(step.load.t)},
+      {"step", text(step.number)},           {"dissipated_energy", text(step.load.dissipated)},
+      {"work", text(step.load.work)},        {"stored_energy", text(step.load.stored)}};
+  std::vector<BoundaryForce<dim>> forces = step.equilibrium.reactions;
+  forces.insert(forces.begin(), step.equilibrium.loads);
+  for (const BoundaryForce<dim> &force : forces)
+    for (unsigned int d = 0; d < dim; ++d)
+      record.emplace_back("force_" + force.boundary + "_" + "xyz"[d], text(force.force[d]));
+  for (const ContactState<dim> &state : step.contact)
+    for (const ContactMode mode : {ContactMode::open, ContactMode::slip, ContactMode::stick})
+      record.emplace_back(mode_name(mode) + "_" +
+                              step.solution.scene.boundaries[state.boundary].name,
+                          text(length(state, mode)));
+  record.emplace_back("stopped_by", step.stopped_by);
   return record;
 }
 
@@ -129,6 +178,14 @@ void Tables<dim>::add(const StepReport<dim> &step)
 {
   rows.push_back(convergence_record(step));
   elements.push_back(count_degrees(step.solution.displacement_space));
+  if (step.load.number > 0 && !step.stopped_by.empty())
+    load_steps.push_back(loading_record(step));
+}
+
+template <int dim>
+std::string Tables<dim>::loading() const
+{
+  return csv(load_steps);
 }
 
 template <int dim>

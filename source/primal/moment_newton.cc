@@ -218,6 +218,7 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<Tangenti
     report.n_slipping = n_slipping(disc_states);
     report.cg_steps = matrix.n_steps - cg_before;
     report.setups = matrix.n_setups - setups_before;
+    report.fell_back = matrix.fell_back;
     heard(report);
     if (now.norm <= tolerance * load)
     {

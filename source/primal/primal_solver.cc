@@ -9,6 +9,7 @@
 #include <hpvi/scene/space_checks.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -29,6 +30,30 @@ double expected_bytes(const MomentSpace<dim> &space)
                          (double(space.owned.n_elements()) / space.dof_handler.n_dofs()),
                n = space.tables.fe.dofs_per_cell;
   return 19 * n_cells * n * n;
+}
+
+/** What in the last step asks for care, one line each; of the contact on the first process. */
+template <int dim>
+std::vector<std::string> warnings(const PrimalReport<dim> &step)
+{
+  std::vector<std::string> result;
+  const Adaptivity &adaptivity = step.space.scene.adaptivity;
+  if (adaptivity.tolerance > 0 && adaptivity.tolerance_on == Indicator::bound)
+    result.push_back("the primal path has no guaranteed bound of the error: Adaptivity/Tolerance "
+                     "was held against the indicator, which is a measure and no bound");
+  if (step.newton.fell_back)
+    result.push_back("multigrid broke down, and a sparse factorisation took its place; "
+                     "Solver/Linear = direct begins with it");
+  double pull = 0, press = 0;
+  for (const MomentPoint<dim> &point : step.contact)
+    if (step.space.scene.boundaries[point.boundary].contact == Contact::bilateral)
+      (point.normal_traction > 0 ? pull : press) += point.area * std::abs(point.normal_traction);
+  if (pull > 1e-3 * (pull + press))
+    result.push_back("bilateral contact pulls with a force of " + to_string(pull) +
+                     " where it presses with " + to_string(press) +
+                     ": a body free to lift off would open a gap, which the plane's unilateral "
+                     "contact can follow");
+  return result;
 }
 
 /** Throws on all processes where those of one machine need more than it has. */
@@ -174,7 +199,8 @@ PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton,
   step.times = std::exchange(times, {});
   step.seconds = (history.empty() ? 0. : history.back().seconds) +
                  Utilities::MPI::max(step.times.total(), space->communicator());
-  history.push_back({step.total_estimate, step.relative_estimate, step.seconds});
+  const double no_bound = std::numeric_limits<double>::quiet_NaN();
+  history.push_back({step.total_estimate, step.relative_estimate, no_bound, step.seconds});
   return step;
 }
 
@@ -278,6 +304,8 @@ void PrimalSolver<dim>::run(const std::function<void(const PrimalReport<dim> &)>
     PrimalReport<dim> step = stages->report(newton, estimate);
     step.stopped_by = stages->limit();
     finished = !step.stopped_by.empty();
+    if (finished)
+      step.warnings = warnings(step);
     finished_step(step);
     if (!finished)
       stages->refine(marked);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/exceptions.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
@@ -80,12 +80,14 @@ void occupy_standard_streams()
 
 // ---------------------------------------------------------------- what a run prints
 
-/** The true error has a column only where the scene gives something to compare with. */
-void print_table_head(const bool with_error)
+/** The true error has a column only where there is something to compare with, time in a history. */
+void print_table_head(const Scene<dim> &scene)
 {
   std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
-            << (with_error ? "  true_error" : "") << "       slack qp_products   seconds"
-            << std::endl;
+            << (scene.error_bound && scene.no_error_bound().empty() ? "     bound" : "")
+            << (scene.has_known_solution() ? "  true_error" : "")
+            << "       slack qp_products   seconds"
+            << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
 }
 
 void print_row(const StepReport<dim> &step)
@@ -99,18 +101,34 @@ void print_row(const StepReport<dim> &step)
             << step.solution.contact_space.n_multipliers() << std::setw(6) << degrees.str()
             << std::scientific << std::setprecision(3) << std::setw(11) << step.estimate.total()
             << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (step.bound)
+    std::cout << std::setw(10) << step.relative_bound;
   if (!std::isnan(step.errors.energy))
     std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
   std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack << std::setw(12)
             << step.qp.multiplications << std::fixed << std::setprecision(2) << std::setw(10)
-            << step.seconds << std::endl;
+            << step.seconds;
+  if (step.load.number > 0)
+    std::cout << std::setw(10) << step.load.number << std::setprecision(4) << std::setw(8)
+              << step.load.t;
+  std::cout << std::endl;
+}
+
+/** What became of a history, nothing without one. */
+std::string work_in_words(const LoadStep &load)
+{
+  if (load.number == 0)
+    return {};
+  return "load history: " + std::to_string(load.number) + " load steps, work " +
+         text(load.work, 6) + ", stored " + text(load.stored, 6) + ", dissipated by friction " +
+         text(load.dissipated, 6) + "\n";
 }
 
 // ---------------------------------------------------------------- what the program does
 
 void run(const Scene<dim> &scene, const std::string &directory)
 {
-  AdaptiveSolver<dim> solver(scene); // first: it may still reject the mesh
+  LoadHistory<dim> solver(scene); // first: it may still reject the mesh
   note_interruptions();
   Output<dim> output(scene, directory);
   StageTimes times;
@@ -119,7 +137,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::string closing_words; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
-  print_table_head(scene.has_known_solution());
+  print_table_head(scene);
   try
   {
     solver.run(
@@ -134,7 +152,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
             closing_words = contact_in_words(scene, step.contact, step.equilibrium) +
                             "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
                             ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                            " of their absolute sums\n";
+                            " of their absolute sums\n" + work_in_words(step.load);
           output.write_step(step);
         },
         [&](const Progress &stage)

@@ -63,9 +63,16 @@ void stop_all_if_interrupted()
     throw Interruption(signal);
 }
 
+/** What is said when the last step is over. */
+struct Ending
+{
+  StageTimes times;
+  std::string stopped_by;
+  std::vector<std::string> warnings;
+};
+
 template <int dim>
-void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, StageTimes &times,
-               std::string &stopped_by)
+void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, Ending &ending)
 {
   ProgressLine progress;
   solver.run(
@@ -73,8 +80,9 @@ void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, StageTimes 
       {
         progress.erase();
         print_row(step);
-        times += step.times;
-        stopped_by = step.stopped_by;
+        ending.times += step.times;
+        ending.stopped_by = step.stopped_by;
+        ending.warnings = step.warnings;
         output.write_step(step);
       },
       [&](const Progress &stage)
@@ -111,8 +119,7 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   PrimalSolver<dim> solver(scene, MPI_COMM_WORLD); // first: it may still reject the mesh
   note_interruptions();
   PrimalOutput<dim> output(scene, directory, MPI_COMM_WORLD);
-  StageTimes times;
-  std::string stopped_by;
+  Ending ending;
   const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
             << legible(scene.title) << '\n'
@@ -120,7 +127,7 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   print_table_head();
   try
   {
-    run_steps(solver, output, times, stopped_by);
+    run_steps(solver, output, ending);
   }
   catch (const Interruption &interruption)
   {
@@ -134,9 +141,11 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
     throw;
   }
   output.finish();
-  print_stages(times);
-  std::cout << "\nstopped by Adaptivity/" << stopped_by << "\nresults in " << directory
-            << std::endl;
+  print_stages(ending.times);
+  for (const std::string &warning : ending.warnings)
+    std::cout << "\nwarning: " << warning;
+  std::cout << (ending.warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/"
+            << ending.stopped_by << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
 

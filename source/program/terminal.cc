@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/version.h>
 #include <hpvi/output/output.h>
+#include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
 
 #include <deal.II/base/config.h>
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iomanip>
 #include <iostream>
 
@@ -42,7 +44,10 @@ void print_stages(const StageTimes &times)
   print_stage("total", times.total(), times.total());
 }
 
-ProgressLine::ProgressLine() : is_terminal(isatty(STDOUT_FILENO))
+/** mpirun gives its first process a terminal whether it has one or not: there ./run says so. */
+ProgressLine::ProgressLine()
+    : is_terminal(isatty(STDOUT_FILENO) &&
+                  (n_started_processes() == 1 || std::getenv("HPVI_TERMINAL") != nullptr))
 {
 }
 

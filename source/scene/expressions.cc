@@ -74,17 +74,33 @@ std::string message(const std::string &place, const std::string &problem, const 
 /** @p function, which must be finite wherever it is asked. */
 template <int dim>
 std::shared_ptr<const Function<dim>> finite(const std::shared_ptr<const Function<dim>> &function,
-                                            const std::string &place, const std::string &text)
+                                            const std::string &place, const std::string &shown)
 {
   const auto value = [=](const Point<dim> &x)
   {
     const double result = function->value(x);
     if (!std::isfinite(result))
-      throw InputError(message(place, "\"" + printable(text) + "\" is not finite", x, result,
+      throw InputError(message(place, shown + " is not finite", x, result,
                                "give an expression that is finite everywhere it applies"));
     return result;
   };
   return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
+}
+
+std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
+{
+  std::map<std::string, double> constants = {
+      {"pi", numbers::PI}, {"E", material.young}, {"nu", material.poisson}, {"mu", material.mu()}};
+  if (t)
+    constants.emplace("t", *t);
+  return constants;
+}
+
+/** For messages about values. */
+std::string with_time(const std::map<std::string, double> &constants)
+{
+  const auto t = constants.find("t");
+  return t == constants.end() ? "" : " with t = " + to_string(t->second);
 }
 
 bool is_absent(const std::string &text, const std::string &absent)
@@ -95,11 +111,9 @@ bool is_absent(const std::string &text, const std::string &absent)
 } // namespace
 
 template <int dim>
-ExpressionReader<dim>::ExpressionReader(const Parameters &parameters, const Material &material)
-    : parameters(parameters), constants({{"pi", numbers::PI},
-                                         {"E", material.young},
-                                         {"nu", material.poisson},
-                                         {"mu", material.mu()}})
+ExpressionReader<dim>::ExpressionReader(const Parameters &parameters, const Material &material,
+                                        const std::optional<double> t)
+    : parameters(parameters), constants(constants_of(material, t))
 {
 }
 
@@ -153,18 +167,33 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   if (is_number(text, value))
     return std::make_shared<Functions::ConstantFunction<dim>>(value);
   check_misreadings(section, name, text);
-  const std::string problem = complaint<dim>(text, constants);
+  const std::string problem = objection(text);
   if (!problem.empty())
-    parameters.reject(section, name,
-                      "\"" + printable(text) + "\" is not an expression of " +
-                          (dim == 2 ? "x and y (" : "x, y and z (") + problem +
-                          "); mend it, constants are pi, E, nu, mu");
+    parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
   const auto function = std::make_shared<FunctionParser<dim>>(1);
   function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
-  const Expression result = finite<dim>(function, parameters.place(section, name), text);
+  const Expression result = finite<dim>(function, parameters.place(section, name),
+                                        "\"" + printable(text) + "\"" + with_time(constants));
   for (const Point<dim> &point : points)
     result->value(point);
   return result;
+}
+
+template <int dim>
+std::string ExpressionReader<dim>::objection(const std::string &text) const
+{
+  const std::string problem = complaint<dim>(text, constants);
+  if (problem.empty())
+    return {};
+  std::map<std::string, double> with_time = constants;
+  const bool has_time = !with_time.emplace("t", 0.).second;
+  if (!has_time && complaint<dim>(text, with_time).empty())
+    return "uses t, the time of a load history, and the scene has none; set Loading/Steps or write "
+           "a function of x and y";
+  const std::string variables = dim == 2 ? (has_time ? "x, y and t" : "x and y")
+                                         : (has_time ? "x, y, z and t" : "x, y and z");
+  return "is not an expression of " + variables + " (" + problem +
+         "); mend it, constants are pi, E, nu, mu";
 }
 
 template <int dim>
@@ -179,12 +208,12 @@ ExpressionReader<dim>::read_bound(const std::string &section, const std::string 
   double largest = 0;
   for (const Point<dim> &point : points)
     largest = std::max(largest, std::abs(g->value(point)));
-  const auto value =
-      [g, largest, remedy, place = parameters.place(section, name)](const Point<dim> &x)
+  const auto value = [g, largest, remedy, place = parameters.place(section, name),
+                      problem = "is negative" + with_time(constants)](const Point<dim> &x)
   {
     const double result = g->value(x);
     if (result < -1e-12 * largest) // round-off, as in sin(2*pi), is no sign
-      throw InputError(message(place, "is negative", x, result, remedy));
+      throw InputError(message(place, problem, x, result, remedy));
     return std::max(result, 0.);
   };
   const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);

@@ -44,6 +44,22 @@ Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
   return x;
 }
 
+template <int dim>
+bool Geometry<dim>::has_affine_cells() const
+{
+  double size = 0, skew = 0;
+  for (unsigned int v = 0; v < corners.size(); ++v)
+  {
+    Tensor<1, dim> affine; // from corner 0
+    for (unsigned int d = 0; d < dim; ++d)
+      if (v >> d & 1u)
+        affine += corners[1u << d] - corners[0];
+    size = std::max(size, affine.norm());
+    skew = std::max(skew, (corners[v] - corners[0] - affine).norm());
+  }
+  return skew <= 1e-12 * size;
+}
+
 std::vector<Point<2>> Edge::sample() const
 {
   const unsigned int n = 32;

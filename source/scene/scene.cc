@@ -99,6 +99,12 @@ unsigned int own_start_degree(const Method method)
   return 2;
 }
 
+template <int dim>
+double Loading<dim>::time(const unsigned int step) const
+{
+  return static_cast<double>(step) / steps;
+}
+
 // ---------------------------------------------------------------- the scene
 
 template <int dim>
@@ -167,6 +173,12 @@ bool Scene<dim>::has_body_force() const
 }
 
 template <int dim>
+bool Scene<dim>::has_load_history() const
+{
+  return loading.steps > 0 || loading.at;
+}
+
+template <int dim>
 bool Scene<dim>::has_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
@@ -184,6 +196,23 @@ bool Scene<dim>::has_friction() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &b) { return b.has_contact() && b.friction; });
+}
+
+template <int dim>
+std::string Scene<dim>::no_error_bound() const
+{
+  if (has_coulomb_friction())
+    return "Coulomb's law minimises no energy";
+  if (has_unilateral_contact())
+    return "contact is unilateral";
+  if (adaptivity.start_degree < 2)
+    return "cells have degree 1";
+  if (!geometry.has_affine_cells())
+    return "cells are no parallelograms";
+  for (const BoundaryCondition<dim> &boundary : boundaries)
+    if (boundary.friction.past)
+      return "friction acts on increments after the first load step";
+  return {};
 }
 
 template <int dim>
@@ -226,6 +255,8 @@ template Expression<3> expression<3>(double);
 template Expression<3> expression<3>(const std::function<double(const Point<3> &)> &);
 template struct BoundaryCondition<2>;
 template struct BoundaryCondition<3>;
+template struct Loading<2>;
+template struct Loading<3>;
 template struct Scene<2>;
 template struct Scene<3>;
 } // namespace hpvi

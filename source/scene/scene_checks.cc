@@ -608,19 +608,27 @@ private:
     for (unsigned int d = 0; d < 2; ++d)
       imbalance += t[d] * (stress[d]->value(point) - traction(d, point));
     if (differ(imbalance, 0, stress_scale))
-      contradict_load(point, "Friction bound", "give that of the solution");
+      contradict_load(point, friction_entry(), "give that of the solution");
     if (g(point) == 0 || !differ(lambda * (u * t), std::abs(u * t), displacement_scale))
       return;
     if (lambda == 0)
-      contradict("Friction bound", point, "leave the contact without friction");
+      contradict(friction_entry(), point, "leave the contact without friction");
     reject(scene, "Exact solution", "Length",
            "lets the body slip against its friction at " + to_string(point) +
                "; enlarge it or move Transition to the right");
   }
 
+  /** Tresca's bound, or Coulomb's under the pressure of the solution. */
   double g(const Point<2> &point) const
   {
+    if (boundary.friction.coefficient)
+      return boundary.friction.coefficient->value(point) * std::max(0., exact.pressure(point));
     return boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
+  }
+
+  std::string friction_entry() const
+  {
+    return boundary.friction.coefficient ? "Friction coefficient" : "Friction bound";
   }
 
   double traction(const unsigned int component, const Point<2> &point) const
@@ -697,6 +705,39 @@ void check_exact_solution(const Scene<2> &scene)
     ExactSolutionCheck(scene, b).run();
 }
 
+/** A history has no closed form here, and what one load step is compared with is none of another. */
+void check_load_history(const Scene<2> &scene, const SceneUse use)
+{
+  const Loading<2> &loading = scene.loading;
+  const std::string history = "is one state, and Loading/Steps asks for a history; remove either";
+  if (loading.steps < 1 || loading.steps > 10000 || !loading.at)
+    reject(scene, "Loading", "Steps",
+           "is no history; give an integer from 1 to 10000, and the scene of each load step",
+           std::to_string(loading.steps));
+  if (use == SceneUse::measure)
+    reject(scene, "Loading", "Steps",
+           "is a history, and the inf-sup constant is one of a mesh, whatever the load; remove it",
+           std::to_string(loading.steps));
+  if (scene.exact_solution)
+    reject(scene, "Exact solution", "Solution", history);
+  if (!scene.reference_solution.empty())
+    reject(scene, "Error", "Reference solution", history);
+  if (scene.output.reference)
+    reject(scene, "Output", "Reference solution", history, "true");
+  for (unsigned int step = 1; step <= loading.steps; ++step)
+    try
+    {
+      loading.at(loading.time(step)).check(use);
+    }
+    catch (const InputError &error)
+    {
+      const std::string line = error.what(), time = "t = " + to_string(loading.time(step));
+      if (step == 1 || line.find(time) != std::string::npos)
+        throw;
+      throw InputError(line + " (load step " + std::to_string(step) + ", " + time + ")");
+    }
+}
+
 /** A reference solution holds the entries of its problem, for those who compare with it. */
 void check_reference(const Scene<2> &scene)
 {
@@ -724,6 +765,11 @@ void check_adaptivity(const Scene<2> &scene)
            "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
                "; lower the one or raise the other",
            start);
+  const std::string no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  if (adaptivity.indicator == Indicator::bound && !no_bound.empty())
+    reject(scene, "Adaptivity", "Indicator",
+           "is \"bound\", but there is no bound of the error: " + no_bound +
+               "; choose Indicator = residual");
   if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
     reject(scene, "Adaptivity", "hpa1 raised fraction",
            "makes more than all cells with hpa1 bisected fraction = " +
@@ -832,6 +878,8 @@ std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene)
 
 void check_scene(const Scene<2> &scene, const SceneUse use)
 {
+  if (scene.has_load_history())
+    check_load_history(scene, use);
   check_geometry(scene);
   check_materials(scene);
   check_boundaries(scene);

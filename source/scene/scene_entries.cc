@@ -153,6 +153,9 @@ void add_method_entries(std::vector<Entry> &entries)
         "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
         "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
+       {section, "Indicator", "residual", one_of(indicator_names), "residual or bound",
+        "What marks cells: the residual indicator (4.44)-(4.51), or the shares of the guaranteed "
+        "bound (Error/Bound)."},
        {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
         "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
         "hpa2, hpa3: 3)."},
@@ -180,8 +183,27 @@ void add_method_entries(std::vector<Entry> &entries)
        {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
         "No step is started after this time of computing; 0: no limit."},
        {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",
-        "Stop where the relative indicator eta/((2 mu)^(1/2) |u_N|_a) falls below, with "
-        "2 mu + 2 lambda for 2 mu where nu < 0; 0: never."}});
+        "Stop where the relative error falls below, as Tolerance on knows it; 0: never."},
+       {section, "Tolerance on", "bound", one_of(indicator_names), "residual or bound",
+        "bound: the guaranteed bound of |u - u_N|_a/|u_N|_a, or the indicator with a warning where "
+        "none is guaranteed. residual: the relative indicator eta/((2 mu)^(1/2) |u_N|_a), with "
+        "2 mu + 2 lambda for 2 mu where nu < 0."}});
+}
+
+void add_loading_entries(std::vector<Entry> &entries)
+{
+  const std::string section = "Loading";
+  entries.insert(
+      entries.end(),
+      {{section, "Steps", "", matching(Patterns::List(Patterns::Integer(1, 10000), 0, 1)),
+        "an integer from 1 to 10000, or nothing",
+        "Number n of load steps: every expression may use t, which runs through 1/n, 2/n, ..., 1, "
+        "and friction acts on the increment of the tangential displacement; empty: no history."},
+       {section, "Adapt", "every step", one_of(load_adaptivity_names), "first step or every step",
+        "first step: the mesh of the first load step stays. every step: each load step adapts "
+        "that of the one before; without Adaptivity/Tolerance until its relative indicator is no "
+        "more than that of the first by a fifth. The limits of Adaptivity hold for each load "
+        "step."}});
 }
 
 void add_program_entries(std::vector<Entry> &entries)
@@ -215,6 +237,11 @@ void add_program_entries(std::vector<Entry> &entries)
         "newton: semismooth Newton on pressures and frictions at once, with fallbacks. fixed "
         "point: "
         "problems of Tresca, each with the bounds mu_f |T_n| of the last, accelerated."},
+       {"Solver", "Check uniqueness", "false", boolean, yes_no,
+        "Solve Coulomb friction in each step from a second start, too, where all that frictionless "
+        "contact closes sticks, and warn where another equilibrium is found. Costs about as much "
+        "as solving every step without a warm start: the time for the multipliers doubles at "
+        "least. That nothing is found is no proof."},
        {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
         "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
         "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "
@@ -232,6 +259,8 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
        {"Output", "Reference solution", "false", boolean, yes_no,
         "Write the last step's displacement to reference.dat, for Error/Reference solution."},
+       {"Error", "Bound", "true", one_of({"true", "false"}), "true or false",
+        "Compute the guaranteed bound of the error, where there is one (doc/bound.md)."},
        {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
         "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
         "against it. Without effect where an exact solution is named."}});
@@ -306,6 +335,7 @@ std::vector<Entry> scene_entries(const int dim)
   add_exact_entries(entries);
   for (int b = 0; b < 2 * dim; ++b)
     add_boundary_entries(entries, boundary_names[b]);
+  add_loading_entries(entries);
   add_method_entries(entries);
   add_program_entries(entries);
   if (dim == 3)

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace hpvi
 {
@@ -219,18 +220,18 @@ void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &ex
     parameters.reject(section, "Friction coefficient", friction_needs_contact);
 }
 
-/** Resolves `Start degree = 0`, also in @p parameters. */
 template <int dim>
-void read_method(Parameters &parameters, Scene<dim> &scene)
+void read_method(const Parameters &parameters, Scene<dim> &scene)
 {
   for_each_value(scene, ReadValue{parameters});
   Adaptivity &adaptivity = scene.adaptivity;
   adaptivity.method = read_choice<Method>(parameters, "Adaptivity", "Method", method_names);
+  adaptivity.indicator =
+      read_choice<Indicator>(parameters, "Adaptivity", "Indicator", indicator_names);
+  adaptivity.tolerance_on =
+      read_choice<Indicator>(parameters, "Adaptivity", "Tolerance on", indicator_names);
   adaptivity.reading =
       read_choice<SmoothnessReading>(parameters, "Adaptivity", "Smoothness reading", reading_names);
-  if (adaptivity.start_degree == 0)
-    adaptivity.start_degree = own_start_degree(adaptivity.method);
-  parameters.set("Adaptivity", "Start degree", std::to_string(adaptivity.start_degree));
   scene.solver.path = read_choice<SolutionPath>(parameters, "Solver", "Path", path_names);
   scene.solver.linear = read_choice<LinearMethod>(parameters, "Solver", "Linear", linear_names);
   scene.solver.qp_solver =
@@ -239,6 +240,64 @@ void read_method(Parameters &parameters, Scene<dim> &scene)
       read_choice<CoulombMethod>(parameters, "Solver", "Coulomb solver", coulomb_method_names);
   scene.solver.normal_contact =
       read_choice<NormalContact>(parameters, "Solver", "Normal contact", normal_contact_names);
+}
+/** What the file leaves to the program, which scene.prm shall say. */
+void complete(Parameters &parameters, const std::string &name)
+{
+  if (parameters.text("", "Title").empty())
+    parameters.set("", "Title", storable(name));
+  if (parameters.integer("Adaptivity", "Start degree") == 0)
+    parameters.set("Adaptivity", "Start degree",
+                   std::to_string(own_start_degree(
+                       read_choice<Method>(parameters, "Adaptivity", "Method", method_names))));
+}
+
+/** All but the load history; @p t is its time, if there is one. */
+template <int dim>
+Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
+                        const std::string &name, const std::optional<double> t)
+{
+  Scene<dim> scene;
+  scene.parameters = parameters;
+  scene.name = name;
+  scene.title = parameters->text("", "Title");
+  scene.length_unit = parameters->text("Units", "Length");
+  scene.stress_unit = parameters->text("Units", "Stress");
+
+  read_method(*parameters, scene);
+
+  // Expressions are tried on the body and know its material: both must be sound.
+  read_geometry(*parameters, scene.geometry);
+  check_geometry(scene);
+  scene.materials = {read_material<dim>(*parameters)};
+  check_materials(scene);
+  const ExpressionReader<dim> expressions(*parameters, scene.materials[0], t);
+  scene.body_force =
+      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
+  if constexpr (dim == 2)
+    scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
+  for (BoundaryCondition<dim> &boundary : scene.boundaries)
+    read_boundary(*parameters, expressions, scene, boundary);
+  scene.reference_solution = parameters->text("Error", "Reference solution");
+  return scene;
+}
+
+/** A history has the functions of every load step, which are those of one problem with t frozen. */
+template <int dim>
+Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
+                          const std::string &name)
+{
+  Loading<dim> loading;
+  loading.adapt =
+      read_choice<LoadAdaptivity>(*parameters, "Loading", "Adapt", load_adaptivity_names);
+  if (!parameters->text("Loading", "Steps").empty())
+  {
+    loading.steps = parameters->integer("Loading", "Steps");
+    loading.at = [=](const double t) { return read_problem<dim>(parameters, name, t); };
+  }
+  else if (loading.adapt != LoadAdaptivity::every_step)
+    parameters->reject("Loading", "Adapt", "has no load step to mean; set Steps or remove it");
+  return loading;
 }
 } // namespace
 
@@ -252,30 +311,12 @@ Scene<dim> read_scene(const std::string &file,
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
                        "is not that of the program; set Dimension = " + std::to_string(dim));
-  Scene<dim> scene;
-  scene.parameters = parameters;
-  scene.name = std::filesystem::path(file).stem().string();
-  if (parameters->text("", "Title").empty())
-    parameters->set("", "Title", storable(scene.name));
-  scene.title = parameters->text("", "Title");
-  scene.length_unit = parameters->text("Units", "Length");
-  scene.stress_unit = parameters->text("Units", "Stress");
-
-  read_method(*parameters, scene);
-
-  // Expressions are tried on the body and know its material: both must be sound.
-  read_geometry(*parameters, scene.geometry);
-  check_geometry(scene);
-  scene.materials = {read_material<dim>(*parameters)};
-  check_materials(scene);
-  const ExpressionReader<dim> expressions(*parameters, scene.materials[0]);
-  scene.body_force =
-      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
-  if constexpr (dim == 2)
-    scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
-  for (BoundaryCondition<dim> &boundary : scene.boundaries)
-    read_boundary(*parameters, expressions, scene, boundary);
-  scene.reference_solution = parameters->text("Error", "Reference solution");
+  const std::string name = std::filesystem::path(file).stem().string();
+  complete(*parameters, name);
+  const Loading<dim> loading = read_loading<dim>(parameters, name);
+  Scene<dim> scene =
+      loading.at ? loading.at(loading.time(1)) : read_problem<dim>(parameters, name, std::nullopt);
+  scene.loading = loading;
   scene.check(use);
   return scene;
 }

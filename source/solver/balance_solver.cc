@@ -32,14 +32,6 @@ void add(QpReport &sum, const QpReport &part)
   sum.projected_gradient = part.projected_gradient;
 }
 
-/** L of `Gamma = L L'`. */
-FullMatrix<double> root(const FullMatrix<double> &penalty)
-{
-  FullMatrix<double> result(penalty.m());
-  result.cholesky(penalty);
-  return result;
-}
-
 /** One run of the method. */
 class Balance
 {
@@ -74,6 +66,7 @@ private:
   const EqualityConstraints &constraints;
   Vector<double> &z, &alpha;
   Vector<double> scale; ///< of steps along the gradient, 1 / S_ii
+  Vector<double> noise; ///< of z where nothing presses, as in BalanceSolver
   Vector<double> gap;   ///< e - G'z
   double smallest = 0;  ///< gap so far of minimisers
   double stretch = 1;   ///< of steps along which phi is straight
@@ -84,10 +77,11 @@ private:
 Balance::Balance(const BalanceSolver::Inner &inner, const FullMatrix<double> &penalty,
                  const double tolerance, const QuadraticProgram &qp,
                  const EqualityConstraints &constraints, Vector<double> &z, Vector<double> &alpha)
-    : inner(inner), root_of_penalty(root(penalty)), tolerance(tolerance), qp(qp), d(qp.d),
+    : inner(inner), root_of_penalty(root_of(penalty)), tolerance(tolerance), qp(qp), d(qp.d),
       constraints(constraints), z(z), alpha(alpha), scale(diagonal_scale(qp.S))
 {
   qp.feasible_set.make_isotropic(scale);
+  noise = noise_of(d, scale);
   scale.scale(scale);
 }
 
@@ -268,24 +262,7 @@ FeasibleSet::Linearisation Balance::linearise()
 
 bool Balance::is_met() const
 {
-  const FullMatrix<double> &G = constraints.G;
-  double forces = 0;
-  Vector<double> length(alpha.size());
-  for (unsigned int j = 0; j < alpha.size(); ++j)
-  {
-    double sum = std::abs(constraints.e[j]);
-    for (unsigned int i = 0; i < z.size(); ++i)
-    {
-      length[j] = std::hypot(length[j], G(i, j));
-      sum += std::abs(G(i, j) * z[i]);
-    }
-    if (sum > 0.)
-      forces = std::max(forces, sum / length[j]);
-  }
-  for (unsigned int j = 0; j < alpha.size(); ++j)
-    if (!(std::abs(gap[j]) <= tolerance * length[j] * forces))
-      return false;
-  return true;
+  return constraints.imbalance(z, noise, tolerance) <= tolerance;
 }
 
 /** The gap in units of energy. */

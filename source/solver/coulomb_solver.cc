@@ -28,6 +28,7 @@ constexpr unsigned int depth = 5;              ///< of Anderson's acceleration
 constexpr unsigned int patience = 30;          ///< steps in which its residual must halve
 constexpr unsigned int maximum_newton_steps = 3000; ///< of all rungs together
 constexpr double singular = 1e-14;                  ///< reciprocal condition that is round-off
+constexpr double round_off = 1e-15;                 ///< of terms that cancel
 constexpr double balance_noise = 100; ///< tolerance of the balance in units of the other
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -85,15 +86,6 @@ void LuFactor::solve(std::vector<double> &x) const
   types::blas_int info = 0;
   if (n > 0)
     getrs("N", &n, &one, factor.data(), &n, pivots.data(), x.data(), &n, &info);
-}
-
-/** L of `Gamma = L L'`. */
-FullMatrix<double> root(const FullMatrix<double> &penalty)
-{
-  FullMatrix<double> result(penalty.m());
-  if (penalty.m() > 0)
-    result.cholesky(penalty);
-  return result;
 }
 
 /** `|x - T(x)| -> 0` faster than by `x := T(x)` (Walker & Ni 2011, doi:10.1137/10078356X). */
@@ -189,7 +181,7 @@ private:
 
   double measure();
   double merit() const;
-  double imbalance(const Vector<double> &x) const;
+  double sizes_of_terms(const Vector<double> &x) const;
   Vector<double> gradient(const Vector<double> &x);
   double norm(Vector<double> x) const;
 
@@ -200,6 +192,7 @@ private:
   Vector<double> r; ///< gradient at z
   const Vector<double> scale;
   Vector<double> step;        ///< its squares
+  const Vector<double> noise; ///< of z where nothing presses
   const FullMatrix<double> L; ///< the root of the penalty
   FullMatrix<double> G;       ///< `diag(scale) G L`: the balance in units of energy
   double reference = 0;       ///< as in Mprgp
@@ -216,8 +209,8 @@ private:
 Iteration::Iteration(const ConeProgram &program, const Mprgp::Settings &settings, Vector<double> &z,
                      Vector<double> &alpha)
     : program(program), settings(settings), set(&program.set), z(z), alpha(alpha), r(z.size()),
-      scale(diagonal_scale(program.S)), step(scale), L(root(program.penalty)),
-      G(z.size(), alpha.size())
+      scale(diagonal_scale(program.S)), step(scale), noise(noise_of(program.d, scale)),
+      L(root_of(program.penalty)), G(z.size(), alpha.size())
 {
   step.scale(scale);
   if (alpha.size() > 0)
@@ -598,17 +591,32 @@ void Iteration::put_on_cones(const FeasibleSet &tresca)
   r = gradient(z);
 }
 
-/** The residual of the nearest point in its own set, which is remembered if none was better. */
+/**
+ * The residual of the nearest point in its own set, which is remembered if none was better. Along the
+ * tangent it is what a step along the gradient does, within the cone: where pressure is nothing but
+ * round-off, so is what it lets slip.
+ */
 double Iteration::measure()
 {
   Vector<double> nearest(z), phi, beta;
   set->fixed.project(nearest);
   const FeasibleSet own = set->at(nearest);
   own.project(nearest);
-  own.split_gradient(nearest, nearest == z ? r : gradient(nearest), phi, beta);
+  const Vector<double> slope = nearest == z ? r : gradient(nearest);
+  own.split_gradient(nearest, slope, phi, beta);
+  for (const FrictionCones::Cone &cone : set->cones)
+  {
+    const unsigned int t = cone.tangential;
+    const double bound = cone.mu * std::max(0., nearest[cone.normal]),
+                 moved = nearest[t] - step[t] * slope[t];
+    phi[t] = std::isnan(moved) ? moved : (nearest[t] - std::clamp(moved, -bound, bound)) / step[t];
+    beta[t] = 0.;
+  }
   const double nu = std::hypot(norm(phi), norm(beta)),
-               residual =
-                   std::max(nu == 0. ? 0. : nu / reference, imbalance(nearest) / balance_noise);
+               gap = program.balance.imbalance(nearest, noise, balance_noise * settings.tolerance),
+               cancelled = round_off / settings.tolerance * sizes_of_terms(nearest),
+               residual = std::max(nu == 0. ? 0. : nu / std::max(reference, cancelled),
+                                   gap / balance_noise);
   if (set == &program.set && residual < best.residual)
     best = {nearest, alpha, residual};
   return residual;
@@ -634,32 +642,6 @@ double Iteration::merit() const
   return std::sqrt(squares);
 }
 
-/** As BalanceSolver measures it. */
-double Iteration::imbalance(const Vector<double> &x) const
-{
-  const EqualityConstraints &balance = program.balance;
-  double forces = 0, largest = 0;
-  Vector<double> length(alpha.size());
-  for (unsigned int j = 0; j < alpha.size(); ++j)
-  {
-    double sum = std::abs(balance.e[j]);
-    for (unsigned int i = 0; i < x.size(); ++i)
-    {
-      length[j] = std::hypot(length[j], balance.G(i, j));
-      sum += std::abs(balance.G(i, j) * x[i]);
-    }
-    if (sum > 0.)
-      forces = std::max(forces, sum / length[j]);
-  }
-  if (alpha.size() == 0)
-    return 0.;
-  const Vector<double> gap = balance.gap(x);
-  for (unsigned int j = 0; j < alpha.size(); ++j)
-    if (gap[j] != 0.)
-      largest = std::max(largest, std::abs(gap[j]) / (length[j] * forces));
-  return largest;
-}
-
 /** `S x - d - G alpha` */
 Vector<double> Iteration::gradient(const Vector<double> &x)
 {
@@ -678,6 +660,15 @@ double Iteration::norm(Vector<double> x) const
   if (settings.diagonal_scaling)
     x.scale(scale);
   return x.l2_norm();
+}
+
+/** `|diag(S) x|` likewise: of the terms that cancel in a gradient. */
+double Iteration::sizes_of_terms(const Vector<double> &x) const
+{
+  Vector<double> terms(x.size());
+  for (unsigned int i = 0; i < x.size(); ++i)
+    terms[i] = program.S(i, i) * x[i];
+  return norm(terms);
 }
 } // namespace
 
@@ -712,5 +703,22 @@ CoulombReport CoulombSolver::solve(const ConeProgram &program, Vector<double> &z
   Iteration iteration(program, settings, z, alpha);
   return method == Method::newton ? iteration.newton(warm, first_rung)
                                   : iteration.fixed_point(warm);
+}
+
+double CoulombSolver::difference_from_second_start(const ConeProgram &program,
+                                                   const Vector<double> &z) const
+{
+  Vector<double> other(z.size()), alpha(program.balance.e.size());
+  if (!CoulombSolver(settings, Method::newton, 1).solve(program, other, alpha, false).qp.converged)
+    return std::numeric_limits<double>::quiet_NaN();
+  const auto size = [&](const Vector<double> &x)
+  {
+    Vector<double> product(x.size());
+    program.S.vmult(product, x);
+    return std::sqrt(std::max(0., x * product));
+  };
+  const double largest = std::max(size(z), size(other));
+  other -= z;
+  return largest == 0. ? 0. : size(other) / largest;
 }
 } // namespace hpvi

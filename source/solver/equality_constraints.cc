@@ -16,7 +16,7 @@ namespace
 using Force = Tensor<1, 3>; ///< of the equations there are, the others 0
 
 /** What counts as nothing beside e. */
-constexpr double negligible = 1e-10;
+constexpr double negligible = 1e-12;
 
 /** Resultants `G'z` of the points of a set, columns of G scaled to length one. */
 class Resultants
@@ -223,6 +223,55 @@ Vector<double> EqualityConstraints::gap(const Vector<double> &z) const
   Vector<double> result(e.size());
   G.Tvmult(result, z);
   result.sadd(-1., 1., e);
+  return result;
+}
+
+double EqualityConstraints::imbalance(const Vector<double> &z, const Vector<double> &noise,
+                                      const double tolerance) const
+{
+  const unsigned int m = e.size();
+  Vector<double> length(m), noise_of(m);
+  double forces = 0, largest = 0;
+  for (unsigned int j = 0; j < m; ++j)
+  {
+    double sum = std::abs(e[j]);
+    for (unsigned int i = 0; i < z.size(); ++i)
+    {
+      length[j] = std::hypot(length[j], G(i, j));
+      sum += std::abs(G(i, j) * z[i]);
+      noise_of[j] += std::abs(G(i, j)) * noise[i];
+    }
+    if (sum > 0.)
+      forces = std::max(forces, sum / length[j]);
+  }
+  const Vector<double> left = gap(z);
+  for (unsigned int j = 0; j < m; ++j)
+  {
+    const double allowed = length[j] * forces + noise_of[j] +
+                           (round_off.size() > 0 ? round_off[j] / tolerance : 0.),
+                 here = left[j] == 0. ? 0. : std::abs(left[j]) / allowed;
+    if (!(here <= largest)) // NaN, too
+      largest = here;
+    if (std::isnan(largest))
+      break;
+  }
+  return largest;
+}
+
+Vector<double> noise_of(const Vector<double> &d, const Vector<double> &scale)
+{
+  Vector<double> scaled(d);
+  scaled.scale(scale);
+  Vector<double> result(scale);
+  result *= 1e-2 * scaled.l2_norm();
+  return result;
+}
+
+FullMatrix<double> root_of(const FullMatrix<double> &Gamma)
+{
+  FullMatrix<double> result(Gamma.m());
+  if (Gamma.m() > 0)
+    result.cholesky(Gamma);
   return result;
 }
 

@@ -365,6 +365,24 @@ misbehaves() { # STEPS WORD ENTRY=VALUE
 misbehaves 3 "is not finite at (0.125, " "Body force/Expression=1/(x-0.125); 0"
 misbehaves 0 "is negative at (" "Boundary bottom/Friction bound=1+1.2*sin(16*pi*x)"
 
+# --- load histories
+for value in 0 -3 2.5 20000 "5, 6" many; do
+  invalid "Loading/Steps = $value" "not accepted" "an integer from 1 to 10000" -- "Loading/Steps=$value"
+done
+invalid "Loading/Adapt = never" "first step or every step" -- "Loading/Adapt=never"
+invalid "Loading/Adapt = first step" "set Steps" -- "Loading/Adapt=first step"
+invalid "Boundary left/Traction = t; 0" "uses t" "set Loading/Steps" -- "Boundary left/Traction=t; 0"
+invalid "Boundary bottom/Friction bound = 1 + t" "uses t" "set Loading/Steps" -- "Boundary bottom/Friction bound=1 + t"
+invalid "Body force/Expression" "is not an expression of x, y and t" -- "Loading/Steps=4" "Body force/Expression=tt; 0"
+invalid "Boundary left/Traction" '"sqrt(0.5-t)" with t = 0.75 is not finite' -- "Loading/Steps=4" "Boundary left/Traction=sqrt(0.5-t); 0"
+invalid "Boundary bottom/Friction bound" "is negative with t = 0.75" -- "Loading/Steps=4" "Boundary bottom/Friction bound=0.5-t"
+invalid "Boundary right/Displacement" "contradicts" "(load step 3, t = 0.75)" -- "Loading/Steps=4" \
+  "Boundary right/Displacement=0; if(t>0.6,1,0)"
+invalid "Output/Reference solution = true" "asks for a history" "remove either" -- "Loading/Steps=4" "Output/Reference solution=true"
+invalid "Error/Reference solution = base.prm" "asks for a history" -- "Loading/Steps=4" "Error/Reference solution=base.prm"
+invalid "Exact solution/Solution = stick-slip" "asks for a history" -- "${exact[@]}" "Loading/Steps=4"
+refused "Loading/Steps = 4" "inf-sup" "remove it" -- --inf-sup --set "Loading/Steps=4" "$scenes/base.prm"
+
 # --- the good scene passes, and its effective parameters are the same scene again
 "$hpvi" --validate "$scenes/base.prm" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "the good scene is rejected"
@@ -388,6 +406,7 @@ valid "contact without multiplier of degree 1" "${open[@]}" "Boundary bottom/Fri
 valid "friction alone" "Boundary bottom/Contact=tangential" "Boundary right/Displacement=0; -0.1"
 valid "Hertz's contact" "${hertz[@]}" "Boundary bottom/Gap=(x-2)^2/E"
 valid "partial slip" "${partial_slip[@]}" "Boundary bottom/Friction bound=sqrt(max(0, 1-(x-2)^2))"
+valid "a load history" "Loading/Steps=3" "Boundary left/Traction=sin(t); x*t" "Boundary bottom/Friction bound=1-t"
 exact_scene=()
 for override in "${exact[@]}"; do
   exact_scene+=(--set "$override")

@@ -109,7 +109,12 @@ std::vector<Case> cases()
   result.push_back({"coulomb", "ssnv128", {}});
   result.push_back({"coulomb_fixed_point", "ssnv128", {{"Solver/Coulomb solver", "fixed point"}}});
   result.push_back({"coulomb_bilateral", "ssnv128", {{"Boundary bottom/Contact", "bilateral"}}});
-  result.push_back({"coulomb_slope", "slope", {}});
+  for (const std::string scene : {"slope", "brake-pad", "punch-friction", "strut"})
+  {
+    std::string name = "coulomb_" + scene;
+    std::replace(name.begin(), name.end(), '-', '_');
+    result.push_back({name, scene, {}});
+  }
   result.push_back({"slanted_unilateral",
                     "han-6-12-unilateral",
                     {{"Geometry/Shape", "quadrilateral"},

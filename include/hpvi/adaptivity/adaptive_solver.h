@@ -6,6 +6,7 @@
 #include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/step_report.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/contact/multiplier_trace.h>
 
 #include <functional>
 #include <memory>
@@ -20,8 +21,23 @@ template <int dim>
 class AdaptiveSolver
 {
 public:
-  /** Throws InputError where the scene does not pass Scene::check(). */
+  /** Where a run begins that takes over the mesh of another one. */
+  struct Start
+  {
+    std::shared_ptr<const dealii::Triangulation<dim>> mesh;
+    Degrees degrees;
+    MultiplierTrace<dim> multiplier; ///< a guess; zero unless it is wanted
+    dealii::Vector<double> motion;   ///< likewise, of the free motions of the scene
+  };
+
+  /**
+   * Throws InputError where the scene does not pass Scene::check(), or has a load history, which is for
+   * LoadHistory.
+   */
   explicit AdaptiveSolver(const Scene<dim> &scene);
+
+  /** The same from @p start, of a scene of the same body. */
+  AdaptiveSolver(const Scene<dim> &scene, const Start &start);
 
   /**
    * Goes on after the step in which @p state was taken, to the same numbers as if the run had not been
@@ -43,6 +59,9 @@ public:
 
   /** What it takes to go on after @p step; to be asked while its callback lasts. */
   RunState state(const StepReport<dim> &step) const;
+
+  /** For a run that takes over from the step at hand; to be asked while its callback lasts. */
+  Start end() const;
 
 private:
   struct Stages;

@@ -11,6 +11,7 @@ struct PastStep
 {
   double estimate;              ///< eta, stress length^(dim/2)
   double relative_estimate;     ///< as StepReport has it
+  double relative_bound;        ///< ErrorBound::total / |u_N|_a, NaN where none is guaranteed
   double seconds;               ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
 };

@@ -25,9 +25,10 @@ namespace hpvi
  *
  * Fractions of n cells are rounded up; cells of equal eta_K come in the order of their index. A
  * cell of maximum degree is bisected where its p would rise, except by pu, which then has nothing
- * left to do.
+ * left to do. @p eta by active cell.
  */
-Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees, const ErrorEstimate &estimate,
+Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
+                const std::vector<double> &eta,
                 const std::function<double(unsigned int cell)> &decay_rate);
 
 /** The entry of section Adaptivity for which mark() had no cell to refine. */

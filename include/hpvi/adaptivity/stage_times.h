@@ -18,11 +18,12 @@ struct StageTimes
   double qp = 0;       ///< the quadratic program
   double recover = 0;  ///< u from the multiplier, energies
   double estimate = 0; ///< residual indicator
+  double bound = 0;    ///< guaranteed bound of the error
   double decide = 0;   ///< smoothness, marking
   double refine = 0;   ///< bisection that led to this step
 
   /** Name and seconds of every stage, in the order in which they run. */
-  std::array<std::pair<const char *, double>, 8> named() const
+  std::array<std::pair<const char *, double>, 9> named() const
   {
     return {{{"setup", setup},
              {"assemble", assemble},
@@ -30,6 +31,7 @@ struct StageTimes
              {"qp", qp},
              {"recover", recover},
              {"estimate", estimate},
+             {"bound", bound},
              {"decide", decide},
              {"refine", refine}}};
   }
@@ -44,9 +46,9 @@ struct StageTimes
 
   StageTimes &operator+=(const StageTimes &other)
   {
-    for (const auto stage :
-         {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor, &StageTimes::qp,
-          &StageTimes::recover, &StageTimes::estimate, &StageTimes::decide, &StageTimes::refine})
+    for (const auto stage : {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor,
+                             &StageTimes::qp, &StageTimes::recover, &StageTimes::estimate,
+                             &StageTimes::bound, &StageTimes::decide, &StageTimes::refine})
       this->*stage += other.*stage;
     return *this;
   }

@@ -23,6 +23,9 @@ template <int dim>
 std::vector<std::string> warnings(const Solution<dim> &solution,
                                   const std::vector<ContactState<dim>> &contact,
                                   const History &history, const AlgebraicError &algebraic);
+
+/** Where a second start was asked for: that it led to another solution, or to none; else empty. */
+std::string several_solutions(const CoulombReport &report);
 } // namespace hpvi
 
 #endif

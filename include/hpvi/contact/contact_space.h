@@ -48,6 +48,7 @@ struct ContactFace
   double friction_bound(const dealii::Point<dim> &x) const;
 
   double friction_coefficient(const dealii::Point<dim> &x) const; ///< mu_f(x) likewise
+  double past_slip(const dealii::Point<dim> &x) const; ///< u_t(x) from which slip is counted
 };
 
 /** Values at @p s of the polynomials that are 1 at one of @p points and 0 at the others. */
@@ -68,9 +69,10 @@ struct ContactMultiplier
   dealii::Tensor<1, dim> direction; ///< of the displacement that it works on
   /** Of the quadrature rule, times ds: `int z_N = sum_i weight_i z_i` [length^(dim-1)]. */
   double weight = 0;
-  double bound = 0;       ///< g(x) [stress]; 0 for a pressure
-  double gap = 0;         ///< int psi u_0 with its basis function psi, 0 for friction [length^dim]
-  double coefficient = 0; ///< mu_f(x) of Coulomb's law
+  double bound = 0; ///< g(x) [stress]; 0 for a pressure
+  /** int psi u_0 with its basis function psi; of friction that of FrictionLaw::past [length^dim]. */
+  double gap = 0;
+  double coefficient = 0;                                       ///< mu_f(x) of Coulomb's law
   unsigned int partner = dealii::numbers::invalid_unsigned_int; ///< its pressure there; else none
   bool is_bilateral = false;                                    ///< a pressure of any sign
 };
@@ -165,6 +167,7 @@ private:
   using Kind = typename ContactMultiplier<dim>::Kind;
 
   void number_friction(ContactFace<dim> &face, const ShapeTables<dim> &tables);
+  void add_past(const ContactFace<dim> &face, const dealii::QGauss<1> &gauss);
   void number_pressures(ContactFace<dim> &face, const ShapeTables<dim> &tables);
   void number_nodes(ContactFace<dim> &face, const DisplacementSpace<dim> &displacement_space,
                     const ShapeTables<dim> &tables);

@@ -40,6 +40,7 @@ struct ContactPoint
    */
   double normal_traction;
   double tangential_traction; ///< T_t = -z_N [stress]
+  double slip;                ///< u_t, in a load history less that of the load step before [length]
 
   ContactMode mode() const
   {

@@ -79,6 +79,13 @@ public:
     }
   }
 
+  /** Counted from where the load step began. */
+  void subtract_past(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+  {
+    for (unsigned int k = 0; k < nodal.size(); ++k)
+      nodal[k] -= face.past_slip(face.point(tables.gauss(nodal.size()).point(k)[0]));
+  }
+
   /** At reference coordinate s in [0,1] of the face. */
   double operator()(const double s) const
   {

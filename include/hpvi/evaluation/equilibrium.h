@@ -38,6 +38,11 @@ struct Equilibrium
 /** The forces of @p solution, whose loads and friction @p system holds. */
 template <int dim>
 Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system);
+
+/** What the reactions of prescribed displacements do on @p v [stress length^dim]. */
+template <int dim>
+double work_of_supports(const Solution<dim> &solution, const ElasticSystem<dim> &system,
+                        const dealii::Vector<double> &v);
 } // namespace hpvi
 
 #endif

@@ -19,9 +19,17 @@ struct ErrorEstimate
   std::vector<double> normal;      ///< h_K/p_K |sigma_n - G_n + lambda_Nn|^2
   std::vector<double> penetration; ///< mu^2 p_K/h_K |max(u_Nn - u_0, 0)|^2
   std::vector<double> tension;     ///< h_K/p_K |min(lambda_Nn, 0)|^2
+  /**
+   * Of Coulomb friction, empty without it: `h_K/p_K |max(|lambda_Nt| - mu_f max(lambda_Nn, 0), 0)|^2`,
+   * what friction exceeds between the points at which its law holds (Hild & Lleras, SIAM J. Numer.
+   * Anal. 47, 2009, p. 3550).
+   */
+  std::vector<double> excess;
 
   /** eta_K of (4.50). */
   double indicator(unsigned int cell) const;
+
+  std::vector<double> indicators() const; ///< eta_K by active cell index
 
   /** eta = (sum_K eta_K^2)^{1/2}; the print of (4.51) lacks the square. */
   double total() const;

@@ -35,6 +35,7 @@ public:
  * | `scene.prm` | every parameter with its value |
  * | `convergence.csv` | a row per step: `estimate*` in stress length^(dim/2), energies in stress length^dim, times in seconds; empty where nothing was computed |
  * | `degrees.csv` | number of elements of each degree, a row per step |
+ * | `loading.csv` | a row per load step, where the scene has a history |
  * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
@@ -84,7 +85,7 @@ private:
   bool is_usable = false; ///< proved by writing `scene.prm`
   Tables<dim> tables;
   Summary<dim> summary;
-  std::vector<std::pair<double, std::string>> vtu_files; ///< step and file name
+  std::vector<std::pair<double, std::string>> vtu_files; ///< step, or time, and file name
 };
 } // namespace hpvi
 

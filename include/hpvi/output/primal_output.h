@@ -55,6 +55,7 @@ private:
   std::vector<std::pair<double, std::string>> solutions; ///< step and file name
   StageTimes times;                                      ///< sums over the steps
   std::string status = "running", message, stopped_by;
+  std::vector<std::string> warnings; ///< of the last step
 };
 } // namespace hpvi
 

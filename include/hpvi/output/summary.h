@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/step_report.h>
 #include <hpvi/output/record.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,11 +26,19 @@ struct Summary
   std::vector<ContactState<dim>> contact; ///< of the last step
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
+  std::optional<ErrorBound> bound; ///< of the last step
+  double relative_bound = 0;
+  double energy = 0; ///< J(u_N), likewise
+  LoadStep load; ///< the last one that is done, of a history
+
   /** Count a finished step, whose row is @p row. */
   void add(const StepReport<dim> &step, const Record &row);
 
   /** With the names of the program's own @p files. */
   std::string json(const Scene<dim> &scene, const std::set<std::string> &files) const;
+
+private:
+  std::string json_bound(const Scene<dim> &scene) const;
 };
 } // namespace hpvi
 

@@ -10,7 +10,10 @@
 
 namespace hpvi
 {
-/** The tables with a row per step: what `convergence.csv` and `degrees.csv` hold. */
+/**
+ * The tables with a row per step: what `convergence.csv` and `degrees.csv` hold; and `loading.csv` with a
+ * row per load step of a history.
+ */
 template <int dim>
 class Tables
 {
@@ -20,10 +23,12 @@ public:
   const Record &last_row() const; ///< of convergence()
   std::string convergence() const;
   std::string degrees() const;
+  std::string loading() const;
 
 private:
   std::vector<Record> rows;
   std::vector<std::vector<unsigned int>> elements; ///< by step and degree
+  std::vector<Record> load_steps;
 };
 
 /** Name and seconds of every stage. */

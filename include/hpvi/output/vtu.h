@@ -29,7 +29,7 @@ struct PrimalVtu
 template <int dim>
 PrimalVtu vtu(const PrimalReport<dim> &step, const std::vector<std::string> &pieces);
 
-/** `solution.pvd`: pairs of step and file name in order, to be opened at once. */
+/** `solution.pvd`: pairs of step, or time, and file name in order, to be opened at once. */
 std::string pvd(const std::vector<std::pair<double, std::string>> &files);
 } // namespace hpvi
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
 
 #include <memory>
 #include <vector>
@@ -26,7 +27,8 @@ struct DiscState
  * multigrid of ML. Multigrid sees A + H with 1e4-fold diagonals where discs stick, and rigid body
  * motions that vanish there. It is set up anew only where more than a fiftieth of the discs has changed
  * its state; until then what sticks is masked, and what slips now gets its own block as a
- * correction. Behind this interface the matrix could as well be free of entries.
+ * correction. Where the scene wants that, or where multigrid breaks down, a factorisation by MUMPS, anew for each
+ * linearisation, stands in its place. Behind this interface the matrix could as well be free of entries.
  */
 template <int dim>
 class MomentMatrix
@@ -47,8 +49,9 @@ public:
   void linearise(const std::vector<DiscState<dim>> &states);
 
   /**
-   * Improves @p v until the residual is below @p tolerance, and sets what sticks to zero. Collective. Throws
-   * NumericalFailure where that takes more than a thousand steps.
+   * Improves @p v until the residual is below @p tolerance, and sets what sticks to zero. Collective. Where
+   * multigrid takes more than a thousand steps a factorisation takes its place from here on. Throws
+   * NumericalFailure where that does not help.
    */
   void solve(DistributedVector &v, const DistributedVector &b, double tolerance);
 
@@ -56,14 +59,17 @@ public:
   void precondition(DistributedVector &z, const DistributedVector &r) const;
 
   unsigned int n_steps = 0;  ///< of conjugate gradients so far
-  unsigned int n_setups = 0; ///< of multigrid so far
+  unsigned int n_setups = 0; ///< of multigrid, or factorisations, so far
   double setup_seconds = 0;  ///< which these took
+  bool fell_back = false;    ///< has multigrid broken down?
 
 private:
   Tangential<dim> at(const DistributedVector &x, unsigned int disc) const;
   void add(DistributedVector &x, unsigned int disc, const Tangential<dim> &value) const;
   void mask(DistributedVector &x) const;
   void set_up();
+  void factor();
+  bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance);
   std::vector<double> rigid_motions() const;
   void set_block(unsigned int disc, const Block &block);
   void multiply_linearised(DistributedVector &y, const DistributedVector &x) const;
@@ -74,6 +80,11 @@ private:
   std::vector<DiscState<dim>> states, known; ///< now; when multigrid was set up
   std::vector<double> motions;               ///< rigid_motions(), one after the other
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
+  bool is_direct;
+  dealii::SolverControl control;
+  dealii::TrilinosWrappers::SparseMatrix
+      factored; ///< A + H with rows of the unit matrix where discs stick
+  std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
 };
 } // namespace hpvi
 

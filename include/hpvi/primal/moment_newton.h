@@ -15,6 +15,7 @@ struct NewtonReport
   unsigned int steps = 0;
   unsigned int cg_steps = 0;      ///< of conjugate gradients in all of them
   unsigned int setups = 0;        ///< of multigrid
+  bool fell_back = false;         ///< multigrid broke down, and a factorisation took its place
   unsigned int line_searches = 0; ///< steps that had to be shortened
   unsigned int n_slipping = 0;    ///< discs, of all processes
   double residual = 0;            ///< relative to the load vector

@@ -36,9 +36,10 @@ struct PrimalReport
   Energies energies{};
   std::vector<MomentPoint<dim>> contact{}; ///< on the first process alone
   NewtonReport newton{};
-  StageTimes times{};       ///< of the first process
-  double seconds = 0;       ///< since the start of the run, without output
-  std::string stopped_by{}; ///< empty, or the limit that makes this the last step
+  StageTimes times{};                  ///< of the first process
+  double seconds = 0;                  ///< since the start of the run, without output
+  std::string stopped_by{};            ///< empty, or the limit that makes this the last step
+  std::vector<std::string> warnings{}; ///< of the last step, complete on the first process
 };
 
 /**

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ class ExpressionReader
 public:
   using Expression = std::shared_ptr<const dealii::Function<dim>>;
 
-  /** The material gives the constants E, nu, mu. */
-  ExpressionReader(const Parameters &parameters, const Material &material);
+  /** The material gives the constants E, nu, mu; @p t is the time in a load history. */
+  ExpressionReader(const Parameters &parameters, const Material &material,
+                   std::optional<double> t = {});
 
   /** Gives a component of the exact solution's field; null if the scene has no such solution. */
   using ExactField = std::function<Expression(unsigned int component)>;
@@ -58,12 +60,14 @@ private:
   Expression make_function(const std::string &section, const std::string &name,
                            const std::string &text,
                            const std::vector<dealii::Point<dim>> &points) const;
+  /** What is wrong with @p text, as far as the parser can tell: the end of a message. */
+  std::string objection(const std::string &text) const;
   /** What the parser takes without complaint, but not as it is meant. */
   void check_misreadings(const std::string &section, const std::string &name,
                          const std::string &text) const;
 
   const Parameters &parameters;
-  const std::map<std::string, double> constants;
+  const std::map<std::string, double> constants; ///< t among them, in a load history
 };
 } // namespace hpvi
 

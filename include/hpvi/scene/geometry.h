@@ -38,6 +38,9 @@ struct Geometry
   /** The d-linear image of @p unit in [0,1]^dim. */
   dealii::Point<dim> point(const dealii::Point<dim> &unit) const;
 
+  /** Are all cells images of a square under an affine map? */
+  bool has_affine_cells() const;
+
   Shape shape = Shape::box;
   /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
   Corners<dim> corners;

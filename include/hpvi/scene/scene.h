@@ -55,6 +55,7 @@ struct FrictionLaw
 {
   Expression<dim> bound;       ///< Tresca's g(x) >= 0 [stress]; null: not Tresca's law
   Expression<dim> coefficient; ///< Coulomb's mu_f(x) >= 0: |T_t| <= mu_f |T_n|; null: not his law
+  Expression<dim> past; ///< u_t(x) from which slip is counted [length], in a load history; null: 0
 
   explicit operator bool() const
   {
@@ -116,6 +117,13 @@ enum class QpSolver
   active_set ///< ActiveSet
 };
 
+/** What is known of the error, cell by cell and in all. */
+enum class Indicator
+{
+  residual, ///< of (4.44)-(4.51)
+  bound     ///< ErrorBound
+};
+
 /** The degree of the coarse mesh with which the thesis starts @p method. */
 unsigned int own_start_degree(Method method);
 
@@ -124,6 +132,7 @@ struct Adaptivity
 {
   Method method = Method::hpa3;
   SmoothnessReading reading = SmoothnessReading::plain;
+  Indicator indicator = Indicator::residual; ///< which eta_K marks
   unsigned int start_degree = 3;    ///< p >= -offset of the multiplier at the contact boundary
   unsigned int maximum_degree = 12; ///< cells of this degree are bisected where p would rise
   double hap_threshold = 0.5;       ///< hap: bisect where eta_K > threshold * mean(eta_K)
@@ -136,7 +145,9 @@ struct Adaptivity
   unsigned int maximum_steps = 16;
   unsigned int maximum_unknowns = 1000000; ///< no step is started after one with more dofs_free
   double maximum_seconds = 0;              ///< no step is started after this time; 0: no limit
-  double tolerance = 0; ///< stop where the relative indicator falls below; 0: never
+  double tolerance = 0;                    ///< stop where the relative error falls below; 0: never
+  Indicator tolerance_on =
+      Indicator::bound; ///< as this knows it; the residual where none is guaranteed
 };
 
 /** What finds Coulomb friction. */
@@ -174,7 +185,8 @@ struct SolverSettings
   bool diagonal_scaling = true;
   NormalContact normal_contact = NormalContact::nodes; ///< but for Coulomb friction: multiplier
   CoulombMethod coulomb_method = CoulombMethod::newton;
-  int multiplier_offset = -2; ///< the multiplier has degree p_K + offset on a contact edge
+  bool check_uniqueness = false; ///< of Coulomb friction: solve from another start, too
+  int multiplier_offset = -2;    ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number =
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
 };
@@ -186,6 +198,31 @@ struct OutputSettings
   bool mesh_picture = true;
   bool contact = true;
   bool reference = false; ///< reference.dat after the last step
+};
+
+/** Which steps of a load history refine their mesh. */
+enum class LoadAdaptivity
+{
+  first_step, ///< the later ones solve once, on the mesh of the first
+  every_step  ///< each begins with the mesh of the one before
+};
+
+template <int dim>
+struct Scene;
+
+/**
+ * A history of loads, t = 1/steps, 2/steps, ..., 1: quasi-static evolution, in which friction acts on
+ * the increment of the tangential displacement (LoadHistory).
+ */
+template <int dim>
+struct Loading
+{
+  unsigned int steps = 0; ///< 0: one problem, without time
+  LoadAdaptivity adapt = LoadAdaptivity::every_step;
+  /** The scene at the time t, itself without history: same body, same kinds of conditions. */
+  std::function<Scene<dim>(double t)> at;
+
+  double time(unsigned int step) const; ///< of a load step, counted from 1
 };
 
 /** What a scene is there for. */
@@ -220,8 +257,10 @@ struct Scene
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
+  bool error_bound = true; ///< compute ErrorBound where there is one
   SolverSettings solver;
   OutputSettings output;
+  Loading<dim> loading;
 
   /** The file, for messages and scene.prm; null: the scene was built by code. */
   std::shared_ptr<const Parameters> parameters;
@@ -253,11 +292,15 @@ struct Scene
   double largest_mu() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
+  bool has_load_history() const;
   bool has_contact() const;
   bool has_known_solution() const; ///< exact or reference: can the true error be measured?
   bool has_friction() const;       ///< does any contact boundary name a bound or a coefficient?
   bool has_coulomb_friction() const;
   bool has_unilateral_contact() const;
+  /** Why no ErrorBound is guaranteed, in words; empty where one is. */
+  std::string no_error_bound() const;
+
   bool has_pressure() const; ///< has T_n of any contact boundary a multiplier of its own?
 
   /**

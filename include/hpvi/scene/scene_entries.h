@@ -17,9 +17,10 @@ inline const std::vector<std::string> boundary_names = {"left", "right", "bottom
 inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
-/** In the order of the enumerators of SmoothnessReading, QpSolver, Shape, PlaneModel, Contact, NormalContact,
-    CoulombMethod, SolutionPath, LinearMethod. */
+/** In the order of the enumerators of SmoothnessReading, Indicator, QpSolver, Shape, PlaneModel, Contact, NormalContact,
+    CoulombMethod, LoadAdaptivity, SolutionPath, LinearMethod. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
+                                      indicator_names = {"residual", "bound"},
                                       qp_solver_names = {"mprgp", "active set"},
                                       shape_names = {"box", "quadrilateral"},
                                       plane_names = {"stress", "strain"},
@@ -27,6 +28,7 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                                        "tangential"},
                                       normal_contact_names = {"multiplier", "nodes"},
                                       coulomb_method_names = {"newton", "fixed point"},
+                                      load_adaptivity_names = {"first step", "every step"},
                                       path_names = {"auto", "reduced", "primal"},
                                       linear_names = {"amg", "direct"};
 
@@ -52,6 +54,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Maximum unknowns", adaptivity.maximum_unknowns);
   visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
+  visit("Error", "Bound", scene.error_bound);
   auto &solver = scene.solver;
   visit("Solver", "Primal tolerance", solver.primal_tolerance);
   visit("Solver", "QP warm start", solver.qp_warm_start);
@@ -59,6 +62,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
   visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
   visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
+  visit("Solver", "Check uniqueness", solver.check_uniqueness);
   visit("Solver", "Condition number", solver.condition_number);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);

@@ -29,8 +29,8 @@ public:
   using Inner = std::function<QpReport(const QuadraticProgram &, dealii::Vector<double> &)>;
 
   /**
-   * @p penalty is Gamma, symmetric positive definite. At the end `|e - G'z|_j <= tolerance |G_j| f`
-   * for each column j of G, where f is the largest `(sum_i |G_ij z_i| + |e_j|) / |G_j|` of all.
+   * @p penalty is Gamma, symmetric positive definite. At the end EqualityConstraints::imbalance() is
+   * not above the tolerance, a hundred times that of the inner problems, whose noise_of(d) it allows for.
    */
   BalanceSolver(Inner inner, dealii::FullMatrix<double> penalty, double tolerance);
 

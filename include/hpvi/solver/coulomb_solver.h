@@ -9,6 +9,7 @@
 #include <hpvi/solver/friction_cones.h>
 #include <hpvi/solver/mprgp.h>
 
+#include <optional>
 #include <string>
 
 namespace hpvi
@@ -40,6 +41,11 @@ struct CoulombReport
   double contraction = 0;             ///< of the fixed point, as far as seen; 0 if it did not run
   double residual = 0;                ///< what is compared with the tolerance
   std::string method;                 ///< what ended it
+  /** Of a second solution, see difference_from_second_start(); empty if none was sought. */
+  std::optional<double> difference;
+
+  /** Two solutions that differ by less are one. */
+  static constexpr double same = 1e-6;
 };
 
 /**
@@ -78,6 +84,13 @@ public:
    */
   CoulombReport solve(const ConeProgram &program, dealii::Vector<double> &z,
                       dealii::Vector<double> &alpha, bool warm) const;
+
+  /**
+   * `|z' - z|_S / max(|z|_S, |z'|_S)` for the solution @p z and the z' that Newton's method finds from a
+   * start that knows nothing of z: all that frictionless contact closes sticks. NaN if it finds none.
+   */
+  double difference_from_second_start(const ConeProgram &program,
+                                      const dealii::Vector<double> &z) const;
 
 private:
   Mprgp::Settings settings;

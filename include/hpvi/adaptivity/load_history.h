@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_load_history_h
+#define hpvi_load_history_h
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+
+#include <functional>
+#include <memory>
+
+namespace hpvi
+{
+/**
+ * Quasi-static evolution: one AdaptiveSolver for each load step of a scene. The displacement u^k of load
+ * step k satisfies, with du = u - u^(k-1),
+ *
+ *     a(u, v - u) + int g_k |du_t + v_t - u_t| - int g_k |du_t| >= L_k(v - u)   for all v,
+ *
+ * which is the problem without history but for the past slip u_t^(k-1), FrictionLaw::past. Meshes are
+ * nested, so that it is handed on without error. A scene without history is one load step.
+ */
+template <int dim>
+class LoadHistory
+{
+public:
+  /** Throws InputError where the scene or that of a load step does not pass Scene::check(). */
+  explicit LoadHistory(const Scene<dim> &scene);
+  ~LoadHistory();
+
+  /**
+   * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
+   * StepReport::stopped_by says of each load step why it is done. The last one has
+   * the warnings of all, those that differ in numbers alone once, with the load step that gave them first. Throws NumericalFailure and InputError, which
+   * name the load step.
+   */
+  void run(
+      const std::function<void(const StepReport<dim> &)> &finished_step,
+      const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+
+private:
+  struct Evolution;
+  std::unique_ptr<Evolution> evolution;
+};
+} // namespace hpvi
+
+#endif

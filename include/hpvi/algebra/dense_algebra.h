@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_dense_algebra_h
+#define hpvi_dense_algebra_h
+
+#include <vector>
+
+namespace hpvi
+{
+/** A part of a dense matrix of doubles, stored by columns. */
+struct DensePart
+{
+  const double *entries;
+  unsigned int stride; ///< from column to column
+};
+
+/** `C := alpha op(A) op(B) + beta C`, C rows x columns; op transposes where its letter is 'T'. */
+void multiply(char op_A, char op_B, unsigned int rows, unsigned int columns, unsigned int inner,
+              double alpha, DensePart A, DensePart B, double beta, double *C, unsigned int stride);
+
+/** A := L with `A = L L'`, in the lower triangle. Is A positive definite? */
+bool cholesky(unsigned int n, double *A, unsigned int stride);
+
+/** `B := op(L)^-1 B` with L lower triangular of size n, B n x columns. */
+void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L, double *B,
+                      unsigned int stride);
+
+/**
+ * Cholesky with pivots of a positive semidefinite matrix (n x n, both triangles given): rows and
+ * columns order[0], order[1], ... until the next pivot is below tolerance times the first.
+ */
+struct PivotedCholesky
+{
+  PivotedCholesky() = default;
+  PivotedCholesky(unsigned int n, std::vector<double> A, double tolerance);
+
+  /** One of the solutions of `A x = b`, for b in the range of A. */
+  std::vector<double> solve(const std::vector<double> &b) const;
+
+  std::vector<unsigned int> order; ///< as long as the rank
+  std::vector<double> L;           ///< rank x rank
+  unsigned int n = 0;
+};
+} // namespace hpvi
+
+#endif

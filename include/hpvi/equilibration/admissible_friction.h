@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_admissible_friction_h
+#define hpvi_admissible_friction_h
+
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/equilibration/edge_polynomial.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Friction near z_N that Tresca's law admits at every point, `tau = g l*` with |l*| <= 1, and that does
+ * the same work as z_N on the hat functions psi_a of the contact vertices: the datum of an equilibrated
+ * stress, patch by patch. z_N itself overshoots g between its Gauss points.
+ *
+ * On each contact face and for each of its ends a there is a polynomial l_a of the degree of its cell,
+ * and `l* = sum_a psi_a l_a`. For each vertex a, over the one or two faces that lie on one straight
+ * contact boundary there,
+ *
+ *     sum_f int g psi_a l_a = sum_f int psi_a z_N,   |l_a| <= 1,   l_a continuous at a.
+ *
+ * The first is possible because z_N does no more work on psi_a than g where the Gauss points of z_N see
+ * all of g: always for constant g. Faces on which it does as much slip everywhere, and there l_a = +-1. Of
+ * all others, l_a minimises
+ *
+ *     h/(2 mu p) int psi_a (g l_a - z_N)^2 - 2 int psi_a g l_a u_Nt,
+ *
+ * the second term on faces with both stick and slip alone: what a deviation of the friction costs in the
+ * energy of the stress, up to a factor near 1, and what it spares in int g (|u_Nt| - l* u_Nt). Tresca's
+ * law only.
+ */
+template <int dim>
+class AdmissibleFriction
+{
+public:
+  explicit AdmissibleFriction(const Solution<dim> &solution);
+
+  /** l_a at end 0 or 1 of a face of ContactSpace::faces(). Zero where g vanishes on the face. */
+  const EdgePolynomial &part(unsigned int face, unsigned int end) const;
+
+  double value(unsigned int face, double s) const; ///< l* at s in [0,1]
+
+  /**
+   * The largest of `|sum_f int g psi_a l_a - int psi_a z_N|`, relative to int psi_a g: above round-off
+   * only where z_N does more work than g lets it, because g varies between the Gauss points. No stress is
+   * in balance with l* then.
+   */
+  double imbalance() const;
+
+private:
+  std::vector<std::array<EdgePolynomial, 2>> parts; ///< by face and end
+  double largest_imbalance = 0;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_data_error_h
+#define hpvi_data_error_h
+
+#include <hpvi/equilibration/equilibrated_stress.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * What an equilibrated stress and u_N miss of the data of a scene, in energy.
+ *
+ * Loads: s is in equilibrium with projections Pi F, Pi G that have the same force and moment on each cell
+ * and edge. So on a convex cell K of diameter d, with z the rigid motion nearest to e,
+ *
+ *     int_K (F - Pi F).e <= d/pi |F - Pi F|_K |grad(e - z)|_K,
+ *     int_E (G - Pi G).e <= ((d^2/pi^2 + 2 b d/pi)/H)^{1/2} |G - Pi G|_E |grad(e - z)|_K
+ *
+ * by Payne and Weinberger (10.1007/BF00252910) and by the trace inequality that integrates
+ * div(t b v^2), t from 0 on the edge opposite to E to 1 on E, b along the other edges, H the height over E;
+ * and `|grad(e - z)|_K <= 2^{1/2}/(beta c^{1/2}) |e|_{a,K}` with the coercivity c of the material and
+ * `beta >= rho/(2^{1/2} R) (1 + (1 - rho^2/R^2)^{1/2})^{-1/2}` for radii rho, R of an inner and an outer
+ * circle about the centre (Horgan and Payne; proof by Costabel and Dauge, arXiv:1303.6141).
+ *
+ * Prescribed displacements u_D outside V_N: `d = (u_D - u_N)(t) (1 - n)^q` in the cells at the boundary,
+ * n from 0 there to 1 on the opposite edge, with the best q. u_D is read at the Gauss-Lobatto points of a
+ * polynomial of degree p + 12 on each edge.
+ */
+class DataError
+{
+public:
+  DataError(const Solution<2> &solution, const EquilibratedStress &stress);
+
+  std::vector<double> oscillation; ///< of loads, by active cell index: to be added to |s - sigma|_K
+  double lift = 0;                 ///< |d|_a
+};
+} // namespace hpvi
+
+#endif

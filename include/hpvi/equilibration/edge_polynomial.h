@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_edge_polynomial_h
+#define hpvi_edge_polynomial_h
+
+#include <hpvi/contact/contact_space.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A polynomial of s in [0,1], in the Legendre basis L_i(2s - 1) that is orthonormal on [-1,1]:
+ * `int_{-1}^1 L_i L_j = delta_ij`.
+ */
+class EdgePolynomial
+{
+public:
+  EdgePolynomial() = default; ///< zero
+
+  explicit EdgePolynomial(const std::vector<double> &coefficients);
+
+  static EdgePolynomial constant(double value);
+
+  /** The one of least degree with @p values at the points of @p gauss. */
+  static EdgePolynomial through(const std::vector<double> &values, const dealii::QGauss<1> &gauss);
+
+  double operator()(double s) const;
+
+  std::vector<double> coefficients() const;
+
+  double largest() const; ///< no less than the largest of its absolute values over [0,1]
+
+  /** Where it changes sign in (0,1), ascending: between those of its derivative, so that none is missed. */
+  std::vector<double> zeros() const;
+
+  /** Where its largest and least values over [0,1] can be: both ends and the zeros of its derivative. */
+  std::vector<double> extremes() const;
+
+private:
+  EdgePolynomial derivative() const;
+
+  std::vector<double> terms; ///< coefficients of P_i(2s - 1), P_i(1) = 1
+};
+
+/** L_0 to L_{n-1} at s. */
+dealii::Vector<double> legendre_basis(unsigned int n, double s);
+
+/** v_t along a contact face, for displacement unknowns v of the space. */
+template <int dim>
+EdgePolynomial tangential_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                                const ShapeTables<dim> &tables, const dealii::Vector<double> &v);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_equilibrated_stress_h
+#define hpvi_equilibrated_stress_h
+
+#include <hpvi/equilibration/patch_problem.h>
+
+#include <functional>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A stress s in equilibrium with the loads, `div s = -Pi F` and `s n = Pi G` where tractions are
+ * given, with continuous tractions, and `s_t = -Pi (g lam*)` along the contact: the sum over all
+ * vertices a of stresses near psi_a sigma(u_N), each the solution of a small problem on the patch of a
+ * (DOI 10.1090/S0025-5718-07-02080-7 for the idea). These can be solved because u_N meets the discrete
+ * equations for psi_a times any rigid motion, which takes p >= 2.
+ */
+class EquilibratedStress
+{
+public:
+  /**
+   * Legendre coefficients of a polynomial l on a contact face, from the end of the face whose hat
+   * function psi is 1 there: `lam* = sum psi l`.
+   */
+  using Friction = std::function<std::vector<double>(unsigned int face, unsigned int end)>;
+
+  EquilibratedStress(const Solution<2> &solution, const Friction &friction,
+                     EquilibrationCache &cache);
+
+  std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
+  double defect = 0;           ///< largest violation of a condition N'r = 0 [stress]
+
+  const VertexPatches &patches() const;
+
+  /** Both components of the traction on each edge: Legendre coefficients, as in VertexPatches. */
+  const std::vector<std::array<std::vector<double>, 2>> &tractions() const;
+
+  /** What loads and friction prescribe at s in [0,1] of an edge of the boundary. */
+  dealii::Tensor<1, 2> prescribed_traction(unsigned int edge, double s) const;
+
+  /** Points and weights on [0,1] for integrals with it. */
+  std::vector<std::pair<double, double>> prescribed_points(unsigned int edge) const;
+
+  double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
+
+  const LegendreTables &legendre_tables() const;
+
+  /** s on a cell. */
+  StressElement::Stress stress(unsigned int cell) const;
+
+  /** B of the element of a cell: `s = B S B'`. */
+  dealii::Tensor<2, 2> frame(unsigned int cell) const;
+
+private:
+  /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
+  struct Cell
+  {
+    const StressElement *element;
+    dealii::Tensor<2, 2> B;
+    double h; ///< of the element [length]
+    Modes<3> sigma;
+    std::vector<double> force; ///< F in the frame, at the points of the loads; empty: none
+    unsigned int n_force = 0;  ///< these points per direction
+    unsigned int first_column;
+  };
+
+  /** All data of the cells of one element: a column for each hat function, then one for 1. */
+  struct Batch
+  {
+    std::vector<unsigned int> cells;
+    unsigned int n_columns = 0;
+    std::vector<double> r, gradients, defects;
+  };
+
+  dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
+  dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
+                                   double bound) const;
+  void set_known_tractions(unsigned int edge);
+  void add_load(unsigned int edge, unsigned int end, double s, double weight,
+                const dealii::Tensor<1, 2> &traction);
+  void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
+  std::vector<unsigned int> marked_corners() const;
+  double known_shear(unsigned int edge, unsigned int end) const;
+  void set_cells();
+  void set_data();
+  void set_stress(unsigned int cell);
+  Modes<2> load(unsigned int cell, const std::array<double, 4> &psi) const;
+  void solve_patches();
+  std::vector<double> data_of(unsigned int cell) const;
+  void measure();
+
+  const Solution<2> &solution;
+  const Friction friction;
+  EquilibrationCache &cache;
+  const VertexPatches vertex_patches;
+  std::vector<Cell> cells;
+  std::map<const StressElement *, Batch> batches;
+  /** psi times what is prescribed, by edge, end and component. */
+  std::vector<std::array<std::array<std::vector<double>, 2>, 2>> known;
+  std::vector<std::array<std::vector<double>, 2>> sums; ///< tractions
+};
+} // namespace hpvi
+
+#endif

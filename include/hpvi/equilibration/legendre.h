@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_legendre_h
+#define hpvi_legendre_h
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Orthonormal Legendre polynomials on [-1,1], `int L_i L_j = delta_ij`: the basis of all equilibrated
+ * stresses. L_i has degree i; a polynomial is the vector of its coefficients.
+ */
+namespace legendre
+{
+/** L_0 to L_{n-1} at @p x. */
+std::vector<double> values(unsigned int n, double x);
+
+/** `L_i' = sum_j derivative(i, j) L_j`; not zero for j = i-1, i-3, ... alone. */
+double derivative(unsigned int i, unsigned int j);
+
+/** `x L_i = shift(i+1) L_{i+1} + shift(i) L_{i-1}`. */
+double shift(unsigned int i);
+
+double at_end(unsigned int i, bool right); ///< L_i(-1) or L_i(1)
+
+/** Value of the polynomial with @p coefficients at @p x. */
+double evaluate(const std::vector<double> &coefficients, double x);
+} // namespace legendre
+
+/** Matrices between Legendre coefficients and what elements have, each computed when first asked for. */
+class LegendreTables
+{
+public:
+  /** n x n: coefficients on the first (0) or second (1) half of an interval from those on the whole. */
+  const dealii::FullMatrix<double> &half(unsigned int n, unsigned int part) const;
+
+  /** (p+1) x (p+1): coefficients from values at the Gauss-Lobatto nodes of FE_Q(p). */
+  const dealii::FullMatrix<double> &from_nodes(unsigned int degree) const;
+
+  /** n x n_gauss: `w_q L_i(x_q)`, which turns values at Gauss points into coefficients. */
+  const dealii::FullMatrix<double> &projection(unsigned int n, unsigned int n_gauss) const;
+
+private:
+  using Matrices = std::map<std::array<unsigned int, 2>, dealii::FullMatrix<double>>;
+  mutable Matrices halves, projections;
+  mutable std::map<unsigned int, dealii::FullMatrix<double>> nodal;
+};
+} // namespace hpvi
+
+#endif

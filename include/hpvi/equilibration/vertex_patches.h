@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_vertex_patches_h
+#define hpvi_vertex_patches_h
+
+#include <hpvi/discretisation/solution.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace hpvi
+{
+/** One edge of the mesh with the traction `s n` of an equilibrated stress on it. */
+struct StressEdge
+{
+  /** A cell at the edge; the smaller ones at a hanging node see a half of it. */
+  struct Side
+  {
+    unsigned int cell, face;
+    unsigned int part; ///< 0, 1, or whole_edge
+  };
+
+  /** The traction in one direction: a polynomial with @p n coefficients. */
+  struct Component
+  {
+    dealii::Tensor<1, 2> direction;
+    unsigned int n;
+    bool is_unknown; ///< else loads or contact prescribe it
+  };
+
+  std::array<unsigned int, 2> vertices; ///< along the reference coordinate
+  std::vector<Side> sides;              ///< that of the whole edge first
+  unsigned int degree = 0;              ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
+  dealii::Tensor<1, 2> normal;          ///< of the traction: towards growing xi or eta
+  dealii::Tensor<1, 2> tangent;
+  dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
+  unsigned int contact_face = dealii::numbers::invalid_unsigned_int; ///< of ContactSpace::faces()
+  std::array<Component, 2> components;                               ///< orthogonal directions
+
+  bool at_boundary() const
+  {
+    return boundary != dealii::numbers::invalid_boundary_id;
+  }
+};
+
+/**
+ * The edges of a mesh and the hat functions psi_a of its regular vertices: bilinear on each cell,
+ * continuous, so that a hanging node has the mean of the ends of its edge. `sum_a psi_a = 1`, and the
+ * patch of a is where psi_a does not vanish.
+ */
+class VertexPatches
+{
+public:
+  explicit VertexPatches(const Solution<2> &solution);
+
+  /** psi_a on one cell. */
+  struct Hat
+  {
+    unsigned int vertex;          ///< a
+    std::array<double, 4> values; ///< at the vertices of the cell
+  };
+
+  struct Cell
+  {
+    dealii::DoFHandler<2>::active_cell_iterator iterator;
+    std::array<unsigned int, 4> edges, parts; ///< by face
+    std::vector<Hat> hats;
+  };
+
+  const std::vector<StressEdge> &edges() const;
+  const std::vector<Cell> &cells() const; ///< by active cell index
+
+  /** Cells of each patch: index and number of the hat in it; by vertex. */
+  const std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> &patches() const;
+
+  /** psi_a at vertex @p v. */
+  double hat(unsigned int a, unsigned int v) const;
+
+private:
+  void collect_edges(const Solution<2> &solution);
+  void set_components(const Scene<2> &scene, StressEdge &edge) const;
+  void set_hats(const Solution<2> &solution);
+  const std::map<unsigned int, double> &expand(unsigned int vertex);
+
+  std::vector<StressEdge> all_edges;
+  std::vector<Cell> all_cells;
+  std::map<unsigned int, std::array<unsigned int, 2>> hanging;   ///< vertex: ends of its edge
+  std::map<unsigned int, std::map<unsigned int, double>> values; ///< by vertex v, then a
+  std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> all_patches;
+};
+} // namespace hpvi
+
+#endif

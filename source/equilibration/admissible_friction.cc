@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/solver/inequality_program.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** By how much |l| may exceed 1, and how near to its bound a moment counts as that. */
+constexpr double round_off = 1e-14;
+
+/** One face of the patch of a vertex a: the data of l_a on it. */
+struct Side
+{
+  unsigned int face, end;
+  double work = 0;        ///< int psi_a z_N
+  double limit = 0;       ///< int psi_a g
+  Vector<double> moments; ///< int psi_a g L_i
+  FullMatrix<double> H;   ///< of 1/2 l'Hl - h'l, half of what is to be minimised
+  Vector<double> h;
+  EdgePolynomial l;
+
+  /** 1 or -1 where no other l does the work of z_N; else 0. */
+  double forced() const
+  {
+    return std::abs(work) < (1. - 10. * round_off) * limit ? 0. : work < 0. ? -1. : 1.;
+  }
+};
+
+double hat(const unsigned int end, const double s)
+{
+  return end == 0 ? 1. - s : s;
+}
+
+/** Are there both points that stick and points that slip? */
+template <int dim>
+bool has_transition(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  unsigned int n_slipping = 0;
+  for (unsigned int k = 0; k < face.n_multipliers; ++k)
+  {
+    const unsigned int i = face.first_multiplier + k;
+    n_slipping +=
+        std::abs(solution.z[i]) >= (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
+  }
+  return n_slipping > 0 && n_slipping < face.n_multipliers;
+}
+
+/** What a face adds to the patches of both its ends. */
+template <int dim>
+class FaceIntegrals
+{
+public:
+  FaceIntegrals(const unsigned int number, const Solution<dim> &solution)
+      : number(number), face(solution.contact_space.faces()[number]), n(face.degree + 1),
+        weight(face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree)),
+        leans(has_transition(face, solution)), gauss(solution.tables.gauss(face.n_multipliers + 1)),
+        z(EdgePolynomial::through({solution.z.begin() + face.first_multiplier,
+                                   solution.z.begin() + face.first_multiplier + face.n_multipliers},
+                                  solution.tables.gauss(face.n_multipliers)))
+  {
+    if (leans)
+      u_t = tangential_trace(face, solution.displacement_space, solution.tables, solution.u);
+  }
+
+  Side side(unsigned int end) const;
+
+private:
+  const unsigned int number;
+  const ContactFace<dim> &face;
+  const unsigned int n;
+  const double weight;
+  const bool leans;
+  const QGauss<1> &gauss;
+  const EdgePolynomial z;
+  EdgePolynomial u_t;
+};
+
+template <int dim>
+Side FaceIntegrals<dim>::side(const unsigned int end) const
+{
+  Side result{number, end, 0., 0., Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
+              {}};
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const double s = gauss.point(q)[0];
+    result.work += face.length * gauss.weight(q) * hat(end, s) * z(s);
+  }
+  const FrictionRule &rule = face.friction;
+  const double largest = *std::max_element(rule.values.begin(), rule.values.end());
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
+  {
+    const double s = rule.points[q], g = rule.values[q], ds = face.length * rule.weights[q];
+    const Vector<double> L = legendre_basis(n, s);
+    result.limit += ds * hat(end, s) * g;
+    result.moments.add(ds * hat(end, s) * g, L);
+    // A little everywhere, so that l is determined where the hat or g is next to nothing.
+    const double part = weight * ds * (hat(end, s) + 1e-3), share = part * g * g;
+    const double small = 1e-6 * weight * ds * largest * largest;
+    const double lambda = g > 0. ? std::max(-1., std::min(1., z(s) / g)) : 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        result.H(i, j) += (share + small) * L[i] * L[j];
+    result.h.add(part * g * z(s) + small * lambda + (leans ? ds * hat(end, s) * g * u_t(s) : 0.),
+                 L);
+  }
+  return result;
+}
+
+/** The quadratic program for those sides of one patch that no forced slip determines. */
+class PatchProgram
+{
+public:
+  PatchProgram(const std::vector<Side *> &sides, const std::vector<Side *> &free);
+
+  /** Set l of the free sides; false: there is none, and they are undefined. */
+  bool solve();
+
+private:
+  Vector<double> row(unsigned int side, const Vector<double> &values) const;
+  InequalityProgram start() const;
+  bool add_conditions(InequalityProgram &program) const;
+  void add_bounds(unsigned int side, double s, InequalityProgram &program) const;
+
+  const std::vector<Side *> &sides, &free;
+  std::vector<unsigned int> first; ///< unknown of each free side; their number
+};
+
+PatchProgram::PatchProgram(const std::vector<Side *> &sides, const std::vector<Side *> &free)
+    : sides(sides), free(free), first{0}
+{
+  for (const Side *side : free)
+    first.push_back(first.back() + side->h.size());
+}
+
+Vector<double> PatchProgram::row(const unsigned int side, const Vector<double> &values) const
+{
+  Vector<double> result(first.back());
+  std::copy(values.begin(), values.end(), result.begin() + first[side]);
+  return result;
+}
+
+InequalityProgram PatchProgram::start() const
+{
+  FullMatrix<double> H(first.back(), first.back());
+  Vector<double> h(first.back());
+  for (unsigned int k = 0; k < free.size(); ++k)
+  {
+    H.fill(free[k]->H, first[k], first[k], 0, 0);
+    h += row(k, free[k]->h);
+  }
+  return InequalityProgram(H, h);
+}
+
+/** The work of z_N, and continuity at the vertex. */
+bool PatchProgram::add_conditions(InequalityProgram &program) const
+{
+  double work = 0;
+  for (const Side *side : sides)
+    work += side->work;
+  for (const Side *side : sides)
+    if (std::find(free.begin(), free.end(), side) == free.end())
+      work -= side->forced() * side->limit;
+  Vector<double> moments(first.back());
+  for (unsigned int k = 0; k < free.size(); ++k)
+    moments += row(k, free[k]->moments);
+  if (!program.add_equality(moments, work))
+    return false;
+  if (sides.size() < 2)
+    return true;
+  const auto at_vertex = [&](const unsigned int k)
+  { return row(k, legendre_basis(free[k]->h.size(), free[k]->end)); };
+  Vector<double> jump = at_vertex(0);
+  if (free.size() == 2)
+    jump -= at_vertex(1);
+  const double other =
+      free.size() == 2 ? 0. : (sides[0] == free[0] ? sides[1] : sides[0])->forced();
+  return program.add_equality(jump, other);
+}
+
+/** -1 <= l(s) <= 1 */
+void PatchProgram::add_bounds(const unsigned int side, const double s,
+                              InequalityProgram &program) const
+{
+  Vector<double> values = row(side, legendre_basis(free[side]->h.size(), s));
+  program.add_inequality(values, -1.);
+  values *= -1.;
+  program.add_inequality(values, -1.);
+}
+
+bool PatchProgram::solve()
+{
+  InequalityProgram program = start();
+  if (!add_conditions(program))
+    return false;
+  for (unsigned int k = 0; k < free.size(); ++k)
+    for (unsigned int i = 0, n = 2 * free[k]->h.size(); i <= n; ++i)
+      add_bounds(k, 0.5 - 0.5 * std::cos(numbers::PI * i / n), program);
+  // Exchange: the extremes that stand out become points as well, and move towards those of the minimum.
+  bool stands_out = true;
+  for (unsigned int round = 0; stands_out && round < 20; ++round)
+  {
+    if (!program.solve())
+      return false;
+    stands_out = false;
+    for (unsigned int k = 0; k < free.size(); ++k)
+    {
+      const auto begin = program.minimiser().begin();
+      free[k]->l = EdgePolynomial({begin + first[k], begin + first[k + 1]});
+      for (const double s : free[k]->l.extremes())
+        if (std::abs(free[k]->l(s)) > 1. + 0.5 * round_off)
+        {
+          stands_out = true;
+          add_bounds(k, s, program);
+        }
+    }
+  }
+  return true;
+}
+
+/** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */
+double constant_part(const std::vector<Side *> &sides)
+{
+  double work = 0, limit = 0;
+  for (const Side *side : sides)
+  {
+    work += side->work;
+    limit += side->limit;
+  }
+  return std::max(-1., std::min(1., work / limit));
+}
+
+/** Bring l into [-1,1] by as much of the constant as it takes, which changes none of its conditions. */
+void shrink(const std::vector<Side *> &sides)
+{
+  const double c = constant_part(sides);
+  double part = 0;
+  for (const Side *side : sides)
+    for (const double s : side->l.extremes())
+      if (const double value = side->l(s); std::abs(value) > 1. + round_off)
+        part = std::max(part, (std::abs(value) - 1.) / std::abs(value - c));
+  if (part == 0)
+    return;
+  for (Side *side : sides)
+  {
+    std::vector<double> coefficients = side->l.coefficients();
+    for (double &coefficient : coefficients)
+      coefficient *= 1. - part;
+    coefficients[0] += part * c * std::sqrt(2.);
+    side->l = EdgePolynomial(coefficients);
+  }
+}
+
+/** Find l on the one or two sides of a patch; returns AdmissibleFriction::imbalance() of it. */
+double distribute(const std::vector<Side *> &sides)
+{
+  std::vector<Side *> free;
+  double slip = 0;
+  bool is_contradictory = false;
+  for (Side *side : sides)
+    if (const double forced = side->forced(); forced == 0.)
+      free.push_back(side);
+    else
+    {
+      side->l = EdgePolynomial::constant(forced);
+      is_contradictory = is_contradictory || slip * forced < 0.;
+      slip = forced;
+    }
+  if (is_contradictory || (!free.empty() && !PatchProgram(sides, free).solve()))
+    if (!PatchProgram(sides, sides).solve())
+      for (Side *side : sides)
+        side->l = EdgePolynomial::constant(constant_part(sides));
+  shrink(sides);
+  double difference = 0, limit = 0;
+  for (const Side *side : sides)
+  {
+    const std::vector<double> coefficients = side->l.coefficients();
+    difference -= side->work;
+    limit += side->limit;
+    for (unsigned int i = 0; i < coefficients.size(); ++i)
+      difference += coefficients[i] * side->moments[i];
+  }
+  return std::abs(difference) / limit;
+}
+
+/** Do the faces of two sides lie on one straight line? */
+template <int dim>
+bool are_aligned(const Side &a, const Side &b, const std::vector<ContactFace<dim>> &faces)
+{
+  return (faces[a.face].frame(0.5).normal - faces[b.face].frame(0.5).normal).norm() < 1e-6;
+}
+} // namespace
+
+template <int dim>
+AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
+    : parts(solution.contact_space.faces().size())
+{
+  static_assert(dim == 2, "vertices of edges");
+  const std::vector<ContactFace<dim>> &faces = solution.contact_space.faces();
+  std::map<unsigned int, std::vector<Side>> sides; // by vertex
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (!faces[k].friction.vanishes() && faces[k].n_multipliers > 0)
+    {
+      const FaceIntegrals<dim> integrals(k, solution);
+      for (const unsigned int end : {0U, 1U})
+        sides[faces[k].cell->face(faces[k].face_no)->vertex_index(end)].push_back(
+            integrals.side(end));
+    }
+  for (auto &[vertex, around] : sides)
+  {
+    if (around.size() == 2 && are_aligned(around[0], around[1], faces))
+      largest_imbalance = std::max(largest_imbalance, distribute({&around[0], &around[1]}));
+    else
+      for (Side &side : around)
+        largest_imbalance = std::max(largest_imbalance, distribute({&side}));
+    for (const Side &side : around)
+      parts[side.face][side.end] = side.l;
+  }
+}
+
+template <int dim>
+const EdgePolynomial &AdmissibleFriction<dim>::part(const unsigned int face,
+                                                    const unsigned int end) const
+{
+  return parts[face][end];
+}
+
+template <int dim>
+double AdmissibleFriction<dim>::value(const unsigned int face, const double s) const
+{
+  const double first = parts[face][0](s), second = parts[face][1](s);
+  return first + s * (second - first); // where both are 1 it is
+}
+
+template <int dim>
+double AdmissibleFriction<dim>::imbalance() const
+{
+  return largest_imbalance;
+}
+
+template class AdmissibleFriction<2>;
+} // namespace hpvi

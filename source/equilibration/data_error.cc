@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/data_error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** A parallelogram. */
+struct Parallelogram
+{
+  explicit Parallelogram(const CellMap<2> &map)
+      : xi(map.vertices()[1] - map.vertices()[0]), eta(map.vertices()[2] - map.vertices()[0]),
+        area(determinant(map.jacobian({0.5, 0.5}))),
+        diameter(std::max((xi + eta).norm(), (xi - eta).norm()))
+  {
+  }
+
+  double along(const unsigned int face) const ///< length of a face
+  {
+    return face < 2 ? eta.norm() : xi.norm();
+  }
+  double across(const unsigned int face) const ///< length of the edges that meet it
+  {
+    return face < 2 ? xi.norm() : eta.norm();
+  }
+
+  /** C with `|grad v| <= C |eps(v)|` for some rotation of v: `2^{1/2}/beta`. */
+  double korn() const
+  {
+    const double ratio = area / std::max(xi.norm(), eta.norm()) / diameter; // rho/R
+    return 2 / ratio * std::sqrt(1 + std::sqrt(std::max(0., 1 - ratio * ratio)));
+  }
+
+  /** C with `|v|_E <= C |grad v|_K` for v of mean zero. */
+  double trace(const unsigned int face) const
+  {
+    const double poincare = diameter / numbers::PI;
+    return std::sqrt((poincare * poincare + 2 * across(face) * poincare) * along(face) / area);
+  }
+
+  const Tensor<1, 2> xi, eta;
+  const double area, diameter;
+};
+
+/** |G - Pi G| on an edge, in the components that are prescribed. */
+double missed_traction(const EquilibratedStress &stress, const unsigned int index)
+{
+  const StressEdge &edge = stress.patches().edges()[index];
+  double sum = 0;
+  const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
+  const double length = cell->face(edge.sides[0].face)->diameter();
+  for (const auto &[s, weight] : stress.prescribed_points(index))
+  {
+    const Tensor<1, 2> exact = stress.prescribed_traction(index, s);
+    for (unsigned int c = 0; c < 2; ++c)
+      if (!edge.components[c].is_unknown)
+      {
+        const double missed = exact * edge.components[c].direction -
+                              legendre::evaluate(stress.tractions()[index][c], 2 * s - 1);
+        sum += weight * length * missed * missed;
+      }
+  }
+  return std::sqrt(sum);
+}
+
+/** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
+double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress,
+                   const unsigned int index)
+{
+  const StressEdge &edge = stress.patches().edges()[index];
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
+  const unsigned int p = solution.displacement_space.degrees()[cell], n = p + 13;
+  const auto &iterator = stress.patches().cells()[cell].iterator;
+  const CellMap<2> map = map_of<2>(iterator);
+  const QGaussLobatto<1> &points = solution.tables.gauss_lobatto(n);
+  const std::vector<Point<1>> nodes(points.get_points());
+  std::vector<Point<2>> on_face;
+  for (const Point<1> &node : nodes)
+    on_face.push_back(point_on_face<2>(face, node));
+  const ShapeTable<2> table = tabulate<2>(p, on_face, points.get_weights(), false);
+  const std::vector<double> u = evaluate(table.values, solution.coefficients(cell));
+  const FullMatrix<double> &from_nodes = stress.legendre_tables().from_nodes(n - 1);
+  std::array<Vector<double>, 2> delta{{Vector<double>(n), Vector<double>(n)}}, slope = delta;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    if (!condition.displacement[c])
+      continue;
+    Vector<double> values(n);
+    for (unsigned int k = 1; k + 1 < n; ++k) // nodes of u_N at the ends
+      values[k] = condition.displacement[c]->value(map.point(on_face[k])) - u[c * n + k];
+    from_nodes.vmult(delta[c], values);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        slope[c][j] += 2 * legendre::derivative(i, j) * delta[c][i]; // by s in [0,1]
+  }
+  // d = delta(s) b(n), b = (1 - n)^q; reference directions along and across the face
+  const bool along_xi = face >= 2;
+  const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5}));
+  const HookesLaw<2> law(solution.scene.material_of(iterator));
+  const double sign = face % 2 ? -1. : 1.;
+  double best = std::numeric_limits<double>::infinity();
+  for (unsigned int q = 1; q <= 60; ++q)
+  {
+    const double bb = 1. / (2 * q + 1), b1b1 = double(q) * q / (2 * q - 1), bb1 = -0.5 * sign;
+    double energy = 0;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        // int over the reference cell of d_k phi_c d_l phi_d
+        std::array<std::array<double, 2>, 2> reference;
+        const unsigned int along = along_xi ? 0 : 1, across = 1 - along;
+        reference[along][along] = slope[c] * slope[d] / 2 * bb;
+        reference[across][across] = delta[c] * delta[d] / 2 * b1b1;
+        reference[along][across] = slope[c] * delta[d] / 2 * bb1;
+        reference[across][along] = delta[c] * slope[d] / 2 * bb1;
+        const auto products = [&](const unsigned int i, const unsigned int j)
+        {
+          double sum = 0;
+          for (unsigned int k = 0; k < 2; ++k)
+            for (unsigned int l = 0; l < 2; ++l)
+              sum += inverse[k][i] * inverse[l][j] * reference[k][l];
+          return sum * determinant(map.jacobian({0.5, 0.5}));
+        };
+        energy += law.stiffness(products, c, d);
+      }
+    best = std::min(best, energy);
+  }
+  return best;
+}
+} // namespace
+
+DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
+    : oscillation(stress.squares.size())
+{
+  const VertexPatches &patches = stress.patches();
+  std::vector<double> lifts(oscillation.size());
+  for (unsigned int e = 0; e < patches.edges().size(); ++e)
+  {
+    const StressEdge &edge = patches.edges()[e];
+    if (!edge.at_boundary())
+      continue;
+    const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
+    const Parallelogram shape(map_of<2>(patches.cells()[cell].iterator));
+    const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+    if (condition.has_traction() || condition.friction)
+      oscillation[cell] += shape.trace(face) * missed_traction(stress, e);
+    if (condition.has_displacement()) // two edges of a cell: the triangle inequality
+      lifts[cell] += std::sqrt(std::max(0., lift_energy(solution, stress, e)));
+  }
+  for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
+  {
+    const auto &iterator = patches.cells()[cell].iterator;
+    const Parallelogram shape(map_of<2>(iterator));
+    oscillation[cell] += shape.diameter / numbers::PI * stress.missed_force(cell);
+    oscillation[cell] *=
+        shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
+    lift += lifts[cell] * lifts[cell];
+  }
+  lift = std::sqrt(lift);
+}
+} // namespace hpvi

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/edge_polynomial.h>
+#include <hpvi/equilibration/legendre.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** `|P_i|` over [-1,1] is `(i + 1/2)^{-1/2}`. */
+double normalisation(const unsigned int i)
+{
+  return std::sqrt(i + 0.5);
+}
+
+/** Where a function with values of different signs at @p left and @p right passes zero. */
+template <class F>
+double zero_between(const F &function, const double left, const double right, const double at_left,
+                    const double at_right)
+{
+  std::uintmax_t patience = 100;
+  const auto bracket =
+      boost::math::tools::toms748_solve(function, left, right, at_left, at_right,
+                                        boost::math::tools::eps_tolerance<double>(50), patience);
+  return 0.5 * (bracket.first + bracket.second);
+}
+} // namespace
+
+EdgePolynomial::EdgePolynomial(const std::vector<double> &coefficients) : terms(coefficients)
+{
+  for (unsigned int i = 0; i < terms.size(); ++i)
+    terms[i] *= normalisation(i);
+}
+
+EdgePolynomial EdgePolynomial::constant(const double value)
+{
+  EdgePolynomial result;
+  result.terms = {value};
+  return result;
+}
+
+EdgePolynomial EdgePolynomial::through(const std::vector<double> &values, const QGauss<1> &gauss)
+{
+  // n Gauss points integrate the products of two polynomials of degree n - 1.
+  Vector<double> coefficients(values.size());
+  for (unsigned int q = 0; q < values.size(); ++q)
+    coefficients.add(2. * gauss.weight(q) * values[q],
+                     legendre_basis(values.size(), gauss.point(q)[0]));
+  return EdgePolynomial(std::vector<double>(coefficients.begin(), coefficients.end()));
+}
+
+double EdgePolynomial::operator()(const double s) const
+{
+  const double t = 2. * s - 1.;
+  double sum = 0., before = 0., last = 1.;
+  for (unsigned int i = 0; i < terms.size(); ++i)
+  {
+    sum += terms[i] * last;
+    const double next = ((2. * i + 1.) * t * last - i * before) / (i + 1.);
+    before = last;
+    last = next;
+  }
+  return sum;
+}
+
+std::vector<double> EdgePolynomial::coefficients() const
+{
+  std::vector<double> result(terms);
+  for (unsigned int i = 0; i < result.size(); ++i)
+    result[i] /= normalisation(i);
+  return result;
+}
+
+double EdgePolynomial::largest() const
+{
+  double sum = 0; // |P_i| <= 1
+  for (const double coefficient : terms)
+    sum += std::abs(coefficient);
+  return sum;
+}
+
+/** With respect to s, from `(2i + 1) P_i = P_{i+1}' - P_{i-1}'`. */
+EdgePolynomial EdgePolynomial::derivative() const
+{
+  EdgePolynomial result;
+  if (terms.size() < 2)
+    return result;
+  result.terms.resize(terms.size() - 1);
+  std::array<double, 2> sums{}; // of the coefficients above, those of either parity
+  for (unsigned int i = terms.size() - 1; i-- > 0;)
+  {
+    sums[(i + 1) % 2] += terms[i + 1];
+    result.terms[i] = 2. * (2. * i + 1.) * sums[(i + 1) % 2];
+  }
+  return result;
+}
+
+std::vector<double> EdgePolynomial::extremes() const
+{
+  std::vector<double> result = {0.};
+  if (terms.size() > 2)
+  {
+    const std::vector<double> inside = derivative().zeros();
+    result.insert(result.end(), inside.begin(), inside.end());
+  }
+  result.push_back(1.);
+  return result;
+}
+
+std::vector<double> EdgePolynomial::zeros() const
+{
+  std::vector<double> result;
+  if (terms.empty() || 2. * std::abs(terms[0]) > largest())
+    return result; // the mean outweighs all the rest
+  double left = 0., at_left = 0.;
+  for (const double right : extremes()) // in between it is monotonic
+  {
+    const double at_right = (*this)(right);
+    if (at_left * at_right < 0.)
+      result.push_back(zero_between(*this, left, right, at_left, at_right));
+    if (at_right != 0.)
+    {
+      left = right;
+      at_left = at_right;
+    }
+  }
+  return result;
+}
+
+Vector<double> legendre_basis(const unsigned int n, const double s)
+{
+  const std::vector<double> values = legendre::values(n, 2. * s - 1.);
+  return Vector<double>(values.begin(), values.end());
+}
+
+template <int dim>
+EdgePolynomial tangential_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                                const ShapeTables<dim> &tables, const Vector<double> &v)
+{
+  static_assert(dim == 2, "one tangent along a straight edge");
+  const unsigned int p = face.degree, n = p + 1;
+  const auto dofs = space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[face.face_no];
+  const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+  const FullMatrix<double> &shapes = tables.edge(p, face.n_points, n).shapes;
+  std::vector<double> values(n);
+  for (unsigned int q = 0; q < n; ++q)
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int j = 0; j < n; ++j)
+        values[q] += shapes(q, j) * tangent[c] * v[dofs[on_edge[c * n + j]]];
+  return EdgePolynomial::through(values, tables.gauss(n));
+}
+
+template EdgePolynomial tangential_trace(const ContactFace<2> &, const DisplacementSpace<2> &,
+                                         const ShapeTables<2> &, const Vector<double> &);
+} // namespace hpvi

@@ -1,0 +1,560 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/fe/fe_tools.h>
+#include <hpvi/body/load_points.h>
+#include <hpvi/equilibration/equilibrated_stress.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Places of vertices along a face, in deal.II's order. */
+constexpr unsigned int vertex_of_face[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+
+/** Do the traction of an edge at the boundary and the outer normal agree, 1, or not, -1? */
+double outward(const StressEdge &edge)
+{
+  return edge.sides[0].face % 2 ? 1. : -1.;
+}
+
+/** psi = c + c_x xi + c_y eta + c_xy xi eta from its values at the vertices. */
+std::array<double, 4> bilinear(const std::array<double, 4> &v)
+{
+  return {{(v[0] + v[1] + v[2] + v[3]) / 4, (-v[0] + v[1] - v[2] + v[3]) / 4,
+           (-v[0] - v[1] + v[2] + v[3]) / 4, (v[0] - v[1] - v[2] + v[3]) / 4}};
+}
+
+/** Times xi (0) or eta (1); what exceeds the highest mode is dropped. */
+template <unsigned int n_components>
+Modes<n_components> times(const unsigned int variable, const Modes<n_components> &modes)
+{
+  Modes<n_components> result(modes.n);
+  for (unsigned int k = 0; k < n_components; ++k)
+    for (unsigned int i = 0; i < modes.n; ++i)
+      for (unsigned int j = 0; j < modes.n; ++j)
+      {
+        const unsigned int power = variable == 0 ? i : j;
+        const unsigned int up_i = i + (variable == 0), up_j = j + (variable == 1);
+        if (power + 1 < modes.n)
+        {
+          result(k, up_i, up_j) += legendre::shift(power + 1) * modes(k, i, j);
+          result(k, i, j) += legendre::shift(power + 1) * modes(k, up_i, up_j);
+        }
+      }
+  return result;
+}
+
+/** Legendre coefficients (row xi, column eta) of one component of u_N. */
+FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
+                                      const unsigned int component, const unsigned int degree,
+                                      const FullMatrix<double> &from_nodes)
+{
+  const unsigned int n = degree + 1;
+  const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
+  FullMatrix<double> nodal(n, n), half(n, n), result(n, n);
+  for (unsigned int i = 0; i < n * n; ++i)
+    nodal(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
+  from_nodes.mmult(half, nodal);
+  half.mTmult(result, from_nodes);
+  return result;
+}
+
+void add(Modes<2> &sum, const Modes<2> &part)
+{
+  for (unsigned int k = 0; k < 2; ++k)
+    for (unsigned int i = 0; i < std::min(sum.n, part.n); ++i)
+      for (unsigned int j = 0; j < std::min(sum.n, part.n); ++j)
+        sum(k, i, j) += part(k, i, j);
+}
+} // namespace
+
+EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Friction &friction,
+                                       EquilibrationCache &cache)
+    : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
+      cache(cache), vertex_patches(solution)
+{
+  known.resize(vertex_patches.edges().size());
+  for (unsigned int e = 0; e < known.size(); ++e)
+    if (vertex_patches.edges()[e].at_boundary())
+      set_known_tractions(e);
+  set_cells();
+  set_data();
+  solve_patches();
+  measure();
+}
+
+const VertexPatches &EquilibratedStress::patches() const
+{
+  return vertex_patches;
+}
+
+const std::vector<std::array<std::vector<double>, 2>> &EquilibratedStress::tractions() const
+{
+  return sums;
+}
+
+/** Adds `weight psi traction` at s in [0,1] of an edge, psi the hat function of one end. */
+void EquilibratedStress::add_load(const unsigned int index, const unsigned int end, const double s,
+                                  const double weight, const Tensor<1, 2> &traction)
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  const std::vector<double> L = legendre::values(edge.degree, 2 * s - 1);
+  const double psi = end == 0 ? 1 - s : s;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    std::vector<double> &coefficients = known[index][end][c];
+    const double value = 2 * weight * psi * (traction * edge.components[c].direction);
+    for (unsigned int i = 0; i < coefficients.size(); ++i)
+      coefficients[i] += value * L[i];
+  }
+}
+
+Tensor<1, 2> EquilibratedStress::load_on(const StressEdge &edge, const double s) const
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const StressEdge::Side &side = edge.sides[0];
+  const auto face = vertex_patches.cells()[side.cell].iterator->face(side.face);
+  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+  Tensor<1, 2> result;
+  for (unsigned int c = 0; c < 2; ++c)
+    if (condition.traction[c])
+      result[c] = outward(edge) * condition.traction[c]->value(x);
+  return result;
+}
+
+/** `-g l t` with the polynomial l of one end. */
+Tensor<1, 2> EquilibratedStress::friction_on(const StressEdge &edge, const unsigned int end,
+                                             const double s, const double bound) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  return -outward(edge) * bound * legendre::evaluate(friction(edge.contact_face, end), 2 * s - 1) *
+         face.frame(s).tangent;
+}
+
+/**
+ * What loads and contact prescribe on an edge of the boundary, in the direction of the edge's traction.
+ * Loads have the quadrature of the discrete equations, so that moments are the same.
+ */
+void EquilibratedStress::set_known_tractions(const unsigned int index)
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const StressEdge::Side &side = edge.sides[0];
+  const QGauss<1> &gauss = solution.tables.gauss(
+      traction_points(condition, map_of<2>(vertex_patches.cells()[side.cell].iterator), side.face,
+                      solution.displacement_space.degrees()[side.cell], solution.tables));
+  for (unsigned int end = 0; end < 2; ++end)
+  {
+    for (unsigned int c = 0; c < 2; ++c)
+      known[index][end][c].assign(edge.components[c].n, 0.);
+    if (condition.has_traction())
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        add_load(index, end, gauss.point(q)[0], gauss.weight(q), load_on(edge, gauss.point(q)[0]));
+    if (edge.contact_face != numbers::invalid_unsigned_int)
+    {
+      const FrictionRule &rule = solution.contact_space.faces()[edge.contact_face].friction;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+        add_load(index, end, rule.points[q], rule.weights[q],
+                 friction_on(edge, end, rule.points[q], rule.values[q]));
+    }
+    meet_ends(edge, end, prescribed_traction(index, end));
+  }
+}
+
+Tensor<1, 2> EquilibratedStress::prescribed_traction(const unsigned int index, const double s) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  Tensor<1, 2> result = load_on(edge, s);
+  if (edge.contact_face == numbers::invalid_unsigned_int)
+    return result;
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  const double bound = face.friction_bound(face.point(s));
+  for (unsigned int end = 0; end < 2; ++end)
+    result += (end == 0 ? 1 - s : s) * friction_on(edge, end, s, bound);
+  return result;
+}
+
+std::vector<std::pair<double, double>>
+EquilibratedStress::prescribed_points(const unsigned int index) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  std::vector<double> cuts = {0., 1.};
+  if (edge.contact_face != numbers::invalid_unsigned_int)
+    cuts = solution.contact_space.faces()[edge.contact_face].friction.cuts;
+  const QGauss<1> &gauss = solution.tables.gauss(edge.degree + 8);
+  std::vector<std::pair<double, double>> result;
+  for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double length = cuts[piece + 1] - cuts[piece];
+      result.emplace_back(cuts[piece] + length * gauss.point(q)[0], length * gauss.weight(q));
+    }
+  return result;
+}
+
+/** |F - Pi F| on a cell. */
+double EquilibratedStress::missed_force(const unsigned int index) const
+{
+  const Cell &cell = cells[index];
+  if (cell.force.empty())
+    return 0.;
+  const unsigned int m = cell.element->m;
+  const Modes<2> modes = load(index, {{1., 1., 1., 1.}}); // of -F
+  const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
+  const QGauss<2> gauss(cell.n_force + 2);
+  double sum = 0;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    Tensor<1, 2> F, projected;
+    for (unsigned int c = 0; c < 2; ++c)
+      if (solution.scene.body_force[c])
+        F[c] = solution.scene.body_force[c]->value(map.point(gauss.point(q)));
+    const auto Li = legendre::values(modes.n, 2 * gauss.point(q)[0] - 1),
+               Lj = legendre::values(modes.n, 2 * gauss.point(q)[1] - 1);
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
+        for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
+          projected[k] -= modes(k, i, j) * Li[i] * Lj[j];
+    sum += gauss.weight(q) * (F - cell.B * projected / cell.h).norm_square();
+  }
+  return std::sqrt(sum) * 2 * cell.h;
+}
+
+const LegendreTables &EquilibratedStress::legendre_tables() const
+{
+  return cache.legendre;
+}
+
+/**
+ * The shear at the ends of an edge is that of the neighbouring edges, whatever its projection is; the
+ * two highest modes make it so.
+ */
+void EquilibratedStress::meet_ends(const StressEdge &edge, const unsigned int end,
+                                   const Tensor<1, 2> &at_end)
+{
+  if (edge.components[1].n != edge.degree)
+    return;
+  std::vector<double> &t = known[&edge - vertex_patches.edges().data()][end][1];
+  std::array<double, 2> missing{{0., 0.}};
+  missing[end] = at_end * edge.tangent;
+  const unsigned int n = t.size();
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int side = 0; side < 2; ++side)
+      missing[side] -= t[i] * legendre::at_end(i, side);
+  for (const unsigned int i : {n - 2, n - 1})
+    for (unsigned int side = 0; side < 2; ++side)
+      t[i] += missing[side] * legendre::at_end(i, side) / (2 * i + 1);
+}
+
+/** S_xy at one end of a boundary edge, as what is prescribed there says; NaN where an unknown has a say. */
+double EquilibratedStress::known_shear(const unsigned int index, const unsigned int end) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  const Tensor<2, 2> B = frame(edge.sides[0].cell);
+  const bool along_xi = edge.sides[0].face >= 2;
+  Tensor<1, 2> across, along;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    across[c] = B[c][along_xi];
+    along[c] = B[c][1 - along_xi];
+  }
+  // T_n = (b.n/|a|) S_nn, T_t = (b.t/|a|) S_nn + S_xy with a along the edge and b across it
+  const double skew = (across * edge.tangent) / (across * edge.normal);
+  Tensor<1, 2> traction;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    const StressEdge::Component &component = edge.components[c];
+    const double matters =
+        component.direction * edge.tangent - skew * (component.direction * edge.normal);
+    if (component.is_unknown && std::abs(matters) > 1e-12)
+      return std::numeric_limits<double>::quiet_NaN();
+    double value = 0;
+    for (unsigned int i = 0; i < component.n; ++i)
+      value += known[index][end][c][i] * legendre::at_end(i, end);
+    traction += value * component.direction;
+  }
+  return traction * edge.tangent - skew * (traction * edge.normal);
+}
+
+/**
+ * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. One
+ * cell takes the difference; where frames are skew between two cells, normal tractions can.
+ */
+std::vector<unsigned int> EquilibratedStress::marked_corners() const
+{
+  std::vector<unsigned int> result(vertex_patches.cells().size());
+  std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> ends;
+  for (unsigned int e = 0; e < vertex_patches.edges().size(); ++e)
+    if (vertex_patches.edges()[e].at_boundary())
+      for (unsigned int end = 0; end < 2; ++end)
+        ends[vertex_patches.edges()[e].vertices[end]].emplace_back(e, end);
+  for (const auto &[vertex, edges] : ends)
+  {
+    const double one = known_shear(edges[0].first, edges[0].second),
+                 other = known_shear(edges[1].first, edges[1].second);
+    const double scale = std::max(std::abs(one), std::abs(other));
+    if (!(std::abs(one - other) > 1e-12 * scale)) // NaN too
+      continue;
+    const StressEdge::Side &side = vertex_patches.edges()[edges[0].first].sides[0];
+    result[side.cell] |= 1u << vertex_of_face[side.face][edges[0].second];
+  }
+  return result;
+}
+
+Tensor<2, 2> EquilibratedStress::frame(const unsigned int cell) const
+{
+  const Tensor<2, 2> J = map_of<2>(vertex_patches.cells()[cell].iterator).jacobian({0.5, 0.5});
+  return J / std::sqrt(determinant(J));
+}
+
+void EquilibratedStress::set_cells()
+{
+  const std::vector<unsigned int> marked = marked_corners();
+  cells.resize(marked.size());
+  for (unsigned int index = 0; index < cells.size(); ++index)
+  {
+    Cell &cell = cells[index];
+    const auto &iterator = vertex_patches.cells()[index].iterator;
+    const CellMap<2> map = map_of<2>(iterator);
+    cell.B = frame(index);
+    cell.h = std::sqrt(determinant(map.jacobian({0.5, 0.5}))) / 2;
+    unsigned int m = 0;
+    for (const unsigned int edge : vertex_patches.cells()[index].edges)
+      m = std::max(m, vertex_patches.edges()[edge].degree);
+    EquilibrationCache::Signature key = {m, iterator->material_id(), marked[index]};
+    for (unsigned int i = 0; i < 2; ++i)
+      for (unsigned int j = 0; j < 2; ++j)
+        key.push_back(std::lround(1e11 * cell.B[i][j]));
+    auto &element = cache.elements[key];
+    if (!element)
+      element = std::make_unique<const StressElement>(
+          m, cell.B, solution.scene.material_of(iterator), marked[index]);
+    cell.element = element.get();
+    set_stress(index);
+    Batch &batch = batches[cell.element];
+    cell.first_column = batch.n_columns;
+    batch.cells.push_back(index);
+    batch.n_columns += vertex_patches.cells()[index].hats.size() + 1;
+  }
+}
+
+/** sigma(u_N) = B S B' and F = B f/h in the frame of the cell. */
+void EquilibratedStress::set_stress(const unsigned int index)
+{
+  Cell &cell = cells[index];
+  const auto &iterator = vertex_patches.cells()[index].iterator;
+  const unsigned int p = solution.displacement_space.degrees()[index];
+  const HookesLaw<2> law(solution.scene.material_of(iterator));
+  const Tensor<2, 2> inverse = invert(cell.B);
+  cell.sigma = Modes<3>(cell.element->m + 1);
+  const std::vector<double> coefficients = solution.coefficients(index);
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    const FullMatrix<double> U =
+        displacement_modes(coefficients, c, p, cache.legendre.from_nodes(p));
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      Tensor<2, 2> reference;
+      reference[c][d] = 1 / cell.h;
+      const Tensor<2, 2> s =
+          inverse * Tensor<2, 2>(law.stress(reference * inverse)) * transpose(inverse);
+      const std::array<double, 3> weights{{s[0][0], s[1][1], s[0][1]}};
+      for (unsigned int i = 1; i <= p; ++i)
+        for (int a = static_cast<int>(i) - 1; a >= 0; a -= 2)
+          for (unsigned int b = 0; b <= p; ++b)
+          {
+            const double value = legendre::derivative(i, a) * (d == 0 ? U(i, b) : U(b, i));
+            for (unsigned int k = 0; k < 3; ++k)
+              cell.sigma(k, d == 0 ? a : b, d == 0 ? b : a) += weights[k] * value;
+          }
+    }
+  }
+  if (!solution.scene.has_body_force())
+    return;
+  const CellMap<2> map = map_of<2>(iterator);
+  cell.n_force = body_force_points(solution.scene, map, p, solution.tables);
+  for (const Point<2> &point : solution.tables.gradients(p, cell.n_force).points)
+  {
+    Tensor<1, 2> F;
+    for (unsigned int c = 0; c < 2; ++c)
+      if (solution.scene.body_force[c])
+        F[c] = solution.scene.body_force[c]->value(map.point(point));
+    const Tensor<1, 2> f = cell.h * (inverse * F);
+    cell.force.insert(cell.force.end(), {f[0], f[1]});
+  }
+}
+
+/** -psi F by the quadrature of the loads, so that its moments with rigid motions are the same. */
+Modes<2> EquilibratedStress::load(const unsigned int index, const std::array<double, 4> &psi) const
+{
+  const Cell &cell = cells[index];
+  const unsigned int n = cell.n_force, n_modes = std::min(n, cell.element->m);
+  Modes<2> result(cell.force.empty() ? 0 : n_modes);
+  if (cell.force.empty())
+    return result;
+  const FullMatrix<double> &project = cache.legendre.projection(n_modes, n);
+  const QGauss<1> &gauss = solution.tables.gauss(n);
+  const std::array<double, 4> c = bilinear(psi);
+  for (unsigned int k = 0; k < 2; ++k)
+  {
+    FullMatrix<double> values(n, n), half(n_modes, n), modes(n_modes, n_modes);
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = 0; b < n; ++b)
+      {
+        const double xi = 2 * gauss.point(a)[0] - 1, eta = 2 * gauss.point(b)[0] - 1;
+        values(a, b) =
+            -(c[0] + c[1] * xi + c[2] * eta + c[3] * xi * eta) * cell.force[2 * (b * n + a) + k];
+      }
+    project.mmult(half, values);
+    half.mTmult(modes, project);
+    for (unsigned int a = 0; a < n_modes; ++a)
+      for (unsigned int b = 0; b < n_modes; ++b)
+        result(k, a, b) = modes(a, b);
+  }
+  return result;
+}
+
+/** Columns of data: of `psi sigma` with divergence `sigma grad psi - psi F`, and of sigma with -F. */
+void EquilibratedStress::set_data()
+{
+  for (auto &[element, batch] : batches)
+  {
+    const unsigned int n = element->n_data;
+    batch.r.resize(std::size_t(n) * batch.n_columns);
+    for (const unsigned int index : batch.cells)
+    {
+      const Modes<3> &sigma = cells[index].sigma;
+      const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma),
+                     times_both = times(1, times_xi);
+      double *column = &batch.r[std::size_t(n) * cells[index].first_column];
+      for (const VertexPatches::Hat &hat : vertex_patches.cells()[index].hats)
+      {
+        const std::array<double, 4> c = bilinear(hat.values);
+        Modes<3> product(sigma.n);
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int i = 0; i < sigma.components[k].size(); ++i)
+            product.components[k][i] =
+                c[0] * sigma.components[k][i] + c[1] * times_xi.components[k][i] +
+                c[2] * times_eta.components[k][i] + c[3] * times_both.components[k][i];
+        Modes<2> divergence(sigma.n);
+        for (unsigned int k = 0; k < 2; ++k)
+          for (unsigned int i = 0; i < divergence.components[k].size(); ++i)
+          {
+            const unsigned int x = k == 0 ? 0 : 2, y = k == 0 ? 2 : 1;
+            divergence.components[k][i] =
+                c[1] * sigma.components[x][i] + c[3] * times_eta.components[x][i] +
+                c[2] * sigma.components[y][i] + c[3] * times_xi.components[y][i];
+          }
+        add(divergence, load(index, hat.values));
+        element->residual(product, divergence, column);
+        column += n;
+      }
+      element->residual(sigma, load(index, {{1., 1., 1., 1.}}), column);
+    }
+    batch.gradients.resize(std::size_t(element->n_edges) * batch.n_columns);
+    multiply('T', 'N', element->n_edges, batch.n_columns, n, 1., {element->edge_energy().data(), n},
+             {batch.r.data(), n}, 0., batch.gradients.data(), element->n_edges);
+    batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_columns);
+    multiply('T', 'N', element->n_conditions(), batch.n_columns, n, 1.,
+             {element->conditions().data(), n}, {batch.r.data(), n}, 0., batch.defects.data(),
+             element->n_conditions());
+  }
+}
+
+void EquilibratedStress::solve_patches()
+{
+  for (const StressEdge &edge : vertex_patches.edges())
+    sums.push_back(
+        {{std::vector<double>(edge.components[0].n), std::vector<double>(edge.components[1].n)}});
+  for (const auto &[vertex, hats] : vertex_patches.patches())
+  {
+    std::vector<PatchCell> patch;
+    std::map<unsigned int, PatchEdge> edges;
+    for (const auto &[index, hat] : hats)
+    {
+      const Cell &cell = cells[index];
+      const Batch &batch = batches.at(cell.element);
+      const std::size_t column = cell.first_column + hat;
+      patch.push_back(
+          {cell.element, cell.h * cell.h, &batch.gradients[column * cell.element->n_edges],
+           &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]});
+      for (const unsigned int e : vertex_patches.cells()[index].edges)
+      {
+        const StressEdge &edge = vertex_patches.edges()[e];
+        const bool first = vertex_patches.hat(vertex, edge.vertices[0]) != 0;
+        if (first || vertex_patches.hat(vertex, edge.vertices[1]) != 0)
+          edges.emplace(e, PatchEdge{&edge, edge.at_boundary() ? known[e][first ? 0 : 1]
+                                                               : decltype(PatchEdge::traction)()});
+      }
+    }
+    defect = std::max(defect, solve_patch(patch, edges, cache));
+    for (const auto &[e, edge] : edges)
+      for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int i = 0; i < sums[e][c].size(); ++i)
+          sums[e][c][i] += edge.traction[c][i];
+  }
+}
+
+/** Tractions and loads of a cell without those of sigma(u_N). */
+std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
+{
+  const Cell &cell = cells[index];
+  const StressElement &element = *cell.element;
+  const VertexPatches::Cell &geometry = vertex_patches.cells()[index];
+  const double *const column =
+      &batches.at(&element)
+           .r[std::size_t(element.n_data) * (cell.first_column + geometry.hats.size())];
+  std::vector<double> r(column, column + element.n_data);
+  for (unsigned int face = 0; face < 4; ++face)
+  {
+    const StressEdge &edge = vertex_patches.edges()[geometry.edges[face]];
+    const unsigned int part = geometry.parts[face];
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int row = 0; row < 2; ++row)
+      {
+        const StressEdge::Component &component = edge.components[c];
+        const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
+        const std::vector<double> &t = sums[geometry.edges[face]][c];
+        double *const target = &r[element.n_divergence + element.edge_entry(face, row)];
+        for (unsigned int i = 0; i < component.n; ++i)
+          if (part == whole_edge)
+            target[i] += weight * t[i];
+          else
+            for (unsigned int j = 0; j < component.n; ++j)
+              target[i] += weight * cache.legendre.half(component.n, part)(i, j) * t[j];
+      }
+  }
+  return r;
+}
+
+void EquilibratedStress::measure()
+{
+  for (const auto &[element, batch] : batches)
+  {
+    std::vector<double> R;
+    for (const unsigned int index : batch.cells)
+    {
+      const std::vector<double> r = data_of(index);
+      R.insert(R.end(), r.begin(), r.end());
+    }
+    element->half_energy(R, batch.cells.size());
+    for (unsigned int k = 0; k < batch.cells.size(); ++k)
+    {
+      const double *const y = &R[std::size_t(k) * element->n_data];
+      squares[batch.cells[k]] =
+          std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
+    }
+  }
+}
+
+StressElement::Stress EquilibratedStress::stress(const unsigned int cell) const
+{
+  return cells[cell].element->stress(cells[cell].sigma, data_of(cell).data());
+}
+} // namespace hpvi

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <hpvi/equilibration/legendre.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+std::vector<double> legendre::values(const unsigned int n, const double x)
+{
+  std::vector<double> P(n);
+  for (unsigned int i = 0; i < n; ++i)
+    P[i] = i == 0 ? 1. : i == 1 ? x : ((2 * i - 1) * x * P[i - 1] - (i - 1) * P[i - 2]) / i;
+  for (unsigned int i = 0; i < n; ++i)
+    P[i] *= std::sqrt(i + 0.5);
+  return P;
+}
+
+double legendre::derivative(const unsigned int i, const unsigned int j)
+{
+  return j < i && (i - j) % 2 == 1 ? 2 * std::sqrt((i + 0.5) * (j + 0.5)) : 0.;
+}
+
+double legendre::shift(const unsigned int i)
+{
+  return i / std::sqrt(4. * i * i - 1);
+}
+
+double legendre::at_end(const unsigned int i, const bool right)
+{
+  return (right || i % 2 == 0 ? 1 : -1) * std::sqrt(i + 0.5);
+}
+
+double legendre::evaluate(const std::vector<double> &coefficients, const double x)
+{
+  const std::vector<double> L = values(coefficients.size(), x);
+  double sum = 0;
+  for (unsigned int i = 0; i < L.size(); ++i)
+    sum += coefficients[i] * L[i];
+  return sum;
+}
+
+const FullMatrix<double> &LegendreTables::projection(const unsigned int n,
+                                                     const unsigned int n_gauss) const
+{
+  FullMatrix<double> &result = projections[{{n, n_gauss}}];
+  if (result.m() == 0)
+  {
+    const QGauss<1> gauss(n_gauss);
+    result.reinit(n, n_gauss);
+    for (unsigned int q = 0; q < n_gauss; ++q)
+    {
+      const std::vector<double> L = legendre::values(n, 2 * gauss.point(q)[0] - 1);
+      for (unsigned int i = 0; i < n; ++i)
+        result(i, q) = 2 * gauss.weight(q) * L[i];
+    }
+  }
+  return result;
+}
+
+const FullMatrix<double> &LegendreTables::half(const unsigned int n, const unsigned int part) const
+{
+  FullMatrix<double> &result = halves[{{n, part}}];
+  if (result.m() == 0)
+  {
+    const QGauss<1> gauss(n + 1);
+    const FullMatrix<double> &project = projection(n, n + 1);
+    FullMatrix<double> whole(n + 1, n);
+    for (unsigned int q = 0; q <= n; ++q)
+    {
+      const std::vector<double> L = legendre::values(n, gauss.point(q)[0] + part - 1.);
+      for (unsigned int i = 0; i < n; ++i)
+        whole(q, i) = L[i];
+    }
+    result.reinit(n, n);
+    project.mmult(result, whole);
+  }
+  return result;
+}
+
+const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) const
+{
+  FullMatrix<double> &result = nodal[degree];
+  if (result.m() == 0)
+  {
+    const unsigned int n = degree + 1;
+    const QGauss<1> gauss(n);
+    const auto basis =
+        Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(n).get_points());
+    FullMatrix<double> lagrange(n, n);
+    for (unsigned int q = 0; q < n; ++q)
+      for (unsigned int i = 0; i < n; ++i)
+        lagrange(q, i) = basis[i].value(gauss.point(q)[0]);
+    result.reinit(n, n);
+    projection(n, n).mmult(result, lagrange);
+  }
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,661 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/legendre.h>
+#include <hpvi/equilibration/slip_correction.h>
+#include <hpvi/solver/inequality_program.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
+/** What happens on a contact face as a whole. */
+struct Slip
+{
+  enum Mode
+  {
+    everywhere,
+    partly,
+    nowhere
+  } mode = everywhere;
+  double direction = 0.; ///< 1 or -1; 0: none, or both
+};
+
+/** A face without friction slips, in no direction. */
+template <int dim>
+Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  unsigned int n_forward = 0, n_backward = 0;
+  for (unsigned int k = 0; k < face.n_multipliers; ++k)
+  {
+    const unsigned int i = face.first_multiplier + k;
+    const double wall = (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
+    n_forward += solution.z[i] >= wall;
+    n_backward += solution.z[i] <= -wall;
+  }
+  Slip result;
+  if (n_forward == 0 && n_backward == 0 && face.n_multipliers > 0)
+    result.mode = Slip::nowhere;
+  else if (n_forward < face.n_multipliers && n_backward < face.n_multipliers)
+    result.mode = Slip::partly;
+  if (n_forward == 0 || n_backward == 0)
+    result.direction = n_forward > 0 ? 1. : n_backward > 0 ? -1. : 0.;
+  return result;
+}
+
+/** The tangential displacement on a contact face by the unknowns of the linear system. */
+struct Trace
+{
+  std::vector<unsigned int> unknowns;
+  FullMatrix<double> legendre; ///< coefficients x unknowns
+  std::vector<double> u;       ///< those of u_Nt
+
+  /** u_Nt - w_t */
+  EdgePolynomial rest(const Vector<double> &w) const
+  {
+    std::vector<double> result(u);
+    for (unsigned int k = 0; k < unknowns.size(); ++k)
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] -= legendre(i, k) * w[unknowns[k]];
+    return EdgePolynomial(result);
+  }
+};
+
+template <int dim>
+Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
+               const Unknowns<dim> &unknowns, const FullMatrix<double> &legendre)
+{
+  const unsigned int n = face.degree + 1;
+  const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
+  Vector<double> u(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const types::global_dof_index dof = dofs[on_edge[c * n + j]];
+      u[j] += tangent[c] * solution.u[dof];
+      for (const auto &[unknown, weight] : unknowns.terms(dof))
+      {
+        Vector<double> &column = columns[unknown];
+        if (column.size() == 0)
+          column.reinit(n);
+        column[j] += tangent[c] * weight;
+      }
+    }
+  Trace result;
+  Vector<double> of_u(n);
+  legendre.vmult(of_u, u);
+  result.u.assign(of_u.begin(), of_u.end());
+  for (auto column = columns.begin(); column != columns.end();)
+    column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
+  result.legendre.reinit(n, columns.size());
+  for (const auto &[unknown, values] : columns)
+  {
+    Vector<double> coefficients(n);
+    legendre.vmult(coefficients, values);
+    for (unsigned int i = 0; i < n; ++i)
+      result.legendre(i, result.unknowns.size()) = coefficients[i];
+    result.unknowns.push_back(unknown);
+  }
+  return result;
+}
+
+/** The unknowns on which u_n depends along a contact face. */
+template <int dim>
+std::vector<unsigned int> normal_unknowns(const ContactFace<dim> &face,
+                                          const Solution<dim> &solution,
+                                          const Unknowns<dim> &unknowns)
+{
+  const unsigned int n = face.degree + 1;
+  const Tensor<1, dim> normal = face.frame(0.5).normal;
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  std::vector<unsigned int> result;
+  for (unsigned int j = 0; j < n; ++j)
+  {
+    std::map<unsigned int, double> u_n;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (const auto &[unknown, weight] : unknowns.terms(dofs[on_edge[c * n + j]]))
+        u_n[unknown] += normal[c] * weight;
+    for (const auto &[unknown, weight] : u_n)
+      if (std::abs(weight) > 1e-12)
+        result.push_back(unknown);
+  }
+  return result;
+}
+
+/** `int g (|v| - l* v)` over one face, cut where g jumps or v changes sign. */
+template <int dim>
+double friction_gap(const unsigned int number, const EdgePolynomial &v,
+                    const Solution<dim> &solution, const AdmissibleFriction<dim> &friction)
+{
+  const ContactFace<dim> &face = solution.contact_space.faces()[number];
+  if (face.friction.vanishes())
+    return 0.;
+  std::vector<double> cuts = v.zeros();
+  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  std::sort(cuts.begin(), cuts.end());
+  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 4);
+  double result = 0;
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
+      const double value = v(s);
+      // One difference at a time: where l* is the direction of v, nothing is left, not even round-off.
+      const double density =
+          std::abs(value) * (1. - (value < 0. ? -1. : 1.) * friction.value(number, s));
+      if (density != 0.)
+        result +=
+            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
+    }
+  return result;
+}
+
+enum class Role
+{
+  outside, ///< w is zero there
+  fixed,   ///< by u_Nt where the body sticks
+  free
+};
+
+/** The energy `x'Ax` over free unknowns, with others @p fixed or zero; some free ones are kept for programs. */
+class Strip
+{
+public:
+  Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
+        std::vector<unsigned int> kept);
+
+  /** Where an unknown stands among those kept, or none. */
+  unsigned int place(unsigned int unknown) const;
+
+  unsigned int n_kept() const;
+  FullMatrix<double>
+  H() const; ///< least energy for values z of those kept: `z'Hz - 2 h'z + constant`
+  Vector<double> h() const;
+
+  Vector<double> minimiser() const; ///< x
+  Vector<double>
+  minimiser(const Vector<double> &kept_values) const; ///< with these values of those kept
+
+private:
+  SymmetricMatrix restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
+                           Vector<double> &f) const;
+  Vector<double> all(const Vector<double> &y) const;
+
+  std::vector<unsigned int> free, kept; ///< unknowns; those kept in the order of C
+  Vector<double> fixed, y;              ///< L^-1 of what the fixed ones do to the free ones
+  std::unique_ptr<const LinearSolver> solver;
+};
+
+Strip::Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
+             std::vector<unsigned int> all_kept)
+    : fixed(fixed)
+{
+  std::vector<unsigned int> number(A.n(), none);
+  for (unsigned int i = 0; i < A.n(); ++i)
+    if (roles[i] == Role::free)
+    {
+      number[i] = free.size();
+      free.push_back(i);
+    }
+  Vector<double> f(free.size());
+  const SymmetricMatrix A_ff = restrict(A, number, f);
+  std::sort(all_kept.begin(), all_kept.end());
+  std::vector<unsigned int> numbers;
+  for (const unsigned int unknown : all_kept)
+    numbers.push_back(number[unknown]);
+  solver = std::make_unique<const LinearSolver>(A_ff, numbers);
+  for (const unsigned int k : solver->kept_order())
+    kept.push_back(all_kept[k]);
+  y = solver->forward(f);
+}
+
+/** The block of the free unknowns, and what the fixed ones do to them. */
+SymmetricMatrix Strip::restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
+                                Vector<double> &f) const
+{
+  SymmetricMatrix A_ff;
+  for (unsigned int column = 0; column < A.n(); ++column)
+  {
+    const unsigned int own = number[column];
+    if (own == none && fixed[column] == 0.)
+      continue;
+    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+    {
+      const unsigned int row = A.row[k], other = number[row];
+      if (own != none && other != none)
+      {
+        A_ff.row.push_back(other);
+        // Where contact alone holds the body, A is singular; w need not be the minimiser to be of use.
+        A_ff.value.push_back(A.value[k] * (row == column ? 1. + 1e-10 : 1.));
+      }
+      else if (own != none)
+        f[own] -= A.value[k] * fixed[row];
+      else if (other != none)
+        f[other] -= A.value[k] * fixed[column];
+    }
+    if (own != none)
+      A_ff.column_start.push_back(A_ff.row.size());
+  }
+  return A_ff;
+}
+
+unsigned int Strip::place(const unsigned int unknown) const
+{
+  const auto found = std::find(kept.begin(), kept.end(), unknown);
+  return found == kept.end() ? none : found - kept.begin();
+}
+
+unsigned int Strip::n_kept() const
+{
+  return kept.size();
+}
+
+FullMatrix<double> Strip::H() const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  FullMatrix<double> result(kept.size(), kept.size());
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+    {
+      for (unsigned int k = 0; k <= j; ++k)
+        result(i, j) += C(i, k) * C(j, k);
+      result(j, i) = result(i, j);
+    }
+  return result;
+}
+
+Vector<double> Strip::h() const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  Vector<double> result(kept.size());
+  for (unsigned int i = 0; i < kept.size(); ++i)
+    for (unsigned int k = 0; k <= i; ++k)
+      result[i] += C(i, k) * y[y.size() - kept.size() + k];
+  return result;
+}
+
+Vector<double> Strip::minimiser() const
+{
+  return all(y);
+}
+
+Vector<double> Strip::minimiser(const Vector<double> &kept_values) const
+{
+  const LAPACKFullMatrix<double> &C = solver->kept_factor();
+  Vector<double> changed(y);
+  for (unsigned int k = 0; k < kept.size(); ++k)
+  {
+    double &entry = changed[y.size() - kept.size() + k];
+    entry = 0.;
+    for (unsigned int i = k; i < kept.size(); ++i)
+      entry += C(i, k) * kept_values[i];
+  }
+  return all(changed);
+}
+
+Vector<double> Strip::all(const Vector<double> &forwarded) const
+{
+  const Vector<double> values = solver->backward(forwarded);
+  Vector<double> x(fixed);
+  for (unsigned int i = 0; i < free.size(); ++i)
+    x[free[i]] = values[i];
+  return x;
+}
+
+/** x'Ax, from the columns where x is not zero. */
+double energy_product(const SymmetricMatrix &A, const Vector<double> &x)
+{
+  double result = 0;
+  for (unsigned int column = 0; column < A.n(); ++column)
+    if (x[column] != 0.)
+      for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+        result += (static_cast<unsigned int>(A.row[k]) == column ? 1. : 2.) * A.value[k] *
+                  x[A.row[k]] * x[column];
+  return result;
+}
+
+/** One w and what it is worth. */
+struct Candidate
+{
+  Vector<double> w;
+  std::vector<double> gaps;
+  double total = 0;
+};
+
+/** Finds w. */
+template <int dim>
+class Search
+{
+public:
+  Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+         const AdmissibleFriction<dim> &friction);
+
+  Candidate of(const Vector<double> &w) const;
+  /** The best one, from one that is known. */
+  Candidate best(Candidate result) const;
+
+private:
+  std::vector<Role> roles() const;
+  Vector<double> stuck_displacement() const;
+  std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
+  std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
+                                          const std::vector<Role> &roles) const;
+  void try_all_stuck(const Strip &strip, Candidate &best) const;
+  void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+                         const Vector<double> &fixed, Candidate &best) const;
+  Vector<double> trace_row(const Strip &strip, unsigned int face, double s) const;
+  void take_better(Candidate &best, const Vector<double> &w) const;
+
+  const Solution<dim> &solution;
+  const Discretisation<dim> &discretisation;
+  const AdmissibleFriction<dim> &friction;
+  const std::vector<ContactFace<dim>> &faces;
+  std::vector<Slip> slips;
+  std::vector<Trace> traces;
+};
+
+template <int dim>
+Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                    const AdmissibleFriction<dim> &friction)
+    : solution(solution), discretisation(discretisation), friction(friction),
+      faces(solution.contact_space.faces())
+{
+  const LegendreTables tables;
+  for (const ContactFace<dim> &face : faces)
+  {
+    slips.push_back(slip_of(face, solution));
+    traces.push_back(
+        trace_of(face, solution, discretisation.unknowns, tables.from_nodes(face.degree)));
+  }
+}
+
+template <int dim>
+Candidate Search<dim>::of(const Vector<double> &w) const
+{
+  Candidate result{w, {}, energy_product(discretisation.system.A, w)};
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    const EdgePolynomial rest = traces[k].rest(w);
+    // Where w has taken u_Nt away, round-off is left, whose signs are not worth the search.
+    result.gaps.push_back(rest.largest() > 1e-13 * EdgePolynomial(traces[k].u).largest()
+                              ? friction_gap(k, rest, solution, friction)
+                              : 2. * rest.largest() * faces[k].length *
+                                    faces[k].friction.integral());
+  }
+  result.total += 2. * sum(result.gaps);
+  return result;
+}
+
+template <int dim>
+void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
+{
+  Candidate next = of(w);
+  if (next.total < best.total)
+    best = std::move(next);
+}
+
+/**
+ * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
+ * that more cells would change its energy by a few hundredths. Pressures ask for w_n = 0.
+ */
+template <int dim>
+std::vector<Role> Search<dim>::roles() const
+{
+  const Unknowns<dim> &unknowns = discretisation.unknowns;
+  std::vector<Role> result(unknowns.n(), Role::free);
+  std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
+  for (const ContactFace<dim> &face : faces)
+    if (!face.friction.vanishes())
+      is_at_contact[face.cell->active_cell_index()] = true;
+  for (unsigned int cell = 0; cell < is_at_contact.size(); ++cell)
+    if (!is_at_contact[cell])
+      for (const auto dof : solution.displacement_space.cell_dofs(cell))
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+          result[unknown] = Role::outside;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    for (const unsigned int unknown : traces[k].unknowns)
+      if (slips[k].mode == Slip::nowhere)
+        result[unknown] = Role::fixed;
+      else if (!faces[k].friction.vanishes() && result[unknown] == Role::outside)
+        result[unknown] = Role::free;
+  for (const ContactFace<dim> &face : faces)
+    if (face.condition->has_pressure())
+      for (const unsigned int unknown : normal_unknowns(face, solution, unknowns))
+        result[unknown] = Role::outside;
+  return result;
+}
+
+/** The unknowns of a displacement that is u_Nt where the body sticks or slips in part; elsewhere of no use. */
+template <int dim>
+Vector<double> Search<dim>::stuck_displacement() const
+{
+  Vector<double> u(solution.u.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode != Slip::everywhere)
+    {
+      const Tensor<1, dim> tangent = faces[k].frame(0.5).tangent;
+      const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
+      const std::vector<unsigned int> &on_edge =
+          solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
+      const unsigned int n = faces[k].degree + 1;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        double missing = 0; // a corner has had its part of another face
+        for (unsigned int c = 0; c < dim; ++c)
+          missing +=
+              tangent[c] * (solution.u[dofs[on_edge[c * n + j]]] - u[dofs[on_edge[c * n + j]]]);
+        for (unsigned int c = 0; c < dim; ++c)
+          u[dofs[on_edge[c * n + j]]] += missing * tangent[c];
+      }
+    }
+  return discretisation.unknowns.coordinates(u);
+}
+
+/**
+ * Faces whose slip is to keep its direction: those that slip in part, up to two slipping ones beside each that
+ * does not slip everywhere, and those with more than a hundredth of the gap of all that slip.
+ */
+template <int dim>
+std::vector<bool> Search<dim>::nearby_faces(const std::vector<double> &gaps) const
+{
+  double of_slip = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    of_slip += slips[k].mode == Slip::everywhere ? gaps[k] : 0.;
+  std::vector<bool> result(faces.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::everywhere)
+      result[k] = gaps[k] > 0.01 * of_slip;
+    else
+    {
+      result[k] = slips[k].mode == Slip::partly;
+      for (unsigned int other = k < 2 ? 0 : k - 2;
+           other < std::min<std::size_t>(k + 3, faces.size()); ++other)
+        if (slips[other].mode == Slip::everywhere)
+          result[other] = true;
+    }
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    result[k] = result[k] && slips[k].direction != 0.;
+  return result;
+}
+
+template <int dim>
+std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &nearby,
+                                                     const std::vector<Role> &roles) const
+{
+  std::vector<unsigned int> result;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (nearby[k] || slips[k].mode == Slip::partly)
+      for (const unsigned int unknown : traces[k].unknowns)
+        if (roles[unknown] == Role::free)
+          result.push_back(unknown);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/** w_t = u_Nt on faces that slip in part, too. */
+template <int dim>
+void Search<dim>::try_all_stuck(const Strip &strip, Candidate &best) const
+{
+  const Vector<double> stuck = stuck_displacement();
+  std::vector<bool> is_stuck(strip.n_kept());
+  InequalityProgram program(strip.H(), strip.h());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::partly)
+      for (const unsigned int unknown : traces[k].unknowns)
+        if (const unsigned int place = strip.place(unknown); place != none && !is_stuck[place])
+        {
+          is_stuck[place] = true;
+          Vector<double> row(strip.n_kept());
+          row[place] = 1.;
+          program.add_equality(row, stuck[unknown]);
+        }
+  take_better(best, strip.minimiser(program.minimiser()));
+}
+
+/** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
+template <int dim>
+void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+                                    const Vector<double> &fixed, Candidate &best) const
+{
+  Vector<double> h = strip.h();
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    for (unsigned int q = 0; nearby[k] && q < faces[k].friction.points.size(); ++q)
+    {
+      const FrictionRule &rule = faces[k].friction;
+      const double s = rule.points[q];
+      h.add(faces[k].length * rule.weights[q] * rule.values[q] *
+                (slips[k].direction - friction.value(k, s)),
+            trace_row(strip, k, s));
+    }
+  InequalityProgram program(strip.H(), h);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (nearby[k])
+    {
+      const EdgePolynomial rest = traces[k].rest(fixed);
+      for (unsigned int i = 0, n = 2 * faces[k].degree + 2; i <= n; ++i)
+      {
+        const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / n);
+        Vector<double> row = trace_row(strip, k, s);
+        row *= -slips[k].direction;
+        if (row.linfty_norm() > 1e-9) // else w is fixed there
+          program.add_inequality(row, -slips[k].direction * rest(s));
+      }
+    }
+  if (program.solve())
+    take_better(best, strip.minimiser(program.minimiser()));
+}
+
+/** w_t at a point of a face by the unknowns of the strip that are kept. */
+template <int dim>
+Vector<double> Search<dim>::trace_row(const Strip &strip, const unsigned int face,
+                                      const double s) const
+{
+  const Trace &trace = traces[face];
+  const Vector<double> L = legendre_basis(trace.legendre.m(), s);
+  Vector<double> values(trace.unknowns.size()), row(strip.n_kept());
+  trace.legendre.Tvmult(values, L);
+  for (unsigned int m = 0; m < values.size(); ++m)
+    if (const unsigned int place = strip.place(trace.unknowns[m]); place != none)
+      row[place] += values[m];
+  return row;
+}
+
+template <int dim>
+Candidate Search<dim>::best(Candidate result) const
+{
+  if (result.total == 0.)
+    return result;
+  const std::vector<Role> all_roles = roles();
+  Vector<double> fixed = stuck_displacement();
+  for (unsigned int i = 0; i < fixed.size(); ++i)
+    if (all_roles[i] != Role::fixed)
+      fixed[i] = 0.;
+  const std::vector<bool> nearby = nearby_faces(result.gaps);
+  const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
+  take_better(result, strip.minimiser());
+  if (strip.n_kept() > 0)
+  {
+    try_all_stuck(strip, result);
+    try_one_direction(strip, nearby, fixed, result);
+  }
+  return result;
+}
+} // namespace
+
+template <int dim>
+SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
+                                    const Discretisation<dim> &discretisation,
+                                    const AdmissibleFriction<dim> &friction)
+    : cell_energies(solution.displacement_space.degrees().size())
+{
+  const Search<dim> search(solution, discretisation, friction);
+  Candidate best = search.of(Vector<double>(discretisation.unknowns.n()));
+  uncorrected = best.gaps;
+  best = search.best(std::move(best));
+  face_gaps = std::move(best.gaps);
+  w = std::move(best.w);
+  for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)
+    if (const auto &element = discretisation.condensation.element(cell))
+    {
+      const auto dofs = solution.displacement_space.cell_dofs(cell);
+      Vector<double> values(element->condensed.m());
+      for (unsigned int i = 0; i < values.size(); ++i)
+        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
+          values[i] += weight * w[unknown];
+      if (!values.all_zero())
+        cell_energies[cell] = element->condensed.matrix_norm_square(values);
+    }
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::gap() const
+{
+  return face_gaps;
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::uncorrected_gap() const
+{
+  return uncorrected;
+}
+
+template <int dim>
+const std::vector<double> &SlipCorrection<dim>::energy() const
+{
+  return cell_energies;
+}
+
+template <int dim>
+const Vector<double> &SlipCorrection<dim>::unknowns() const
+{
+  return w;
+}
+
+template <int dim>
+double SlipCorrection<dim>::total() const
+{
+  return 2. * sum(face_gaps) + sum(cell_energies);
+}
+
+template class SlipCorrection<2>;
+} // namespace hpvi

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/vertex_patches.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+VertexPatches::VertexPatches(const Solution<2> &solution)
+{
+  collect_edges(solution);
+  for (StressEdge &edge : all_edges)
+    set_components(solution.scene, edge);
+  set_hats(solution);
+}
+
+void VertexPatches::collect_edges(const Solution<2> &solution)
+{
+  const Degrees &degrees = solution.displacement_space.degrees();
+  all_cells.resize(degrees.size());
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> contact;
+  const auto &contact_faces = solution.contact_space.faces();
+  for (unsigned int f = 0; f < contact_faces.size(); ++f)
+    contact[{contact_faces[f].cell->active_cell_index(), contact_faces[f].face_no}] = f;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    for (unsigned int f = 0; f < 4; ++f)
+    {
+      const unsigned int index = cell->active_cell_index();
+      const bool at_boundary = cell->at_boundary(f);
+      if (!at_boundary &&
+          (cell->neighbor_is_coarser(f) ||
+           (!cell->face(f)->has_children() && cell->neighbor(f)->active_cell_index() < index)))
+        continue; // seen from the other side
+      StressEdge edge;
+      edge.vertices = {{cell->face(f)->vertex_index(0), cell->face(f)->vertex_index(1)}};
+      edge.sides.push_back({index, f, whole_edge});
+      if (at_boundary)
+      {
+        edge.boundary = cell->face(f)->boundary_id();
+        const auto found = contact.find({index, f});
+        if (found != contact.end())
+          edge.contact_face = found->second;
+      }
+      else if (cell->face(f)->has_children())
+      {
+        for (unsigned int part = 0; part < 2; ++part)
+          edge.sides.push_back(
+              {cell->neighbor_child_on_subface(f, part)->active_cell_index(), f ^ 1u, part});
+        hanging[cell->face(f)->child(0)->vertex_index(1)] = edge.vertices;
+      }
+      else
+        edge.sides.push_back({cell->neighbor(f)->active_cell_index(), f ^ 1u, whole_edge});
+      const Tensor<1, 2> along = cell->face(f)->vertex(1) - cell->face(f)->vertex(0);
+      edge.tangent = along / along.norm();
+      const double turn = f < 2 ? 1. : -1.;
+      edge.normal[0] = turn * edge.tangent[1];
+      edge.normal[1] = -turn * edge.tangent[0];
+      for (const StressEdge::Side &side : edge.sides)
+      {
+        edge.degree = std::max(edge.degree, degrees[side.cell] + 2);
+        all_cells[side.cell].edges[side.face] = all_edges.size();
+        all_cells[side.cell].parts[side.face] = side.part;
+      }
+      all_edges.push_back(edge);
+    }
+}
+
+/** Along normal and tangent, but along x and y where one of these displacements alone is prescribed. */
+void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
+{
+  edge.components = {{{edge.normal, edge.degree - 1, true}, {edge.tangent, edge.degree, true}}};
+  if (!edge.at_boundary())
+    return;
+  const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
+  if (condition.has_contact())
+  {
+    edge.components[0].is_unknown = condition.contact == Contact::bilateral;
+    edge.components[1].is_unknown = false;
+    return;
+  }
+  const std::array<bool, 2> held{
+      {bool(condition.displacement[0]), bool(condition.displacement[1])}};
+  const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;
+  if (held[0] != held[1] && !axis_parallel)
+    for (unsigned int c = 0; c < 2; ++c)
+      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), edge.degree - 1,
+                            held[c]};
+  else
+    for (auto &component : edge.components)
+      component.is_unknown = held[std::abs(component.direction[1]) > 0.5] && (held[0] || held[1]);
+}
+
+const std::map<unsigned int, double> &VertexPatches::expand(const unsigned int vertex)
+{
+  const auto known = values.find(vertex);
+  if (known != values.end())
+    return known->second;
+  std::map<unsigned int, double> result;
+  const auto found = hanging.find(vertex);
+  if (found == hanging.end())
+    result[vertex] = 1.;
+  else
+    for (const unsigned int end : found->second)
+      for (const auto &[a, value] : expand(end))
+        result[a] += 0.5 * value;
+  return values[vertex] = result;
+}
+
+void VertexPatches::set_hats(const Solution<2> &solution)
+{
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int index = cell->active_cell_index();
+    all_cells[index].iterator = cell;
+    std::vector<Hat> &hats = all_cells[index].hats;
+    for (unsigned int v = 0; v < 4; ++v)
+      for (const auto &[a, value] : expand(cell->vertex_index(v)))
+      {
+        auto hat = std::find_if(hats.begin(), hats.end(),
+                                [a = a](const Hat &other) { return other.vertex == a; });
+        if (hat == hats.end())
+        {
+          all_patches[a].emplace_back(index, hats.size());
+          hat = hats.insert(hats.end(), {a, {{0., 0., 0., 0.}}});
+        }
+        hat->values[v] = value;
+      }
+  }
+}
+
+double VertexPatches::hat(const unsigned int a, const unsigned int v) const
+{
+  const auto &at_vertex = values.at(v);
+  const auto found = at_vertex.find(a);
+  return found == at_vertex.end() ? 0. : found->second;
+}
+
+const std::vector<StressEdge> &VertexPatches::edges() const
+{
+  return all_edges;
+}
+
+const std::vector<VertexPatches::Cell> &VertexPatches::cells() const
+{
+  return all_cells;
+}
+
+const std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> &
+VertexPatches::patches() const
+{
+  return all_patches;
+}
+} // namespace hpvi

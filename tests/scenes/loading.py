@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""loading.py HPVI: the files of load histories, by value."""
+
+import csv
+import json
+import re
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from runs import RunTest, result_names
+
+# A block of height 1 in pure shear under tau = mu U as long as it sticks, mu = 0.5, g = 0.1.
+BLOCK = """
+subsection Geometry
+  set Upper corner = 2, 1
+  set Subdivisions = 2, 1
+end
+subsection Material
+  set Young's modulus = 1
+  set Poisson's ratio = 0
+end
+subsection Boundary top
+  set Displacement = if(t < 0.6, 0.8*t, 0.8 - 0.8*t); 0
+end
+subsection Boundary left
+  set Traction = 0; -{tau}
+end
+subsection Boundary right
+  set Traction = 0; {tau}
+end
+subsection Boundary bottom
+  set Contact        = bilateral
+  set Friction bound = 0.1
+end
+subsection Loading
+  set Steps = 4
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 2
+end
+"""
+# U = 0.2, 0.4, 0.2, 0: sticks, slips by 0.2, sticks, sticks up to the bound.
+TAU = (0.1, 0.1, 0., -0.1)
+SLIP = (0., 0.2, 0., 0.)
+TAU_OF_T = "if(t < 0.6, 0.1, if(t < 0.8, 0, -0.1))"
+
+
+class Loading(RunTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.home / "block.prm"
+        self.scene.write_text(BLOCK.replace("{tau}", TAU_OF_T).replace("-if", "-1*if"))
+
+    def test_tables(self):
+        self.run_scene()
+        rows, steps = self.rows("loading.csv"), self.rows()
+        self.assertEqual([row["load_step"] for row in rows], ["1", "2", "3", "4"])
+        dissipated = 0.
+        for k, row in enumerate(rows):
+            dissipated += 2 * abs(TAU[k]) * SLIP[k]
+            expected = {"t": (k + 1) / 4, "dissipated_energy": dissipated,
+                        "stored_energy": 2 * TAU[k] ** 2 / 2 / 0.5,
+                        "work": dissipated + 2 * TAU[k] ** 2 / 2 / 0.5,
+                        "force_bottom_x": -2 * TAU[k], "force_top_x": 2 * TAU[k],
+                        "force_bottom_y": 0., "force_loads_y": 0., "open_bottom": 0.}
+            for name, value in expected.items():
+                self.assertAlmostEqual(float(row[name]), value, 10, name)
+            self.assertAlmostEqual(float(row["slip_bottom"]) + float(row["stick_bottom"]), 2.)
+            self.assertNotEqual(row["stopped_by"], "")
+            last = next(s for s in reversed(steps) if s["load_step"] == row["load_step"])
+            self.assertEqual((row["step"], row["t"]), (last["step"], last["t"]))
+            for point in self.rows(f"contact-{int(row['step']):02}.csv"):
+                self.assertAlmostEqual(float(point["slip"]), SLIP[k])
+                self.assertAlmostEqual(float(point["tangential_displacement"]), sum(SLIP[:k + 1]))
+        self.assertEqual([int(s["step"]) for s in steps], list(range(1, len(steps) + 1)))
+        seconds = [float(s["seconds"]) for s in steps]
+        self.assertEqual(seconds, sorted(seconds))
+        summary = self.summary()["loading"]
+        self.assertEqual((summary["load_steps"], summary["finished"], summary["t"]), (4, 4, 1))
+        self.assertEqual(str(summary["dissipated_energy"]), rows[-1]["dissipated_energy"])
+        self.assertEqual(self.names(), sorted([*result_names(len(steps)), "loading.csv"]))
+
+    def test_collection_runs_over_load_steps(self):
+        self.run_scene()
+        sets = ElementTree.parse(self.out / "solution.pvd").getroot().findall("./Collection/*")
+        self.assertEqual([(float(s.get("timestep")), s.get("file")) for s in sets],
+                         [(float(row["t"]), f"solution-{int(row['step']):02}.vtu")
+                          for row in self.rows("loading.csv")])
+
+    def test_effective_parameters_are_the_same_run(self):
+        self.run_scene()
+        once = self.contents()
+        self.scene = self.home / "again.prm"
+        self.scene.write_bytes(once["scene.prm"])
+        self.run_scene(output=self.home / "again")
+        again = {p.name: p.read_bytes() for p in (self.home / "again").iterdir()}
+        for name in ("scene.prm", "loading.csv", "degrees.csv", "contact-04.csv"):
+            self.assertEqual(once[name], again[name], name)
+
+    def test_without_history_nothing_of_it_remains(self):
+        self.run_scene()
+        self.scene.write_text(self.scene.read_text().replace("set Steps = 4", "")
+                              .replace(TAU_OF_T, "0.1")
+                              .replace("if(t < 0.6, 0.8*t, 0.8 - 0.8*t)", "0.2"))
+        self.run_scene()
+        self.assertEqual(self.names(), result_names(len(self.rows())))
+        self.assertNotIn("t", self.rows()[0])
+        self.assertNotIn("load_step", self.rows()[0])
+        self.assertNotIn("slip", self.rows("contact-01.csv")[0])
+        self.assertNotIn("loading", self.summary())
+
+    def test_finished_load_steps_stay(self):
+        # In the third load step the prescribed displacements pass the plane between tried points.
+        line = self.run_scene("Boundary top/Traction=0; 0", "Boundary top/Displacement=free; free",
+                              "Boundary left/Traction=0;0", "Boundary right/Traction=0.3*t; 0",
+                              status=2)
+        self.assertRegex(line, r"load step 3, t = 0\.75: no equilibrium")
+        self.assertEqual([row["t"] for row in self.rows("loading.csv")], ["0.25", "0.5"])
+        self.assertEqual(self.summary()["status"], "failed")
+        self.assertEqual(self.summary()["loading"]["finished"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Histories of loads: slip is counted from the load step before, and energy is accounted for.
+#include "opening_contact.h"
+
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/contact/tangential_trace.h>
+#include <hpvi/discretisation/interpolation.h>
+
+namespace
+{
+using namespace verification;
+
+/** What a load step leaves. */
+struct State
+{
+  LoadStep load;
+  Vector<double> u, z;
+  unsigned int n_elements;
+  double energy, slack, slip, largest_slip; ///< slip: int |u_t - past| by the contact points
+  std::vector<ContactPoint<2>> points;
+};
+
+/** The last step of each load step. */
+std::vector<State> evolution(const Scene<2> &scene)
+{
+  std::vector<State> states;
+  LoadHistory<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (step.stopped_by.empty())
+          return;
+        const Solution<2> &solution = step.solution;
+        State state{step.load,
+                    solution.u,
+                    solution.z,
+                    solution.displacement_space.triangulation().n_active_cells(),
+                    step.energies.energy,
+                    step.energies.slack,
+                    0.,
+                    0.,
+                    {}};
+        for (const ContactState<2> &contact : step.contact)
+          for (const ContactPoint<2> &point : contact.points)
+          {
+            state.largest_slip = std::max(state.largest_slip, std::abs(point.slip));
+            state.points.push_back(point);
+          }
+        states.push_back(state);
+      });
+  return states;
+}
+
+double difference(const Vector<double> &a, const Vector<double> &b, const double factor = 1)
+{
+  Vector<double> rest(a);
+  rest.add(-factor, b);
+  return rest.linfty_norm();
+}
+
+// ---------------------------------------------------------------- closed forms
+
+/**
+ * A block of height 1 on a plane, sheared by the displacement U of its top: a spring of stiffness mu in
+ * series with friction, Jenkins' element. Its sides bear the shear stress, so that the field is
+ * `u = (slip + tau y/mu, -p y/E)` with Poisson's ratio 0 and the pressure p.
+ */
+struct Jenkins
+{
+  double tau = 0, slip = 0;
+
+  void advance(const double U, const double mu, const double bound)
+  {
+    tau = std::min(bound, std::max(-bound, mu * (U - slip)));
+    slip = U - tau / mu;
+  }
+};
+
+constexpr double width = 2, young = 3, mu = 1.5;
+
+/** Loads, and the history that they have, at the time t. */
+struct Path
+{
+  std::function<double(double)> displacement, pressure;
+  double coefficient; ///< of Coulomb's law, or 0: Tresca's with the pressure as bound
+};
+
+double bound(const Path &path, const double t)
+{
+  return (path.coefficient > 0 ? path.coefficient : 1.) * path.pressure(t);
+}
+
+Jenkins jenkins(const Path &path, const unsigned int steps, const unsigned int last)
+{
+  Jenkins element;
+  for (unsigned int k = 1; k <= last; ++k)
+    element.advance(path.displacement(k / double(steps)), mu, bound(path, k / double(steps)));
+  return element;
+}
+
+Scene<2> block(const Path &path, const std::string &contact, const unsigned int steps,
+               const double t)
+{
+  const std::string p = text(path.pressure(t)),
+                    tau = text(jenkins(path, steps, std::lround(t * steps)).tau);
+  return scene_of({{"Geometry/Upper corner", text(width) + ", 1"},
+                   {"Geometry/Subdivisions", "2, 1"},
+                   {"Material/Young's modulus", text(young)},
+                   {"Material/Poisson's ratio", "0"},
+                   {"Boundary bottom/Contact", contact},
+                   path.coefficient > 0 ? std::make_pair("Boundary bottom/Friction coefficient",
+                                                         text(path.coefficient))
+                                        : std::make_pair("Boundary bottom/Friction bound", p),
+                   {"Boundary top/Displacement", text(path.displacement(t)) + "; free"},
+                   {"Boundary top/Traction", "0; -" + p},
+                   {"Boundary right/Traction", "0; " + tau},
+                   {"Boundary left/Traction", "0; -(" + tau + ")"},
+                   {"Adaptivity/Method", "hap2"},
+                   {"Adaptivity/Maximum steps", "1"}});
+}
+
+Scene<2> block(const Path &path, const std::string &contact, const unsigned int steps)
+{
+  const auto at = [=](const double t) { return block(path, contact, steps, t); };
+  Scene<2> scene = at(1. / steps);
+  scene.loading = {steps, LoadAdaptivity::every_step, at};
+  return scene;
+}
+
+const auto wave = [](const double t) { return 0.5 * std::sin(4 * M_PI * t) + 0.1 * t; };
+
+class JenkinsElement : public ::testing::TestWithParam<std::pair<std::string, double>>
+{
+};
+
+TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
+{
+  const auto [contact, coefficient] = GetParam();
+  // A pressure that falls makes the block slip where its top stands still.
+  const Path path{wave, [](const double t) { return 0.4 - 0.2 * t; }, coefficient};
+  const unsigned int steps = 24;
+  const std::vector<State> states = evolution(block(path, contact, steps));
+  ASSERT_EQ(states.size(), steps);
+  double dissipated = 0, slip = 0;
+  for (unsigned int k = 1; k <= steps; ++k)
+  {
+    const State &state = states[k - 1];
+    const double t = k / double(steps), p = path.pressure(t);
+    const Jenkins exact = jenkins(path, steps, k);
+    dissipated += width * exact.tau * (exact.slip - slip);
+    for (const ContactPoint<2> &point : state.points)
+    {
+      // The tangent of the bottom points to the right.
+      EXPECT_NEAR(point.tangential_displacement, exact.slip, 1e-10) << "t = " << t;
+      EXPECT_NEAR(point.slip, exact.slip - slip, 1e-10) << "t = " << t;
+      EXPECT_NEAR(point.tangential_traction, -exact.tau, 1e-10) << "t = " << t;
+    }
+    EXPECT_EQ(state.load.number, k);
+    EXPECT_EQ(state.load.t, t);
+    EXPECT_NEAR(state.load.dissipated, dissipated, 1e-10);
+    EXPECT_NEAR(state.load.stored, width * (exact.tau * exact.tau / (2 * mu) + p * p / (2 * young)),
+                1e-10);
+    EXPECT_NEAR(state.load.work, state.load.dissipated + state.load.stored, 1e-12);
+    EXPECT_NEAR(state.slack, 0, 1e-12);
+    slip = exact.slip;
+  }
+  EXPECT_GT(dissipated, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, JenkinsElement,
+                         ::testing::Values(std::make_pair(std::string("bilateral"), 0.),
+                                           std::make_pair(std::string("unilateral"), 0.),
+                                           std::make_pair(std::string("bilateral"), 0.8),
+                                           std::make_pair(std::string("unilateral"), 0.8)));
+
+/**
+ * Mindlin and Deresiewicz: after Q_1 the force falls to Q, and slip comes back from the ends of the
+ * contact, u = u(Q_1) - 2 u((Q_1 - Q)/2) with the field u(Q) of the first loading.
+ */
+struct Mindlin
+{
+  static constexpr double a = 0.7, b = 2.1, Q_1 = 1.5;
+  Material material;
+
+  /** The stick length for the force Q, of which the whole friction is pi a b / 2. */
+  static double stick_length(const double Q)
+  {
+    return std::sqrt(a * a - 2 * a * Q / (M_PI * b));
+  }
+
+  Tensor<1, 2> loading(const double Q, const Point<2> &x) const
+  {
+    return Q == 0 ? Tensor<1, 2>()
+                  : PartialSlip(material, b, a, stick_length(Q), 0.).displacement(x);
+  }
+
+  Tensor<1, 2> unloading(const double Q, const Point<2> &x) const
+  {
+    return loading(Q_1, x) - 2 * loading((Q_1 - Q) / 2, x);
+  }
+
+  /** int g |u_t| of the first loading, up to Q. */
+  double dissipated(const double Q) const
+  {
+    const QGauss<1> gauss(20);
+    double sum = 0;
+    const double c = stick_length(Q), n = 200;
+    for (unsigned int k = 0; k < n; ++k) // u_t begins like (x - c)^(3/2), g ends like a root
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double x = c + (a - c) * (k + gauss.point(q)[0]) / n;
+        sum += 2 * gauss.weight(q) * (a - c) / n * b * std::sqrt(1 - x * x / (a * a)) *
+               std::abs(loading(Q, Point<2>(x, 0))[0]);
+      }
+    return sum;
+  }
+};
+
+TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
+{
+  const Scene<2> plain = shipped_scene("partial-slip", {{"Exact solution/Solution", "none"},
+                                                        {"Boundary left/Displacement", "0; 0"},
+                                                        {"Boundary right/Displacement", "0; 0"},
+                                                        {"Boundary top/Displacement", "0; 0"},
+                                                        {"Adaptivity/Tolerance", "1e-4"},
+                                                        {"Adaptivity/Maximum steps", "20"}});
+  const Mindlin mindlin{plain.materials[0]};
+  const std::vector<double> forces = {1.5, 0.4, -1.}; // the first is Q_1
+  const auto exact = [&](const unsigned int step, const Point<2> &x)
+  { return step == 0 ? mindlin.loading(Mindlin::Q_1, x) : mindlin.unloading(forces[step], x); };
+  Scene<2> scene = plain;
+  scene.loading.steps = forces.size();
+  scene.loading.at = [&](const double t)
+  {
+    Scene<2> result = plain;
+    for (const char *const name : {"left", "right", "top"})
+      for (unsigned int c = 0; c < 2; ++c)
+        result.boundary(name).displacement[c] =
+            expression<2>([&exact, c, step = std::lround(t * forces.size()) - 1](const Point<2> &x)
+                          { return exact(step, x)[c]; });
+    return result;
+  };
+  std::vector<double> dissipated = {mindlin.dissipated(Mindlin::Q_1)};
+  for (unsigned int k = 1; k < forces.size(); ++k)
+    dissipated.push_back(dissipated[0] + 2 * mindlin.dissipated((Mindlin::Q_1 - forces[k]) / 2));
+  LoadHistory<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (step.stopped_by.empty())
+          return;
+        const unsigned int k = step.load.number - 1;
+        EXPECT_LE(nodal_error(step.solution, [&](const Point<2> &x) { return exact(k, x); }), 1e-5);
+        EXPECT_NEAR(step.contact[0].friction_resultant, -forces[k], 1e-4);
+        EXPECT_NEAR(step.load.dissipated, dissipated[k], 1e-4 * dissipated[k]) << k;
+      });
+}
+
+// ---------------------------------------------------------------- identities
+
+/** A bar on a plane, moved by its right end: slip begins there and grows inwards. */
+Scene<2> bar(const unsigned int steps, const std::string &displacement, const Overrides &more = {})
+{
+  Overrides entries = {{"Geometry/Upper corner", "4, 0.5"},
+                       {"Geometry/Subdivisions", "8, 1"},
+                       {"Material/Young's modulus", "10"},
+                       {"Boundary bottom/Contact", "bilateral"},
+                       {"Boundary bottom/Friction bound", "0.1"},
+                       {"Boundary right/Displacement", displacement + "; free"},
+                       {"Adaptivity/Method", "hap3"},
+                       {"Adaptivity/Maximum steps", "1"},
+                       {"Loading/Steps", std::to_string(steps)},
+                       {"Loading/Adapt", "first step"}};
+  entries.insert(entries.end(), more.begin(), more.end());
+  return scene_of(entries);
+}
+
+/** At n load steps of each straight piece from one corner to the next, all of the same duration. */
+std::string zigzag(const std::vector<double> &corners)
+{
+  std::string result = text(corners.back()), s = text(corners.size()) + "*t";
+  for (unsigned int k = corners.size(); k-- > 0;)
+  {
+    const double from = k == 0 ? 0. : corners[k - 1];
+    result = "if(" + s + " <= " + text(k + 1 + 1e-9) + ", " + text(from) + " + (" + s + " - " +
+             text(k) + ")*" + text(corners[k] - from) + ", " + result + ")";
+  }
+  return result;
+}
+
+TEST(LoadHistory, UnloadsAlongTheLoadingCurveTwiceAsLarge) // Masing's rule
+{
+  const unsigned int n = 6;
+  const std::vector<State> states = evolution(bar(2 * n, zigzag({0.03, -0.03})));
+  const State &turn = states[n - 1];
+  unsigned int partly = 0;
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    Vector<double> change(turn.u), friction(turn.z);
+    change -= states[n + k].u;
+    friction -= states[n + k].z;
+    EXPECT_LE(difference(change, states[k].u, 2), 1e-10 * turn.u.linfty_norm()) << k;
+    EXPECT_LE(difference(friction, states[k].z, 2), 1e-9 * turn.z.linfty_norm()) << k;
+    partly += states[k].points.back().slips && !states[k].points.front().slips;
+  }
+  EXPECT_GE(partly, 2U); // else nothing is tested
+}
+
+TEST(LoadHistory, RepeatsItsLoop)
+{
+  const unsigned int n = 5;
+  const double U = 0.03;
+  const std::vector<State> states = evolution(bar(5 * n, zigzag({U, -U, U, -U, U})));
+  const double once = states[3 * n - 1].load.dissipated - states[n - 1].load.dissipated;
+  EXPECT_GT(once, 0);
+  for (unsigned int k = n; k < 3 * n; ++k)
+  {
+    const State &first = states[k], &second = states[k + 2 * n];
+    EXPECT_LE(difference(first.u, second.u), 1e-10 * first.u.linfty_norm()) << k;
+    EXPECT_LE(difference(first.z, second.z), 1e-9 * 0.1) << k;
+    EXPECT_NEAR(second.load.dissipated - first.load.dissipated, once, 1e-10 * once) << k;
+  }
+}
+
+TEST(LoadHistory, DoesNotDependOnItsRate)
+{
+  const std::vector<State> few = evolution(bar(2, "0.03*t")), many = evolution(bar(12, "0.03*t"));
+  Scene<2> static_scene = bar(1, "0.03*t").loading.at(1);
+  AdaptiveSolver<2>(static_scene)
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_LE(difference(few.back().u, step.solution.u), 1e-10 * 0.03);
+            EXPECT_LE(difference(few.back().z, step.solution.z), 1e-9 * 0.1);
+          });
+  EXPECT_LE(difference(few.back().u, many.back().u), 1e-10 * 0.03);
+  EXPECT_LE(difference(few.back().z, many.back().z), 1e-9 * 0.1);
+  EXPECT_NEAR(many.back().load.dissipated, few.back().load.dissipated,
+              1e-9 * few.back().load.dissipated);
+  EXPECT_GT(few.back().load.dissipated, 0.1 * few.back().load.work);
+}
+
+TEST(LoadHistory, RestsWhereLoadsRest)
+{
+  const std::vector<State> states =
+      evolution(bar(6, "0.03*min(2*t, 1)", {{"Loading/Adapt", "every step"}}));
+  EXPECT_GT(states[2].largest_slip, 1e-4);
+  for (unsigned int k = 3; k < 6; ++k)
+  {
+    EXPECT_LE(states[k].largest_slip, 1e-15);
+    EXPECT_LE(difference(states[k].u, states[2].u), 1e-12 * 0.03);
+    EXPECT_NEAR(states[k].load.dissipated, states[2].load.dissipated, 1e-16);
+    EXPECT_NEAR(states[k].load.work, states[2].load.work, 1e-16);
+  }
+}
+
+/** On any mesh that descends from that of the past, and with degrees that are not lower. */
+TEST(LoadHistory, HandsOnPastSlipWithoutError)
+{
+  for (const unsigned int seed : {1, 2, 3, 4})
+  {
+    Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                               {"Geometry/Corners", "0, 0; 3, 1; 2, 3; -0.5, 2"},
+                               {"Geometry/Subdivisions", "3, 2"},
+                               {"Boundary bottom/Contact", "unilateral"},
+                               {"Boundary bottom/Friction coefficient", "0.3"},
+                               {"Boundary right/Contact", "tangential"},
+                               {"Boundary right/Friction bound", "1 + x"},
+                               {"Boundary left/Displacement", "0.1*x; free"}});
+    const RandomMesh coarse(scene, seed, 2, 2, 6);
+    std::mt19937 random(seed);
+    const Laboratory before(scene, coarse);
+    const Solution<2> past = before.random_field(random);
+
+    Refinement refinement;
+    refinement.degrees = coarse.degrees;
+    for (unsigned int &degree : refinement.degrees)
+    {
+      refinement.bisect.push_back(random() % 3 == 0);
+      degree += random() % 3;
+    }
+    Triangulation<2> mesh;
+    mesh.copy_triangulation(coarse.mesh);
+    const Degrees degrees = refine_mesh(mesh, coarse.degrees, refinement);
+    for (const types::boundary_id boundary : {1, 2})
+      scene.boundaries[boundary].friction.past = std::make_shared<TangentialTrace<2>>(
+          past.contact_space, past.displacement_space, past.tables, past.u, boundary);
+    const Laboratory after(scene, mesh, degrees);
+    const Vector<double> u = interpolate(past, after.displacement_space);
+
+    EXPECT_NEAR(
+        internal_forces(scene, after.displacement_space, after.tables, u).energy_product /
+            internal_forces(scene, before.displacement_space, before.tables, past.u).energy_product,
+        1., 1e-12);
+    const Vector<double> moments = after.contact_operator.moments(u);
+    unsigned int frictions = 0;
+    for (unsigned int i = 0; i < moments.size(); ++i)
+      if (const ContactMultiplier<2> &unknown = after.contact_space.multipliers()[i];
+          unknown.kind == ContactMultiplier<2>::Kind::friction)
+      {
+        EXPECT_NEAR(unknown.gap, moments[i], 1e-13 * unknown.weight * past.u.linfty_norm()) << i;
+        ++frictions;
+      }
+    EXPECT_GT(frictions, 10U);
+  }
+}
+
+TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
+{
+  const Overrides steps = {{"Adaptivity/Maximum steps", "6"}, {"Adaptivity/Method", "hpa3"}};
+  Overrides each = steps;
+  each.push_back({"Loading/Adapt", "every step"});
+  std::vector<unsigned int> elements;
+  double first = 0;
+  unsigned int number = 0;
+  LoadHistory<2>(bar(5, "0.03*sin(6*t)", each))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_EQ(step.number, ++number);
+            if (step.stopped_by.empty())
+              return;
+            if (step.load.number == 1)
+              first = step.relative_estimate;
+            else
+              EXPECT_TRUE(step.relative_estimate < 1.2 * first ||
+                          step.stopped_by == "Maximum steps");
+            elements.push_back(step.solution.displacement_space.degrees().size());
+          });
+  EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
+  EXPECT_GT(elements.back(), elements.front());
+  const std::vector<State> fixed = evolution(bar(5, "0.03*sin(6*t)", steps));
+  for (const State &state : fixed)
+    EXPECT_EQ(state.n_elements, elements.front());
+}
+
+TEST(LoadHistory, IsNoMatterOfASingleRun)
+{
+  const Scene<2> history = bar(3, "0.03*t");
+  EXPECT_THROW(AdaptiveSolver<2>{history}, InputError);
+  EXPECT_THROW(AdaptiveSolver<2>(history, RunState()), InputError);
+  Scene<2> incomplete = history;
+  incomplete.loading.at = nullptr;
+  EXPECT_THROW(LoadHistory<2>{incomplete}, InputError);
+  incomplete = history;
+  incomplete.loading.steps = 0;
+  EXPECT_THROW(LoadHistory<2>{incomplete}, InputError);
+  unsigned int steps = 0; // without history it is that run
+  LoadHistory<2>(history.loading.at(1))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_EQ(step.load.number, 0U);
+            ++steps;
+          });
+  EXPECT_EQ(steps, 1U);
+}
+
+/** What happens while @p scene runs, and in how many load steps it gets through. */
+std::string failure(const Scene<2> &scene, unsigned int &finished)
+{
+  try
+  {
+    LoadHistory<2>(scene).run([&](const StepReport<2> &step) { finished = step.load.number; });
+  }
+  catch (const std::exception &error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(LoadHistory, SaysInWhichLoadStepItFailed)
+{
+  // Friction alone holds the bar, with up to 0.4.
+  unsigned int finished = 0;
+  const std::string line = failure(
+      bar(10, "free", {{"Boundary right/Displacement", ""}, {"Boundary right/Traction", "t; 0"}}),
+      finished);
+  EXPECT_EQ(finished, 8U);
+  EXPECT_EQ(line.find("load step 9, t = 0.9: no equilibrium"), 0U) << line;
+  // A pole between the points at which expressions are tried.
+  const std::string pole =
+      failure(bar(10, "0.03*t",
+                  {{"Boundary top/Traction", "if(abs(t - 0.3) < 0.01 & x > 1.01 & x < 1.12, 1/0, "
+                                             "0.001); 0"}}),
+              finished);
+  EXPECT_EQ(finished, 2U) << pole;
+  EXPECT_NE(pole.find("t = 0.3"), std::string::npos) << pole;
+}
+
+TEST(LoadHistory, RemembersTheWarningsOfAllLoadSteps)
+{
+  std::vector<std::string> last;
+  unsigned int earlier = 0;
+  LoadHistory<2>(bar(4, "0.03*t", {{"Boundary top/Traction", "0; if(t < 0.9, 0.2, -5)"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            last = step.warnings;
+            earlier += mentions(step.warnings, "bilateral contact pulls") && step.load.number < 4;
+          });
+  EXPECT_EQ(earlier, 3U);
+  EXPECT_EQ(std::count_if(last.begin(), last.end(),
+                          [](const std::string &warning)
+                          { return warning.find("bilateral contact pulls") == 0; }),
+            1);
+}
+
+struct History
+{
+  std::string name;
+  Overrides entries;
+};
+
+void PrintTo(const History &history, std::ostream *out)
+{
+  *out << history.name;
+}
+
+class Balance : public ::testing::TestWithParam<History>
+{
+};
+
+/** External work is what is stored and what friction takes, through refinement too. */
+TEST_P(Balance, HoldsInEachLoadStep)
+{
+  Overrides entries = {
+      {"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", "0, 0; 4, -0.5; 3.5, 1.5; 0.2, 1"},
+      {"Geometry/Subdivisions", "4, 1"},   {"Material/Young's modulus", "10"},
+      {"Adaptivity/Method", "hpa2"},       {"Adaptivity/Maximum steps", "2"},
+      {"Adaptivity/Tolerance", "1e-9"},    {"Loading/Steps", "6"}};
+  entries.insert(entries.end(), GetParam().entries.begin(), GetParam().entries.end());
+  const std::vector<State> states = evolution(scene_of(entries));
+  ASSERT_EQ(states.size(), 6U);
+  double last = 0;
+  for (const State &state : states)
+  {
+    EXPECT_NEAR(state.load.work, state.load.dissipated + state.load.stored,
+                1e-10 * states.back().load.work)
+        << "t = " << state.load.t;
+    EXPECT_GE(state.load.dissipated, last - 1e-14 * states.back().load.work);
+    last = state.load.dissipated;
+  }
+  EXPECT_GT(last, 1e-3 * states.back().load.work);
+  EXPECT_GT(states.back().n_elements, states.front().n_elements);
+}
+
+const Overrides shears = {
+    {"Boundary top/Displacement", "0.1*sin(6*t); -0.01*t + 0.003*x*t*sin(9*t)"}};
+
+Overrides with(const Overrides &more)
+{
+  Overrides result = shears;
+  result.insert(result.end(), more.begin(), more.end());
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Contacts, Balance,
+    ::testing::Values(
+        History{"bilateral", with({{"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "0.02*(1 + t)*(1 + x)"}})},
+        History{"tangential", with({{"Boundary bottom/Contact", "tangential"},
+                                    {"Boundary bottom/Friction bound", "0.1"},
+                                    {"Body force/Expression", "0; -0.1*t"}})},
+        History{"nodes", with({{"Boundary bottom/Contact", "unilateral"},
+                               {"Boundary bottom/Friction bound", "0.05*(2 - t)"},
+                               {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
+        History{"multiplier", with({{"Boundary bottom/Contact", "unilateral"},
+                                    {"Boundary bottom/Friction bound", "0.05"},
+                                    {"Boundary bottom/Gap", "0.002*x - 0.01*t^2"},
+                                    {"Solver/Normal contact", "multiplier"}})},
+        History{"coulomb", with({{"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary bottom/Friction coefficient", "0.3"},
+                                 {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
+        History{"coulomb_bilateral", with({{"Boundary bottom/Contact", "bilateral"},
+                                           {"Boundary bottom/Friction coefficient", "0.3"}})},
+        History{"loads",
+                {{"Boundary bottom/Contact", "bilateral"},
+                 {"Boundary bottom/Friction bound", "0.1"},
+                 {"Boundary right/Displacement", "0.01*t*(1 + y^2); free"},
+                 {"Boundary left/Traction", "0.5*sin(8*t); 0.1"},
+                 {"Body force/Expression", "0.1*t; -0.1"}}}));
+} // namespace
