@@ -43,7 +43,7 @@ struct LoadHistory<dim>::Evolution
   LoadStep load;
   unsigned int n_steps = 0; ///< of finished load steps
   double seconds = 0;       ///< likewise
-  double tolerance = 0;     ///< that the first load step sets for the others
+  double tolerance = 0;     ///< that the first load step with an error sets for the others
   std::vector<std::string> warnings;
 
   explicit Evolution(const Scene<dim> &scene);
@@ -117,7 +117,7 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
   report.load = load;
   n_steps = report.number;
   seconds = report.seconds;
-  if (load.number == 1)
+  if (tolerance == 0 && report.stopped_by != "round-off")
     tolerance = 1.2 * report.relative_estimate;
   past.emplace(Past<dim>{current, solution, solver->end()});
   collect(report);
@@ -188,7 +188,9 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
   }
   catch (const InputError &error)
   {
-    throw InputError(error.what() + std::string(" (") + evolution->place() + ")");
+    const std::string line = error.what();
+    const bool says_when = line.find(" t = ") != std::string::npos;
+    throw InputError(line + (says_when ? "" : " (" + evolution->place() + ")"));
   }
 }
 

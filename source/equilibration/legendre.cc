@@ -15,23 +15,25 @@ std::vector<double> legendre::values(const unsigned int n, const double x)
   for (unsigned int i = 0; i < n; ++i)
     P[i] = i == 0 ? 1. : i == 1 ? x : ((2 * i - 1) * x * P[i - 1] - (i - 1) * P[i - 2]) / i;
   for (unsigned int i = 0; i < n; ++i)
-    P[i] *= std::sqrt(i + 0.5);
+    P[i] *= at_end(i, true);
   return P;
 }
 
-double legendre::derivative(const unsigned int i, const unsigned int j)
+double legendre::root(const unsigned int i)
 {
-  return j < i && (i - j) % 2 == 1 ? 2 * std::sqrt((i + 0.5) * (j + 0.5)) : 0.;
+  static const auto table = []
+  {
+    std::array<double, 128> roots;
+    for (unsigned int k = 0; k < roots.size(); ++k)
+      roots[k] = std::sqrt(2. * k + 1);
+    return roots;
+  }();
+  return table[i];
 }
 
 double legendre::shift(const unsigned int i)
 {
-  return i / std::sqrt(4. * i * i - 1);
-}
-
-double legendre::at_end(const unsigned int i, const bool right)
-{
-  return (right || i % 2 == 0 ? 1 : -1) * std::sqrt(i + 0.5);
+  return i == 0 ? 0. : i / (root(i) * root(i - 1));
 }
 
 double legendre::evaluate(const std::vector<double> &coefficients, const double x)

@@ -359,7 +359,6 @@ private:
   std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
   std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
                                           const std::vector<Role> &roles) const;
-  void try_all_stuck(const Strip &strip, Candidate &best) const;
   void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
                          const Vector<double> &fixed, Candidate &best) const;
   Vector<double> trace_row(const Strip &strip, unsigned int face, double s) const;
@@ -444,13 +443,13 @@ std::vector<Role> Search<dim>::roles() const
   return result;
 }
 
-/** The unknowns of a displacement that is u_Nt where the body sticks or slips in part; elsewhere of no use. */
+/** The unknowns of a displacement that is u_Nt where the body sticks; elsewhere of no use. */
 template <int dim>
 Vector<double> Search<dim>::stuck_displacement() const
 {
   Vector<double> u(solution.u.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode != Slip::everywhere)
+    if (slips[k].mode == Slip::nowhere)
     {
       const Tensor<1, dim> tangent = faces[k].frame(0.5).tangent;
       const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
@@ -510,26 +509,6 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
-}
-
-/** w_t = u_Nt on faces that slip in part, too. */
-template <int dim>
-void Search<dim>::try_all_stuck(const Strip &strip, Candidate &best) const
-{
-  const Vector<double> stuck = stuck_displacement();
-  std::vector<bool> is_stuck(strip.n_kept());
-  InequalityProgram program(strip.H(), strip.h());
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode == Slip::partly)
-      for (const unsigned int unknown : traces[k].unknowns)
-        if (const unsigned int place = strip.place(unknown); place != none && !is_stuck[place])
-        {
-          is_stuck[place] = true;
-          Vector<double> row(strip.n_kept());
-          row[place] = 1.;
-          program.add_equality(row, stuck[unknown]);
-        }
-  take_better(best, strip.minimiser(program.minimiser()));
 }
 
 /** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
@@ -594,10 +573,7 @@ Candidate Search<dim>::best(Candidate result) const
   const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
   take_better(result, strip.minimiser());
   if (strip.n_kept() > 0)
-  {
-    try_all_stuck(strip, result);
     try_one_direction(strip, nearby, fixed, result);
-  }
   return result;
 }
 } // namespace

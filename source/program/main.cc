@@ -119,9 +119,8 @@ std::string work_in_words(const LoadStep &load)
 {
   if (load.number == 0)
     return {};
-  return "load history: " + std::to_string(load.number) + " load steps, work " +
-         text(load.work, 6) + ", stored " + text(load.stored, 6) + ", dissipated by friction " +
-         text(load.dissipated, 6) + "\n";
+  return "load history: work " + text(load.work, 6) + ", stored " + text(load.stored, 6) +
+         ", dissipated by friction " + text(load.dissipated, 6) + "\n";
 }
 
 // ---------------------------------------------------------------- what the program does
@@ -179,6 +178,9 @@ void run(const Scene<dim> &scene, const std::string &directory)
   for (const std::string &warning : warnings)
     std::cout << "\nwarning: " << warning;
   std::cout << (warnings.empty() ? "" : "\n") << '\n'
+            << (scene.has_load_history()
+                    ? std::to_string(scene.loading.steps) + " load steps; the last "
+                    : "")
             << (stopped_by == "round-off" ? "stopped: exact to round-off"
                                           : "stopped by Adaptivity/" + stopped_by)
             << "\nresults in " << directory << std::endl;

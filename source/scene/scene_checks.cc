@@ -765,11 +765,6 @@ void check_adaptivity(const Scene<2> &scene)
            "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
                "; lower the one or raise the other",
            start);
-  const std::string no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
-  if (adaptivity.indicator == Indicator::bound && !no_bound.empty())
-    reject(scene, "Adaptivity", "Indicator",
-           "is \"bound\", but there is no bound of the error: " + no_bound +
-               "; choose Indicator = residual");
   if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
     reject(scene, "Adaptivity", "hpa1 raised fraction",
            "makes more than all cells with hpa1 bisected fraction = " +

@@ -153,9 +153,9 @@ void add_method_entries(std::vector<Entry> &entries)
         "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
         "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
-       {section, "Indicator", "residual", one_of(indicator_names), "residual or bound",
-        "What marks cells: the residual indicator (4.44)-(4.51), or the shares of the guaranteed "
-        "bound (Error/Bound)."},
+       {section, "Indicator", "bound", one_of(indicator_names), "residual or bound",
+        "What marks cells. bound: their shares of the guaranteed bound (Error/Bound), or the "
+        "indicator where there is none. residual: the indicator eta_K (4.50)."},
        {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
         "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
         "hpa2, hpa3: 3)."},
@@ -202,7 +202,7 @@ void add_loading_entries(std::vector<Entry> &entries)
        {section, "Adapt", "every step", one_of(load_adaptivity_names), "first step or every step",
         "first step: the mesh of the first load step stays. every step: each load step adapts "
         "that of the one before; without Adaptivity/Tolerance until its relative indicator is no "
-        "more than that of the first by a fifth. The limits of Adaptivity hold for each load "
+        "more than a fifth above that of the first. The limits of Adaptivity hold for each load "
         "step."}});
 }
 

@@ -159,6 +159,15 @@ public:
   CoulombReport fixed_point(bool warm);
 
 private:
+  /** Of one linear system. */
+  struct Unknowns
+  {
+    using Followers = std::vector<std::pair<unsigned int, double>>; ///< components, by how much
+    std::vector<unsigned int> free;
+    std::vector<Followers> followers; ///< by free component, what slips with it
+    Vector<double> base;              ///< with the free ones where they begin
+  };
+
   CoulombReport finish();
 
   bool step_on_from(State state);
@@ -172,6 +181,8 @@ private:
   State predict() const;
   State predict_after(const State &last) const;
   bool follow(const State &state);
+  Unknowns unknowns_of(const State &state) const;
+  std::vector<double> matrix_of(const Unknowns &unknowns, double give) const;
   bool solve_linear_system(const State &state, double give);
   void halve_step(const Vector<double> &old_z, const Vector<double> &old_alpha,
                   const Vector<double> &old_r);
@@ -450,35 +461,32 @@ bool Iteration::follow(const State &state)
   return true;
 }
 
-/**
- * With P the directions of the free components F, which take along what slips, `z = base + P y`:
- *
- *     (S P)_F y - G_F dalpha = -r_F(base),   G'P y + give Gamma^-1 dalpha = e - G'base,
- *
- * in scaled variables.
- */
-bool Iteration::solve_linear_system(const State &state, const double give)
+/** What @p state leaves free, and what follows it. */
+Iteration::Unknowns Iteration::unknowns_of(const State &state) const
 {
-  const unsigned int n = z.size(), m = alpha.size();
-  std::vector<unsigned int> free;
-  for (unsigned int i = 0; i < n; ++i)
+  Unknowns result{{}, std::vector<Unknowns::Followers>(z.size()), state.base};
+  for (unsigned int i = 0; i < z.size(); ++i)
     if (state.walls[i] == 0)
-      free.push_back(i);
-  // By free component, what slips with it.
-  std::vector<std::vector<std::pair<unsigned int, double>>> taken(n);
-  Vector<double> base(state.base);
+      result.free.push_back(i);
   for (const FrictionCones::Cone &cone : set->cones)
   {
     const signed char wall = state.walls[cone.tangential];
     if (wall == 0)
       continue;
     const double slope = wall == loose ? 0. : wall * cone.mu;
-    base[cone.tangential] = slope * base[cone.normal];
+    result.base[cone.tangential] = slope * result.base[cone.normal];
     if (slope != 0. && state.walls[cone.normal] == 0)
-      taken[cone.normal].emplace_back(cone.tangential, slope);
+      result.followers[cone.normal].emplace_back(cone.tangential, slope);
   }
-  const unsigned int f = free.size(), size = f + m;
-  std::vector<double> matrix(std::size_t(size) * size), x(size);
+  return result;
+}
+
+/** By columns, in scaled variables. */
+std::vector<double> Iteration::matrix_of(const Unknowns &unknowns, const double give) const
+{
+  const std::vector<unsigned int> &free = unknowns.free;
+  const unsigned int f = free.size(), m = alpha.size(), size = f + m;
+  std::vector<double> matrix(std::size_t(size) * size);
   for (unsigned int j = 0; j < f; ++j)
   {
     double *column = matrix.data() + std::size_t(j) * size;
@@ -490,7 +498,7 @@ bool Iteration::solve_linear_system(const State &state, const double give)
         column[f + k] += part / scale[component] * G(component, k);
     };
     add(free[j], scale[free[j]]);
-    for (const auto &[component, slope] : taken[free[j]])
+    for (const auto &[component, slope] : unknowns.followers[free[j]])
       add(component, slope * scale[free[j]]);
   }
   for (unsigned int k = 0; k < m; ++k)
@@ -500,23 +508,37 @@ bool Iteration::solve_linear_system(const State &state, const double give)
       column[i] = -G(free[i], k);
     column[f + k] = give;
   }
+  return matrix;
+}
+
+/**
+ * With P the directions of the free components F, which take along what slips, `z = base + P y`:
+ *
+ *     (S P)_F y - G_F dalpha = -r_F(base),   G'P y + give Gamma^-1 dalpha = e - G'base.
+ */
+bool Iteration::solve_linear_system(const State &state, const double give)
+{
+  const Unknowns unknowns = unknowns_of(state);
+  const std::vector<unsigned int> &free = unknowns.free;
+  const unsigned int f = free.size(), m = alpha.size();
   ++report.newton_steps;
-  const LuFactor factor(std::move(matrix), size);
+  const LuFactor factor(matrix_of(unknowns, give), f + m);
   if (factor.is_singular())
     return false;
-  const Vector<double> at_base = gradient(base);
+  const Vector<double> at_base = gradient(unknowns.base);
+  std::vector<double> x(f + m);
   for (unsigned int i = 0; i < f; ++i)
     x[i] = -scale[free[i]] * at_base[free[i]];
-  Vector<double> part(m), amounts(m);
+  Vector<double> part(m);
   if (m > 0)
-    L.Tvmult(part, program.balance.gap(base));
+    L.Tvmult(part, program.balance.gap(unknowns.base));
   std::copy(part.begin(), part.end(), x.begin() + f);
   factor.solve(x);
-  z = base;
+  z = unknowns.base;
   for (unsigned int j = 0; j < f; ++j)
   {
     z[free[j]] += scale[free[j]] * x[j];
-    for (const auto &[component, slope] : taken[free[j]])
+    for (const auto &[component, slope] : unknowns.followers[free[j]])
       z[component] = slope * z[free[j]];
   }
   std::copy(x.begin() + f, x.end(), part.begin());

@@ -272,6 +272,30 @@ TEST(CoulombProofs, BlockSlidesAtItsLimit)
   EXPECT_NEAR(contact.friction_resultant, f * contact.normal_resultant, 1e-9);
 }
 
+// ---------------------------------------------------------------- scenes
+
+/** The law at every point and the balance to 1e-8 (run() looks), where things press, and what they carry. */
+TEST(CoulombProofs, ShippedScenesKeepTheLaw)
+{
+  const auto contact = [](const std::string &name) {
+    return run(shipped_scene(name, {{"Adaptivity/Maximum steps", "8"}})).contact;
+  };
+  const double weight = 2; // of the block on the slope of 30 degrees
+  EXPECT_NEAR(contact("slope").normal_resultant, -weight * std::cos(numbers::PI / 6), 1e-9);
+  const ContactState<2> pad = contact("brake-pad");
+  EXPECT_NEAR(pad.friction_resultant, 70, 1e-7); // it slips everywhere: mu_f p length
+  EXPECT_NEAR(pad.normal_resultant, -200, 1e-7);
+  EXPECT_EQ(pad.zones.front().mode, ContactMode::slip);
+  EXPECT_EQ(pad.zones.back().mode, ContactMode::open);
+  const ContactState<2> punch = contact("punch-friction");
+  ASSERT_EQ(punch.zones.size(), 3u);
+  EXPECT_EQ(punch.zones[0].mode, ContactMode::stick);
+  EXPECT_EQ(punch.zones[1].mode, ContactMode::slip);
+  EXPECT_EQ(punch.zones[2].mode, ContactMode::open);
+  EXPECT_NEAR(punch.zones[2].begin[0], 1, 1e-12);
+  EXPECT_EQ(contact("strut").zones.front().mode, ContactMode::stick);
+}
+
 // ---------------------------------------------------------------- nothing presses
 
 /** Where contact carries no force, or loads cancel, the balance has only round-off to compare with. */

@@ -240,7 +240,7 @@ protected:
                        const std::vector<double> &decay = {})
   {
     adaptivity.method = method;
-    return mark(adaptivity, degrees, with_indicators(eta),
+    return mark(adaptivity, degrees, with_indicators(eta).indicators(),
                 [&](const unsigned int cell)
                 {
                   asked.insert(cell);

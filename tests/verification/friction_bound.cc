@@ -496,7 +496,7 @@ TEST(SlipCorrection, IsOfTheSizeOfTheErrorSquared)
 TEST(SlipCorrection, BoundsTheErrorTogetherWithAStress)
 {
   for (const auto &[transition, method, factor] :
-       std::vector<std::tuple<std::string, std::string, double>>{{"0", "hup2", 1.55},
+       std::vector<std::tuple<std::string, std::string, double>>{{"0", "hup2", 1.6},
                                                                  {"0", "hap4", 1.6},
                                                                  {"0", "hpa3", 1.65},
                                                                  {"0.1", "hup2", 2.5},

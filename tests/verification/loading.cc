@@ -16,7 +16,7 @@ struct State
 {
   LoadStep load;
   Vector<double> u, z;
-  unsigned int n_elements;
+  unsigned int n_elements, multiplications;
   double energy, slack, slip, largest_slip; ///< slip: int |u_t - past| by the contact points
   std::vector<ContactPoint<2>> points;
 };
@@ -35,6 +35,7 @@ std::vector<State> evolution(const Scene<2> &scene)
                     solution.u,
                     solution.z,
                     solution.displacement_space.triangulation().n_active_cells(),
+                    step.qp.multiplications,
                     step.energies.energy,
                     step.energies.slack,
                     0.,
@@ -339,6 +340,16 @@ TEST(LoadHistory, DoesNotDependOnItsRate)
   EXPECT_GT(few.back().load.dissipated, 0.1 * few.back().load.work);
 }
 
+TEST(LoadHistory, BeginsEachLoadStepWithTheFrictionOfTheLast)
+{
+  unsigned int multiplications[2] = {0, 0};
+  for (const bool warm : {false, true})
+    for (const State &state :
+         evolution(bar(10, "0.03*t", {{"Solver/QP warm start", warm ? "true" : "false"}})))
+      multiplications[warm] += state.multiplications;
+  EXPECT_LT(multiplications[true], 0.7 * multiplications[false]);
+}
+
 TEST(LoadHistory, RestsWhereLoadsRest)
 {
   const std::vector<State> states =
@@ -365,7 +376,10 @@ TEST(LoadHistory, HandsOnPastSlipWithoutError)
                                {"Boundary bottom/Friction coefficient", "0.3"},
                                {"Boundary right/Contact", "tangential"},
                                {"Boundary right/Friction bound", "1 + x"},
-                               {"Boundary left/Displacement", "0.1*x; free"}});
+                               {"Boundary top/Contact", "tangential"},
+                               {"Boundary top/Friction bound", "1"},
+                               {"Boundary left/Contact", "unilateral"},
+                               {"Boundary left/Friction bound", "1"}});
     const RandomMesh coarse(scene, seed, 2, 2, 6);
     std::mt19937 random(seed);
     const Laboratory before(scene, coarse);
@@ -381,7 +395,7 @@ TEST(LoadHistory, HandsOnPastSlipWithoutError)
     Triangulation<2> mesh;
     mesh.copy_triangulation(coarse.mesh);
     const Degrees degrees = refine_mesh(mesh, coarse.degrees, refinement);
-    for (const types::boundary_id boundary : {1, 2})
+    for (const types::boundary_id boundary : {0, 1, 2, 3}) // tangents along and against edges
       scene.boundaries[boundary].friction.past = std::make_shared<TangentialTrace<2>>(
           past.contact_space, past.displacement_space, past.tables, past.u, boundary);
     const Laboratory after(scene, mesh, degrees);
@@ -411,7 +425,7 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
   each.push_back({"Loading/Adapt", "every step"});
   std::vector<unsigned int> elements;
   double first = 0;
-  unsigned int number = 0;
+  unsigned int number = 0, tolerances = 0;
   LoadHistory<2>(bar(5, "0.03*sin(6*t)", each))
       .run(
           [&](const StepReport<2> &step)
@@ -419,6 +433,7 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
             EXPECT_EQ(step.number, ++number);
             if (step.stopped_by.empty())
               return;
+            tolerances += step.stopped_by == "Tolerance";
             if (step.load.number == 1)
               first = step.relative_estimate;
             else
@@ -426,11 +441,34 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
                           step.stopped_by == "Maximum steps");
             elements.push_back(step.solution.displacement_space.degrees().size());
           });
+  EXPECT_GE(tolerances, 2U);
   EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
   EXPECT_GT(elements.back(), elements.front());
   const std::vector<State> fixed = evolution(bar(5, "0.03*sin(6*t)", steps));
   for (const State &state : fixed)
     EXPECT_EQ(state.n_elements, elements.front());
+}
+
+/** What is exact to round-off sets no tolerance: else all later load steps would take all their steps. */
+TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
+{
+  for (const char *const load : {"0; 0", "0; -0.1"})
+  {
+    std::vector<std::string> stopped_by;
+    LoadHistory<2>(bar(4, "0.03*max(0, t - 0.3)",
+                       {{"Loading/Adapt", "every step"},
+                        {"Material/Poisson's ratio", "0"},
+                        {"Boundary top/Traction", load},
+                        {"Adaptivity/Maximum steps", "5"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              if (!step.stopped_by.empty())
+                stopped_by.push_back(step.stopped_by);
+            });
+    EXPECT_EQ(stopped_by,
+              (std::vector<std::string>{"round-off", "Maximum steps", "Tolerance", "Tolerance"}));
+  }
 }
 
 TEST(LoadHistory, IsNoMatterOfASingleRun)

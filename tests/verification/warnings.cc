@@ -83,7 +83,7 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
   const Laboratory discrete(scene, mesh);
   History history;
   for (const double estimate : estimates)
-    history.push_back({estimate, 0., 0.});
+    history.push_back({estimate, 0., 0., 0., false});
   const Solution<2> solution = discrete.solve();
   for (const std::string &line : warnings(solution, contact_states(solution), history, error))
     if (line.find(words) != std::string::npos)

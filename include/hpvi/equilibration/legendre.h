@@ -19,13 +19,23 @@ namespace legendre
 /** L_0 to L_{n-1} at @p x. */
 std::vector<double> values(unsigned int n, double x);
 
+/** (2i + 1)^{1/2} */
+double root(unsigned int i);
+
 /** `L_i' = sum_j derivative(i, j) L_j`; not zero for j = i-1, i-3, ... alone. */
-double derivative(unsigned int i, unsigned int j);
+inline double derivative(const unsigned int i, const unsigned int j)
+{
+  return j < i && (i - j) % 2 == 1 ? root(i) * root(j) : 0.;
+}
 
 /** `x L_i = shift(i+1) L_{i+1} + shift(i) L_{i-1}`. */
 double shift(unsigned int i);
 
-double at_end(unsigned int i, bool right); ///< L_i(-1) or L_i(1)
+/** L_i(-1) or L_i(1). */
+inline double at_end(const unsigned int i, const bool right)
+{
+  return (right || i % 2 == 0 ? 1 : -1) * root(i) * 0.70710678118654752440;
+}
 
 /** Value of the polynomial with @p coefficients at @p x. */
 double evaluate(const std::vector<double> &coefficients, double x);

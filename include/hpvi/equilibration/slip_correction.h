@@ -18,10 +18,10 @@ namespace hpvi
  * displacements are prescribed, with w_n = 0 on contact. gap(u_N) alone would be of first order in u_Nt
  * where the body sticks and u_Nt oscillates.
  *
- * Here w_t = u_Nt on faces that stick, and elsewhere w is one of these, whichever gives least: it takes
- * u_Nt on faces with both stick and slip too; it is free there; or it makes `2 gap + |w|_a^2` least while
- * u_Nt - w_t has the direction of slip there and on slipping faces nearby. Last, w = 0. It lives in the cells
- * at the contact boundary.
+ * Here w_t = u_Nt on faces that stick, and elsewhere w is one of these, whichever gives least: it has the
+ * least energy; or it makes `2 gap + |w|_a^2` least while u_Nt - w_t keeps the direction of slip on faces
+ * with both stick and slip and on slipping ones nearby. Or w = 0. It lives in the cells at the contact
+ * boundary.
  */
 template <int dim>
 class SlipCorrection

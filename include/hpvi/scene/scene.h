@@ -132,7 +132,7 @@ struct Adaptivity
 {
   Method method = Method::hpa3;
   SmoothnessReading reading = SmoothnessReading::plain;
-  Indicator indicator = Indicator::residual; ///< which eta_K marks
+  Indicator indicator = Indicator::bound; ///< what marks; the residual where there is no bound
   unsigned int start_degree = 3;    ///< p >= -offset of the multiplier at the contact boundary
   unsigned int maximum_degree = 12; ///< cells of this degree are bisected where p would rise
   double hap_threshold = 0.5;       ///< hap: bisect where eta_K > threshold * mean(eta_K)

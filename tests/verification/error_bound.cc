@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The guaranteed bound of the error: is the stress admissible, seen by other means than its own, and is the
+// error below the bound?
+#include "discretisation.h"
+
+#include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/equilibration/error_bound.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace
+{
+using namespace verification;
+
+using Stress = std::function<SymmetricTensor<2, 2>(double, double)>; ///< of xi, eta in [-1,1]
+
+/** s on a cell, in x and y. */
+Stress stress_of(const EquilibratedStress &stress, const unsigned int cell)
+{
+  return [s = stress.stress(cell), B = stress.frame(cell)](const double xi, const double eta)
+  {
+    const std::array<double, 3> c = s.value(xi, eta);
+    Tensor<2, 2> S;
+    S[0][0] = c[0];
+    S[1][1] = c[1];
+    S[0][1] = S[1][0] = c[2];
+    return SymmetricTensor<2, 2>(symmetrize(B * S * transpose(B)));
+  };
+}
+
+/** Central differences of order 8. */
+SymmetricTensor<2, 2> derivative(const std::function<SymmetricTensor<2, 2>(double)> &f,
+                                 const double x)
+{
+  const double h = 0.005;
+  const std::array<double, 4> weights{{4. / 5, -1. / 5, 4. / 105, -1. / 280}};
+  SymmetricTensor<2, 2> result;
+  for (unsigned int k = 0; k < 4; ++k)
+    result += weights[k] / h * (f(x + (k + 1) * h) - f(x - (k + 1) * h));
+  return result;
+}
+
+/** The largest |div s + F| times cell size, at random points. */
+double imbalance(const Solution<2> &solution, const EquilibratedStress &stress,
+                 const unsigned int cell, std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> uniform(-0.97, 0.97);
+  const Stress s = stress_of(stress, cell);
+  const CellMap<2> map = map_of<2>(stress.patches().cells()[cell].iterator);
+  const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5})); // d xi/d x is twice that
+  double largest = 0;
+  for (unsigned int k = 0; k < 20; ++k)
+  {
+    const double xi = uniform(random), eta = uniform(random);
+    const auto along_xi = derivative([&](const double t) { return s(t, eta); }, xi),
+               along_eta = derivative([&](const double t) { return s(xi, t); }, eta);
+    Tensor<1, 2> residual;
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      for (unsigned int j = 0; j < 2; ++j)
+        residual[c] += 2 * (along_xi[c][j] * inverse[0][j] + along_eta[c][j] * inverse[1][j]);
+      if (solution.scene.body_force[c])
+        residual[c] +=
+            solution.scene.body_force[c]->value(map.point({(1 + xi) / 2, (1 + eta) / 2}));
+    }
+    largest = std::max(largest, map.longest_edge() * residual.norm());
+  }
+  return largest;
+}
+
+/** s n at place t in [0,1] of a whole edge, seen from one of its sides. */
+Tensor<1, 2> traction(const EquilibratedStress &stress, const StressEdge &edge,
+                      const StressEdge::Side &side, const double t)
+{
+  const double s = side.part == whole_edge ? t : 2 * t - side.part;
+  const double along = 2 * s - 1, across = side.face % 2 ? 1. : -1.;
+  const Stress value = stress_of(stress, side.cell);
+  return (side.face < 2 ? value(across, along) : value(along, across)) * edge.normal;
+}
+
+struct Violations
+{
+  double divergence = 0, jumps = 0, loads = 0, friction = 0, scale = 0;
+};
+
+/** By how much s is not admissible, point by point. */
+Violations violations(const Solution<2> &solution, const EquilibratedStress &stress)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform;
+  Violations result;
+  for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
+  {
+    result.divergence = std::max(result.divergence, imbalance(solution, stress, cell, random));
+    result.scale = std::max(result.scale, stress_of(stress, cell)(0.3, -0.2).norm());
+  }
+  for (const StressEdge &edge : stress.patches().edges())
+    for (unsigned int k = 0; k < 12; ++k)
+    {
+      const double t = uniform(random);
+      const Tensor<1, 2> own = traction(stress, edge, edge.sides[0], t);
+      if (!edge.at_boundary())
+      {
+        const auto &other = edge.sides.size() == 2 ? edge.sides[1] : edge.sides[t < 0.5 ? 1 : 2];
+        result.jumps = std::max(result.jumps, (own - traction(stress, edge, other, t)).norm());
+        continue;
+      }
+      const auto &condition = solution.scene.boundaries[edge.boundary];
+      const auto face =
+          stress.patches().cells()[edge.sides[0].cell].iterator->face(edge.sides[0].face);
+      const Point<2> x = face->vertex(0) + t * (face->vertex(1) - face->vertex(0));
+      const double outward = edge.sides[0].face % 2 ? 1. : -1.;
+      Tensor<1, 2> missed = outward * own;
+      for (unsigned int c = 0; c < 2; ++c)
+        if (condition.traction[c])
+          missed[c] -= condition.traction[c]->value(x);
+      if (condition.has_contact())
+      {
+        const double g = condition.friction.bound ? condition.friction.bound->value(x) : 0.;
+        result.friction = std::max(result.friction, std::abs(missed * edge.tangent) - g);
+        if (condition.contact == Contact::tangential)
+          result.loads = std::max(result.loads, std::abs(missed * edge.normal));
+      }
+      else
+        for (unsigned int c = 0; c < 2; ++c)
+          if (!condition.displacement[c])
+            result.loads = std::max(result.loads, std::abs(missed[c]));
+    }
+  return result;
+}
+
+EquilibratedStress equilibrated(const Solution<2> &solution, EquilibrationCache &cache)
+{
+  const AdmissibleFriction<2> friction(solution);
+  return EquilibratedStress(
+      solution, [&](const unsigned int face, const unsigned int end)
+      { return friction.part(face, end).coefficients(); }, cache);
+}
+
+struct Body
+{
+  std::string name, scene;
+  Overrides overrides;
+};
+
+void PrintTo(const Body &body, std::ostream *out)
+{
+  *out << body.name;
+}
+
+class Admissible : public ::testing::TestWithParam<Body>
+{
+};
+
+/** On random meshes with hanging nodes and degrees 2 to 7. */
+TEST_P(Admissible, StressIsInEquilibriumAtEveryPoint)
+{
+  const Scene<2> scene = shipped_scene(GetParam().scene, GetParam().overrides);
+  for (const unsigned int seed : {1, 2})
+  {
+    const RandomMesh mesh(scene, 2, seed, 2, 7);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    EquilibrationCache cache;
+    const EquilibratedStress stress = equilibrated(solution, cache);
+    const Violations found = violations(solution, stress);
+    EXPECT_GT(found.scale, 1e-3);
+    EXPECT_LE(found.divergence, 1e-10 * found.scale);
+    EXPECT_LE(found.jumps, 1e-10 * found.scale);
+    EXPECT_LE(found.loads, 1e-10 * found.scale);
+    EXPECT_LE(found.friction, 1e-10 * found.scale);
+    EXPECT_LE(stress.defect, 1e-12 * found.scale);
+  }
+}
+
+/** eta by quadrature of the difference of two stresses at points. */
+TEST(Equilibration, EnergyIsThatOfTheStresses)
+{
+  const Scene<2> scene = shipped_scene("stick-slip");
+  const RandomMesh mesh(scene, 2, 3, 2, 6);
+  const Laboratory lab(scene, mesh);
+  const Solution<2> solution = lab.solve();
+  EquilibrationCache cache;
+  const EquilibratedStress stress = equilibrated(solution, cache);
+  const QGauss<1> gauss(12);
+  for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
+  {
+    const Stress s = stress_of(stress, cell);
+    const auto &iterator = stress.patches().cells()[cell].iterator;
+    const CellMap<2> map = map_of<2>(iterator);
+    const Material &material = scene.material_of(iterator);
+    const HookesLaw<2> law(material);
+    const double nu = material.lambda(2) / (2 * (material.lambda(2) + material.mu()));
+    double sum = 0;
+    for (unsigned int a = 0; a < gauss.size(); ++a)
+      for (unsigned int b = 0; b < gauss.size(); ++b)
+      {
+        const Point<2> point(gauss.point(a)[0], gauss.point(b)[0]);
+        const ShapeTable<2> table = tabulate<2>(
+            solution.displacement_space.degrees()[cell], {point}, {1.}, false);
+        const std::vector<double> d = evaluate(table.derivatives, solution.coefficients(cell));
+        Tensor<2, 2> reference;
+        for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int j = 0; j < 2; ++j)
+            reference[c][j] = d[c * 2 + j];
+        const SymmetricTensor<2, 2> difference =
+            s(2 * point[0] - 1, 2 * point[1] - 1) -
+            law.stress(reference * invert(map.jacobian(point)));
+        sum += gauss.weight(a) * gauss.weight(b) * determinant(map.jacobian(point)) *
+               (difference * difference - nu * std::pow(trace(difference), 2)) /
+               (2 * material.mu());
+      }
+    EXPECT_NEAR(stress.squares[cell], sum, 1e-9 * sum + 1e-20);
+  }
+}
+
+const std::string rotated = "1, 0; 3, 1; 2.5, 2; 0.5, 1"; // a parallelogram
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, Admissible,
+    ::testing::Values(
+        Body{"exact", "stick-slip", {}}, Body{"strain", "plane-strain", {}},
+        Body{"corners", "han-6-12", {}}, Body{"overhang", "han-6-13", {}},
+        Body{"nearlyIncompressible", "plane-strain", {{"Material/Poisson's ratio", "0.4999"}}},
+        Body{"bodyForce", "han-6-12", {{"Loads/Body force", "0.3; -2"}}},
+        Body{"free", "semicoercive", {}},
+        Body{"held", "han-6-12", {{"Boundary top/Displacement", "free; 0"}}},
+        Body{"twoContacts",
+             "han-6-12",
+             {{"Boundary top/Contact", "bilateral"}, {"Boundary top/Friction bound", "3"}}},
+        Body{"tangential", "han-6-12", {{"Boundary bottom/Contact", "tangential"}}},
+        Body{"parallelogram",
+             "han-6-12",
+             {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", rotated}}},
+        Body{"longCells", "han-6-12", {{"Geometry/Subdivisions", "16, 1"}}}),
+    [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
+
+/** Largest and smallest quotient of bound and error over the steps of a run. */
+std::pair<double, double> effectivities(const Scene<2> &scene, const double floor)
+{
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        ASSERT_TRUE(step.bound);
+        if (step.errors.energy < floor * step.energies.norm)
+          return;
+        largest = std::max(largest, step.bound->total / step.errors.energy);
+        smallest = std::min(smallest, step.bound->total / step.errors.energy);
+      });
+  return {smallest, largest};
+}
+
+class Effectivity : public ::testing::TestWithParam<Body>
+{
+};
+
+TEST_P(Effectivity, BoundIsAboveTheErrorAndNear)
+{
+  const auto [smallest, largest] =
+      effectivities(shipped_scene(GetParam().scene, GetParam().overrides), 1e-10);
+  EXPECT_GE(smallest, 1.);
+  EXPECT_LE(largest, 1.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Runs, Effectivity,
+    ::testing::Values(
+        Body{"hpa3", "stick-slip", {}},
+        Body{"hpa3ByBound", "stick-slip", {{"Adaptivity/Indicator", "bound"}}},
+        Body{"hpa2", "stick-slip", {{"Adaptivity/Method", "hpa2"}}},
+        Body{"hap4",
+             "stick-slip",
+             {{"Adaptivity/Method", "hap4"},
+              {"Adaptivity/Start degree", "4"},
+              {"Adaptivity/Maximum steps", "8"}}},
+        Body{"hup2",
+             "stick-slip",
+             {{"Adaptivity/Method", "hup2"},
+              {"Adaptivity/Start degree", "2"},
+              {"Adaptivity/Maximum steps", "5"}}},
+        Body{"between", "stick-slip", {{"Exact solution/Transition", "0.1"}}},
+        Body{"strain", "plane-strain", {}}, Body{"smooth", "smooth", {}}),
+    [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
+
+/** (J) from one fine solution: energies of admissible displacements lie in the intervals of all steps. */
+TEST(ErrorBoundOfEnergy, IntervalsHoldTheLeastEnergy)
+{
+  for (const std::string name : {"han-6-12", "han-6-13"})
+  {
+    double above = std::numeric_limits<double>::infinity(), below = -above, widest = 0;
+    const Scene<2> scene = shipped_scene(
+        name, {{"Adaptivity/Indicator", "bound"}, {"Adaptivity/Maximum steps", "12"}});
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          ASSERT_TRUE(step.bound);
+          EXPECT_EQ(step.bound->data, 0.);
+          above = std::min(above, step.energies.energy);
+          below = std::max(below, step.energies.energy - step.bound->energy);
+          widest = std::max(widest, step.bound->energy);
+        });
+    EXPECT_LE(below, above) << name;
+    EXPECT_LT(above - below, 1e-3 * widest) << name;
+  }
+}
+} // namespace
