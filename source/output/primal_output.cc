@@ -138,6 +138,7 @@ PrimalOutput<dim>::PrimalOutput(const Scene<dim> &scene, const std::string &path
         if (scene.parameters)
           write("scene.prm", scene.effective_parameters());
         write("summary.json", summary());
+        is_usable = true;
       });
 }
 
@@ -156,9 +157,13 @@ void PrimalOutput<dim>::write(const std::string &name, const std::string &conten
 {
   if (directory->add(name))
     directory->write("summary.json", summary()); // names the file before it is there
-  if (const std::error_code error = directory->write(name, content); error)
-    throw OutputFailure(directory->name() + ": " + name + " cannot be written: " + error.message() +
-                        "; " + safe_steps());
+  const std::error_code error = directory->write(name, content);
+  if (!error)
+    return;
+  const std::string reason = name + " cannot be written: " + error.message();
+  if (!is_usable)
+    directory->reject(reason);
+  throw OutputFailure(directory->name() + ": " + reason + "; " + safe_steps());
 }
 
 template <int dim>

@@ -329,9 +329,6 @@ void check_primal_path(const Scene<dim> &scene)
     reject(scene, "Loading", "Steps",
            "is a load history, which " + why + " does not offer; remove it",
            std::to_string(scene.loading.steps));
-  if (adaptivity.indicator != Indicator::residual)
-    reject(scene, "Adaptivity", "Indicator",
-           "asks for an error bound, which " + why + " does not offer; set residual", "bound");
   if (scene.geometry.shape != Shape::box)
     reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
            "quadrilateral");

@@ -66,7 +66,6 @@ invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
 invalid "Condition number" "does not form" -- "Solver/Condition number=true"
 invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
 invalid "Steps = 3" "load history" -- "Loading/Steps=3"
-invalid "Indicator = bound" "error bound" -- "Adaptivity/Indicator=bound"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
 
 # --- boundaries

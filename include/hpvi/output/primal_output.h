@@ -50,6 +50,7 @@ private:
   const MPI_Comm communicator;
   const bool is_first;
   std::unique_ptr<ResultDirectory> directory;            ///< of the first process
+  bool is_usable = false;                                ///< proved by the first files
   std::vector<Record> rows;                              ///< of convergence.csv
   std::vector<Record> degrees;                           ///< of degrees.csv
   std::vector<std::pair<double, std::string>> solutions; ///< step and file name
