@@ -47,6 +47,25 @@ TEST(Ranks, Plane)
   expect_same_run(scene);
 }
 
+TEST(Ranks, MultigridOrFactorisation)
+{
+  Scene<3> scene = slab({{"Adaptivity/Maximum steps", "2"}});
+  const auto multigrid = steps_of<3>(
+      scene, [](const PrimalReport<3> &) {}, MPI_COMM_WORLD);
+  scene.solver.linear = LinearMethod::direct;
+  const auto factors = steps_of<3>(
+      scene,
+      [](const PrimalReport<3> &step)
+      {
+        EXPECT_LE(step.newton.cg_steps, 2 * step.newton.steps);
+        EXPECT_FALSE(step.newton.fell_back);
+      },
+      MPI_COMM_WORLD);
+  for (unsigned int k = 0; k < factors.size(); ++k)
+    EXPECT_NEAR(multigrid[k].lagrangian, factors[k].lagrangian,
+                1e-10 * std::abs(factors[k].lagrangian));
+}
+
 /** A tower whose foot belongs to one process: the others have no contact at all. */
 TEST(Ranks, MostWithoutContact)
 {
