@@ -139,4 +139,5 @@ std::string one_line(const std::exception &error)
 }
 
 template std::string to_string(const Point<2> &);
+template std::string to_string(const Point<3> &);
 } // namespace hpvi

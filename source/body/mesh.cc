@@ -104,5 +104,6 @@ Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
 }
 
 template void make_mesh(const Scene<2> &, Triangulation<2> &);
+template void make_mesh(const Scene<3> &, Triangulation<3> &);
 template Degrees refine_mesh(Triangulation<2> &, const Degrees &, const Refinement &);
 } // namespace hpvi

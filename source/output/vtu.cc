@@ -139,6 +139,22 @@ private:
     return result;
   }
 };
+template <int dim>
+DataOutBase::VtkFlags vtk_flags(const Scene<dim> &scene, const StressFields<dim> &stress_fields,
+                                const unsigned int step)
+{
+  DataOutBase::VtkFlags flags;
+  flags.time = step;
+  flags.cycle = step;
+  flags.print_date_and_time = false; // equal runs write equal files
+  flags.compression_level = DataOutBase::VtkFlags::best_speed;
+  if (!scene.length_unit.empty())
+    flags.physical_units["displacement"] = xml_text(scene.length_unit);
+  for (const std::string &field : stress_fields.get_names())
+    if (!scene.stress_unit.empty())
+      flags.physical_units[field] = xml_text(scene.stress_unit);
+  return flags;
+}
 } // namespace
 
 template <int dim>
@@ -154,17 +170,7 @@ std::string vtu(const StepReport<dim> &step)
   }
   const StressFields<dim> stress_fields(scene);
   PreciseDataOut<dim> data_out;
-  DataOutBase::VtkFlags flags;
-  flags.time = step.number;
-  flags.cycle = step.number;
-  flags.print_date_and_time = false; // equal runs write equal files
-  flags.compression_level = DataOutBase::VtkFlags::best_speed;
-  if (!scene.length_unit.empty())
-    flags.physical_units["displacement"] = xml_text(scene.length_unit);
-  for (const std::string &field : stress_fields.get_names())
-    if (!scene.stress_unit.empty())
-      flags.physical_units[field] = xml_text(scene.stress_unit);
-  data_out.set_flags(flags);
+  data_out.set_flags(vtk_flags(scene, stress_fields, step.number));
   data_out.attach_dof_handler(space.dof_handler());
   data_out.add_data_vector(space.dof_handler(), step.solution.u,
                            std::vector<std::string>(dim, "displacement"),
@@ -178,6 +184,32 @@ std::string vtu(const StepReport<dim> &step)
   return data_out.vtu();
 }
 
+template <int dim>
+PrimalVtu vtu(const PrimalReport<dim> &step, const std::vector<std::string> &pieces)
+{
+  const MomentSpace<dim> &space = step.space;
+  const unsigned int n_cells = space.dof_handler.get_triangulation().n_active_cells();
+  Vector<float> estimate(n_cells), process(n_cells);
+  for (unsigned int k = 0; k < n_cells; ++k)
+    estimate[k] = step.estimate.indicator(k);
+  process = Utilities::MPI::this_mpi_process(space.communicator());
+  const StressFields<dim> stress_fields(space.scene);
+  DataOut<dim> data_out;
+  data_out.set_flags(vtk_flags(space.scene, stress_fields, step.number));
+  data_out.attach_dof_handler(space.dof_handler);
+  data_out.add_data_vector(space.dof_handler, step.u, std::vector<std::string>(dim, "displacement"),
+                           std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+                               dim, DataComponentInterpretation::component_is_part_of_vector));
+  data_out.add_data_vector(space.dof_handler, step.u, stress_fields);
+  data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
+  data_out.add_data_vector(process, "process", DataOut<dim>::type_cell_data);
+  data_out.build_patches(space.tables.degree);
+  std::ostringstream piece, index;
+  data_out.write_vtu(piece);
+  data_out.write_pvtu_record(index, pieces);
+  return {piece.str(), index.str()};
+}
+
 std::string pvd(const std::vector<std::pair<double, std::string>> &files)
 {
   std::ostringstream out;
@@ -186,4 +218,6 @@ std::string pvd(const std::vector<std::pair<double, std::string>> &files)
 }
 
 template std::string vtu(const StepReport<2> &);
+template PrimalVtu vtu(const PrimalReport<2> &, const std::vector<std::string> &);
+template PrimalVtu vtu(const PrimalReport<3> &, const std::vector<std::string> &);
 } // namespace hpvi

@@ -4,23 +4,30 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
-#include <hpvi/base/version.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/output.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/interruption.h>
+#include <hpvi/program/primal_run.h>
+#include <hpvi/program/terminal.h>
 #include <hpvi/scene/parameters.h>
 #include <hpvi/scene/scene_reader.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <sstream>
 
@@ -33,22 +40,21 @@ using namespace hpvi;
 
 constexpr int dim = 2;
 
-std::string version_line()
+bool is_foreseen(const std::exception &error)
 {
-  return "hpvi " + version() + " (" + build_type() + " build), deal.II " DEAL_II_PACKAGE_VERSION;
+  return dynamic_cast<const InputError *>(&error) ||
+         dynamic_cast<const NumericalFailure *>(&error) ||
+         dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
 }
 
 /** The one line for stderr. */
 std::string failure_line(const std::exception &error)
 {
-  const bool foreseen =
-      dynamic_cast<const InputError *>(&error) || dynamic_cast<const NumericalFailure *>(&error) ||
-      dynamic_cast<const OutputFailure *>(&error) || dynamic_cast<const Interruption *>(&error);
   if (dynamic_cast<const std::bad_alloc *>(&error) ||
       dynamic_cast<const dealii::StandardExceptions::ExcOutOfMemory *>(&error))
     return "hpvi: out of memory; lower Adaptivity/Maximum unknowns, take fewer "
            "Geometry/Subdivisions or allow more memory";
-  return (foreseen ? "" : "hpvi: internal error: ") + one_line(error);
+  return (is_foreseen(error) ? "" : "hpvi: internal error: ") + one_line(error);
 }
 
 int exit_status(const std::exception &error)
@@ -70,13 +76,6 @@ void occupy_standard_streams()
   while (descriptor >= 0 && descriptor <= STDERR_FILENO);
   if (descriptor > STDERR_FILENO)
     close(descriptor);
-}
-
-/** What could not be printed is no result; @p complete says what is there nonetheless. */
-void check_standard_output(const std::string &complete)
-{
-  if (!std::cout.flush())
-    throw OutputFailure("hpvi: standard output cannot be written" + complete);
 }
 
 // ---------------------------------------------------------------- what a run prints
@@ -131,57 +130,6 @@ std::string work_in_words(const LoadStep &load)
   return "load history: work " + text(load.work, 6) + ", stored " + text(load.stored, 6) +
          ", dissipated by friction " + text(load.dissipated, 6) + "\n";
 }
-
-void print_stage(const std::string &name, const double seconds, const double total)
-{
-  std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
-            << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
-            << (total > 0 ? 100 * seconds / total : 0.) << '\n';
-}
-
-/** Time per stage, summed over the steps. */
-void print_stages(const StageTimes &times)
-{
-  std::cout << "\nstage        seconds  percent\n" << std::fixed;
-  for (const auto &[name, seconds] : times.named())
-    print_stage(name, seconds, times.total());
-  print_stage("total", times.total(), times.total());
-}
-
-/** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
-class ProgressLine
-{
-public:
-  ~ProgressLine()
-  {
-    erase();
-  }
-
-  void show(const Progress &progress)
-  {
-    erase();
-    if (!progress.note.empty() && !noted)
-      std::cout << "note: " << progress.note << std::endl;
-    noted = noted || !progress.note.empty();
-    const std::string line = "step " + std::to_string(progress.step) + ": " + progress.stage;
-    if (is_terminal)
-      std::cout << line << " ..." << std::flush;
-    shown = is_terminal;
-  }
-
-  void erase()
-  {
-    const char *const return_and_clear = "\r\033[K";
-    if (shown)
-      std::cout << return_and_clear << std::flush;
-    shown = false;
-  }
-
-private:
-  const bool is_terminal = isatty(STDOUT_FILENO);
-  bool shown = false;
-  bool noted = false; ///< a note is worth saying once, not with every step
-};
 
 // ---------------------------------------------------------------- what the program does
 
@@ -311,7 +259,30 @@ void print_inf_sup(const Scene<dim> &scene)
       });
 }
 
-void obey(const CommandLine &command_line)
+/** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
+template <int dimension>
+void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
+{
+  const auto scene =
+      read_scene<dimension>(command_line.scene_file, command_line.overrides,
+                            command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
+  const std::string directory = command_line.output_directory.empty()
+                                    ? "output/" + scene.name
+                                    : command_line.output_directory;
+  if (command_line.print_parameters)
+    std::cout << scene.parameters->print(false);
+  else if (command_line.validate)
+    std::cout << scene.origin() << ": valid: " << legible(scene.title) << std::endl;
+  else if (!command_line.inf_sup && takes_primal_path(scene))
+  {
+    start_mpi();
+    run_primal(scene, directory);
+  }
+  else if constexpr (dimension == dim)
+    command_line.inf_sup ? print_inf_sup(scene) : run(scene, directory);
+}
+
+void obey(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
   if (command_line.help)
     std::cout << usage();
@@ -319,20 +290,10 @@ void obey(const CommandLine &command_line)
     std::cout << version_line() << std::endl;
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();
+  else if (scene_dimension(command_line.scene_file, command_line.overrides) == 3)
+    obey_scene<3>(command_line, start_mpi);
   else
-  {
-    const auto scene = read_scene<dim>(command_line.scene_file, command_line.overrides,
-                                       command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
-    if (command_line.print_parameters)
-      std::cout << scene.parameters->print(false);
-    else if (command_line.validate)
-      std::cout << scene.origin() << ": valid: " << legible(scene.title) << std::endl;
-    else if (command_line.inf_sup)
-      print_inf_sup(scene);
-    else
-      run(scene, command_line.output_directory.empty() ? "output/" + scene.name
-                                                       : command_line.output_directory);
-  }
+    obey_scene<2>(command_line, start_mpi);
 }
 
 /**
@@ -350,6 +311,24 @@ void do_without_threads_of_openblas(char *argv[])
   setenv(variable.c_str(), none.c_str(), 1);
   execv("/proc/self/exe", argv); // comes back only where it fails
 }
+/** One of several processes speaks for all. */
+void be_silent()
+{
+  static std::ofstream nowhere("/dev/null");
+  for (std::ostream *const stream : {&std::cout, &std::cerr})
+    stream->rdbuf(nowhere.rdbuf());
+}
+
+/** What befalls one process alone leaves the others waiting for it: it ends them. */
+void end_others(const std::exception &error)
+{
+  int is_running = 0;
+  MPI_Initialized(&is_running);
+  if (n_started_processes() == 1 || !is_running || is_foreseen(error))
+    return;
+  std::fprintf(stderr, "%s\n", failure_line(error).c_str());
+  MPI_Abort(MPI_COMM_WORLD, exit_status(error));
+}
 } // namespace
 
 int main(int argc, char *argv[])
@@ -357,14 +336,19 @@ int main(int argc, char *argv[])
   do_without_threads_of_openblas(argv);
   occupy_standard_streams();
   survive_failed_writes();
+  if (!is_first_process())
+    be_silent();
+  std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   try
   {
-    obey(parse(argc, argv));
+    obey(parse(argc, argv), [&]()
+         { mpi = std::make_unique<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1); });
     check_standard_output("");
     return 0;
   }
   catch (const std::exception &error)
   {
+    end_others(error);
     std::cerr << failure_line(error) << std::endl;
     return exit_status(error);
   }

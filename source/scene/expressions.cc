@@ -190,8 +190,10 @@ std::string ExpressionReader<dim>::objection(const std::string &text) const
   if (!has_time && complaint<dim>(text, with_time).empty())
     return "uses t, the time of a load history, and the scene has none; set Loading/Steps or write "
            "a function of x and y";
-  return std::string("is not an expression of ") + (has_time ? "x, y and t (" : "x and y (") +
-         problem + "); mend it, constants are pi, E, nu, mu";
+  const std::string variables = dim == 2 ? (has_time ? "x, y and t" : "x and y")
+                                         : (has_time ? "x, y, z and t" : "x, y and z");
+  return "is not an expression of " + variables + " (" + problem +
+         "); mend it, constants are pi, E, nu, mu";
 }
 
 template <int dim>
@@ -258,4 +260,11 @@ ExpressionReader<2>::read<1>(const std::string &, const std::string &, const std
 template std::array<ExpressionReader<2>::Expression, 2>
 ExpressionReader<2>::read<2>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<2>> &, const ExactField &) const;
+template class ExpressionReader<3>;
+template std::array<ExpressionReader<3>::Expression, 1>
+ExpressionReader<3>::read<1>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
+template std::array<ExpressionReader<3>::Expression, 3>
+ExpressionReader<3>::read<3>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
 } // namespace hpvi

@@ -112,13 +112,48 @@ std::vector<Edge> edges_of(const Geometry<2> &geometry)
   return edges;
 }
 
-std::vector<Point<2>> sample_body(const Geometry<2> &geometry)
+namespace
 {
-  const unsigned int n = 16;
-  std::vector<Point<2>> points;
-  for (unsigned int i = 0; i <= n; ++i)
-    for (unsigned int j = 0; j <= n; ++j)
-      points.push_back(geometry.point({double(i) / n, double(j) / n}));
+/** The points of a regular grid in the unit cube, @p n cells in each direction, y or z fastest. */
+template <int dim>
+std::vector<Point<dim>> unit_grid(const unsigned int n)
+{
+  std::vector<Point<dim>> points(1);
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    std::vector<Point<dim>> finer;
+    for (Point<dim> point : points)
+      for (unsigned int i = 0; i <= n; ++i)
+      {
+        point[d] = double(i) / n;
+        finer.push_back(point);
+      }
+    points = finer;
+  }
+  return points;
+}
+} // namespace
+
+template <int dim>
+std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
+{
+  std::vector<Point<dim>> points = unit_grid<dim>(16);
+  for (Point<dim> &point : points)
+    point = geometry.point(point);
+  return points;
+}
+
+std::vector<Point<2>> sample_side(const Geometry<2> &geometry, const unsigned int side)
+{
+  return edges_of(geometry)[side].sample();
+}
+
+std::vector<Point<3>> sample_side(const Geometry<3> &geometry, const unsigned int side)
+{
+  std::vector<Point<3>> points;
+  for (const Point<3> &point : unit_grid<3>(16))
+    if (point[side / 2] == side % 2)
+      points.push_back(geometry.point(point));
   return points;
 }
 
@@ -168,5 +203,9 @@ template struct RigidBodyMotion<2>;
 template RigidBodyMotion<2> combined(const std::vector<RigidBodyMotion<2>> &,
                                      const Vector<double> &);
 template Corners<2> box_corners(const Point<2> &, const Point<2> &);
+template Corners<3> box_corners(const Point<3> &, const Point<3> &);
 template struct Geometry<2>;
+template struct Geometry<3>;
+template std::vector<Point<2>> sample_body(const Geometry<2> &);
+template std::vector<Point<3>> sample_body(const Geometry<3> &);
 } // namespace hpvi

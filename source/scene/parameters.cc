@@ -212,4 +212,6 @@ std::string Parameters::nearest_entry(const Entry &written) const
 
 template std::vector<Point<2>> Parameters::points<2>(const std::string &,
                                                      const std::string &) const;
+template std::vector<Point<3>> Parameters::points<3>(const std::string &,
+                                                     const std::string &) const;
 } // namespace hpvi

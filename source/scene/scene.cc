@@ -5,6 +5,7 @@
 #include <hpvi/scene/parameters.h>
 #include <hpvi/scene/scene_checks.h>
 #include <hpvi/scene/scene_entries.h>
+#include <hpvi/scene/space_checks.h>
 
 #include <algorithm>
 #include <limits>
@@ -113,6 +114,11 @@ Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell
   {
     boundaries[b].name = boundary_names[b];
     boundaries[b].id = b;
+  }
+  if (dim == 3) // as in a file
+  {
+    adaptivity.method = Method::hap2;
+    adaptivity.start_degree = own_start_degree(Method::hap2);
   }
 }
 
@@ -245,7 +251,12 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 
 template Expression<2> expression<2>(double);
 template Expression<2> expression<2>(const std::function<double(const Point<2> &)> &);
+template Expression<3> expression<3>(double);
+template Expression<3> expression<3>(const std::function<double(const Point<3> &)> &);
 template struct BoundaryCondition<2>;
+template struct BoundaryCondition<3>;
 template struct Loading<2>;
+template struct Loading<3>;
 template struct Scene<2>;
+template struct Scene<3>;
 } // namespace hpvi

@@ -3,7 +3,9 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace hpvi
 {
@@ -40,7 +42,8 @@ void add_problem_entries(std::vector<Entry> &entries)
   entries.insert(
       entries.end(),
       {{"", "Title", "", text, "one line of text", "One line for humans; empty: the file's name."},
-       {"", "Dimension", "2", matching(Patterns::Integer(2, 3)), "2", "Space dimension."},
+       {"", "Dimension", "2", matching(Patterns::Integer(2, 3)), "2 or 3",
+        "2: the plane. 3: space, a box with entries of three components."},
        {"Units", "Length", "", text, "a label", "Label of lengths; nothing is converted."},
        {"Units", "Stress", "", text, "a label", "Label of stresses; nothing is converted."},
        {"Geometry", "Shape", "box", one_of(shape_names), "box or quadrilateral",
@@ -209,7 +212,17 @@ void add_program_entries(std::vector<Entry> &entries)
   const std::string yes_no = "true or false";
   entries.insert(
       entries.end(),
-      {{"Solver", "QP solver", "active set", one_of(qp_solver_names), "mprgp or active set",
+      {{"Solver", "Path", "auto", one_of(path_names), "auto, reduced or primal",
+        "reduced: a quadratic program for the multipliers, with a dense matrix. primal: Newton's "
+        "method on displacements and moments of contact, sparse throughout; boxes, one degree for "
+        "all cells (hup, hap), bilateral or tangential contact with Tresca friction. auto: reduced "
+        "in the plane on one process, else primal."},
+       {"Solver", "Linear", "amg", one_of(linear_names), "amg or direct",
+        "primal: conjugate gradients with algebraic multigrid, or a sparse factorisation."},
+       {"Solver", "Primal tolerance", "1e-6",
+        matching(Patterns::Double(std::numeric_limits<double>::min(), 1)), "a number in (0, 1]",
+        "primal: Newton's method stops where its residual is below this part of the load vector."},
+       {"Solver", "QP solver", "active set", one_of(qp_solver_names), "mprgp or active set",
         "mprgp: conjugate gradients on faces, the thesis's; active set: Newton's method with dense "
         "Cholesky factorisations, and mprgp where that cycles. Both end at the same tolerance."},
        {"Solver", "QP warm start", "true", boolean, yes_no,
@@ -252,6 +265,67 @@ void add_program_entries(std::vector<Entry> &entries)
         "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
         "against it. Without effect where an exact solution is named."}});
 }
+/** What only a plane scene has. */
+bool is_of_the_plane(const Entry &entry)
+{
+  return entry.section == "Exact solution" ||
+         (entry.section == "Geometry" && entry.name == "Corners") ||
+         (entry.section == "Material" && entry.name == "Plane");
+}
+
+std::string in_space(std::string text)
+{
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"x and y", "x, y and z"},
+      {"(x,y)", "(x,y,z)"},
+      {"x, y [length]", "x, y, z [length]"},
+      {"Fx; Fy", "Fx; Fy; Fz"},
+      {"ux; uy", "ux; uy; uz"},
+      {"Gx; Gy", "Gx; Gy; Gz"},
+      {"box or quadrilateral", "box"},
+      {" quadrilateral: convex, given by Corners.", ""},
+      {", `exact` for one or all of the exact solution", ""},
+      {", or `exact`", ""}};
+  for (const auto &[plane, space] : changes)
+    if (const std::size_t begin = text.find(plane); begin != std::string::npos)
+      text.replace(begin, plane.size(), space);
+  return text;
+}
+
+/** The same entries for a body in space: points of three components, a method that it offers. */
+void take_to_space(std::vector<Entry> &entries)
+{
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_of_the_plane), entries.end());
+  const auto point = Patterns::List(Patterns::Double(), 3, 3, ",");
+  const auto change = [&](const std::string &path, const std::string &value, const auto &pattern,
+                          const std::string &wanted)
+  {
+    for (Entry &entry : entries)
+      if (entry.path() == path)
+      {
+        entry.default_value = value;
+        entry.pattern = matching(pattern);
+        entry.wanted = wanted;
+      }
+  };
+  for (Entry &entry : entries)
+  {
+    entry.wanted = in_space(entry.wanted);
+    entry.documentation = in_space(entry.documentation);
+  }
+  const std::string point_wanted = "three finite numbers \"x, y, z\"";
+  change("Dimension", "3", Patterns::Integer(3, 3), "2 or 3");
+  change("Geometry/Shape", "box", Patterns::Selection("box"), "box: space has no other shape");
+  change("Geometry/Lower corner", "0, 0, 0", point, point_wanted);
+  change("Geometry/Upper corner", "1, 1, 1", point, point_wanted);
+  change("Geometry/Subdivisions", "1, 1, 1", Patterns::List(Patterns::Integer(1), 3, 3, ","),
+         "three positive integers");
+  change("Geometry/Graded towards", "",
+         Patterns::List(point, 0, Patterns::List::max_int_value, ";"),
+         "points \"x, y, z; x, y, z; ...\" or nothing");
+  change("Adaptivity/Method", "hap2", Patterns::Selection(joined(method_names, "|")),
+         "hup2, hup3, hup4, hap2, hap3 or hap4");
+}
 } // namespace
 
 std::vector<Entry> scene_entries(const int dim)
@@ -264,6 +338,8 @@ std::vector<Entry> scene_entries(const int dim)
   add_loading_entries(entries);
   add_method_entries(entries);
   add_program_entries(entries);
+  if (dim == 3)
+    take_to_space(entries);
   return entries;
 }
 } // namespace hpvi

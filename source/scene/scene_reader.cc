@@ -6,6 +6,7 @@
 #include <hpvi/scene/parameters.h>
 #include <hpvi/scene/scene_checks.h>
 #include <hpvi/scene/scene_entries.h>
+#include <hpvi/scene/space_checks.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -61,29 +62,38 @@ Corners<2> read_corners(const Parameters &parameters)
   return quadrilateral_corners({{around[0], around[1], around[2], around[3]}});
 }
 
-template <int dim>
-void read_geometry(const Parameters &parameters, Geometry<dim> &geometry)
+/** The shape that only the plane has. */
+void read_quadrilateral(const Parameters &parameters, Geometry<2> &geometry)
 {
   geometry.shape = read_choice<Shape>(parameters, "Geometry", "Shape", shape_names);
   if (geometry.shape == Shape::quadrilateral)
     geometry.corners = read_corners(parameters);
-  else
-    geometry.corners = box_corners(parameters.points<dim>("Geometry", "Lower corner")[0],
-                                   parameters.points<dim>("Geometry", "Upper corner")[0]);
-  if (geometry.shape == Shape::box && !parameters.text("Geometry", "Corners").empty())
+  else if (!parameters.text("Geometry", "Corners").empty())
     parameters.reject("Geometry", "Corners",
                       "has no meaning for a box; set Shape = quadrilateral or remove it");
+}
+
+template <int dim>
+void read_geometry(const Parameters &parameters, Geometry<dim> &geometry)
+{
+  geometry.corners = box_corners(parameters.points<dim>("Geometry", "Lower corner")[0],
+                                 parameters.points<dim>("Geometry", "Upper corner")[0]);
+  if constexpr (dim == 2)
+    read_quadrilateral(parameters, geometry);
   const std::vector<int> subdivisions = Utilities::string_to_int(
       Utilities::split_string_list(parameters.text("Geometry", "Subdivisions"), ','));
   std::copy(subdivisions.begin(), subdivisions.end(), geometry.subdivisions.begin());
   geometry.graded_towards = parameters.points<dim>("Geometry", "Graded towards");
 }
 
+template <int dim>
 Material read_material(const Parameters &parameters)
 {
-  return {parameters.number("Material", "Young's modulus"),
-          parameters.number("Material", "Poisson's ratio"),
-          read_choice<PlaneModel>(parameters, "Material", "Plane", plane_names)};
+  Material material{parameters.number("Material", "Young's modulus"),
+                    parameters.number("Material", "Poisson's ratio")};
+  if (dim == 2)
+    material.plane = read_choice<PlaneModel>(parameters, "Material", "Plane", plane_names);
+  return material;
 }
 
 // ---------------------------------------------------------------- the exact solution
@@ -162,25 +172,33 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
 
 // ---------------------------------------------------------------- the rest
 
+/** What `exact` stands for on @p boundary; nothing in space, where no closed form is offered. */
+template <int dim>
+std::array<typename ExpressionReader<dim>::ExactField, 2>
+exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boundary)
+{
+  if constexpr (dim == 2)
+    if (scene.exact_solution != nullptr)
+      return {{[&scene](const unsigned int c)
+               { return std::make_shared<ExactDisplacement<2>>(scene.exact_solution, c); },
+               [&scene, boundary](const unsigned int c)
+               {
+                 return std::make_shared<ExactTraction<2>>(
+                     scene.exact_solution, scene.materials[0],
+                     edges_of(scene.geometry)[boundary].normal, c);
+               }}};
+  const auto none = [](const unsigned int) { return nullptr; };
+  (void)scene, (void)boundary;
+  return {{none, none}};
+}
+
 template <int dim>
 void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &expressions,
                    const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
 {
-  const Edge edge = edges_of(scene.geometry)[boundary.id];
-  const std::vector<Point<dim>> points = edge.sample();
-  const auto exact_displacement = [&](const unsigned int c) -> Expression<dim>
-  {
-    return scene.exact_solution == nullptr
-               ? nullptr
-               : std::make_shared<ExactDisplacement<dim>>(scene.exact_solution, c);
-  };
-  const auto exact_traction = [&](const unsigned int c) -> Expression<dim>
-  {
-    return scene.exact_solution == nullptr
-               ? nullptr
-               : std::make_shared<ExactTraction<dim>>(scene.exact_solution, scene.materials[0],
-                                                      edge.normal, c);
-  };
+  const std::vector<Point<dim>> points = sample_side(scene.geometry, boundary.id);
+  const auto [exact_displacement, exact_traction] =
+      exact_displacement_and_traction(scene, boundary.id);
 
   const std::string section = "Boundary " + boundary.name;
   boundary.displacement =
@@ -214,6 +232,8 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
       read_choice<Indicator>(parameters, "Adaptivity", "Tolerance on", indicator_names);
   adaptivity.reading =
       read_choice<SmoothnessReading>(parameters, "Adaptivity", "Smoothness reading", reading_names);
+  scene.solver.path = read_choice<SolutionPath>(parameters, "Solver", "Path", path_names);
+  scene.solver.linear = read_choice<LinearMethod>(parameters, "Solver", "Linear", linear_names);
   scene.solver.qp_solver =
       read_choice<QpSolver>(parameters, "Solver", "QP solver", qp_solver_names);
   scene.solver.coulomb_method =
@@ -249,12 +269,13 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
   // Expressions are tried on the body and know its material: both must be sound.
   read_geometry(*parameters, scene.geometry);
   check_geometry(scene);
-  scene.materials = {read_material(*parameters)};
+  scene.materials = {read_material<dim>(*parameters)};
   check_materials(scene);
   const ExpressionReader<dim> expressions(*parameters, scene.materials[0], t);
   scene.body_force =
       expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
-  scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
+  if constexpr (dim == 2)
+    scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
     read_boundary(*parameters, expressions, scene, boundary);
   scene.reference_solution = parameters->text("Error", "Reference solution");
@@ -288,7 +309,8 @@ Scene<dim> read_scene(const std::string &file,
   const auto parameters = std::make_shared<Parameters>(scene_entries(dim), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
-    parameters->reject("", "Dimension", "is not available yet; set Dimension = 2");
+    parameters->reject("", "Dimension",
+                       "is not that of the program; set Dimension = " + std::to_string(dim));
   const std::string name = std::filesystem::path(file).stem().string();
   complete(*parameters, name);
   const Loading<dim> loading = read_loading<dim>(parameters, name);
@@ -299,11 +321,26 @@ Scene<dim> read_scene(const std::string &file,
   return scene;
 }
 
+int scene_dimension(const std::string &file,
+                    const std::vector<std::pair<std::string, std::string>> &overrides)
+{
+  std::string dimension = "2";
+  for (const Assignment &assignment : read_parameter_file(file))
+    if (assignment.section.empty() && assignment.name == "Dimension")
+      dimension = assignment.value;
+  for (const auto &[entry, value] : overrides)
+    if (single_spaced(entry) == "Dimension")
+      dimension = Utilities::trim(value);
+  return dimension == "3" ? 3 : 2;
+}
+
 std::string default_parameters()
 {
   return Parameters(scene_entries(2), "").print(true);
 }
 
 template Scene<2> read_scene(const std::string &,
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+template Scene<3> read_scene(const std::string &,
                              const std::vector<std::pair<std::string, std::string>> &, SceneUse);
 } // namespace hpvi

@@ -117,8 +117,7 @@ for value in 0.5 -1 7; do
   invalid "Material/Poisson's ratio = $value" "outside (-1, 1/2)" "-1 < nu < 1/2" -- "Material/Poisson's ratio=$value"
 done
 invalid "Material/Poisson's ratio = nan" "-1 < nu < 1/2" -- "Material/Poisson's ratio=nan"
-invalid "Dimension = 3" "set Dimension = 2" -- "Dimension=3"
-invalid "Dimension = 1" "give 2" -- "Dimension=1"
+invalid "Dimension = 1" "give 2 or 3" -- "Dimension=1"
 invalid "Title = a # b" "remove '#'" -- "Title=a # b"
 
 # --- geometry

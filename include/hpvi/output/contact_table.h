@@ -3,6 +3,7 @@
 #define hpvi_contact_table_h
 
 #include <hpvi/evaluation/contact_state.h>
+#include <hpvi/primal/contact_points.h>
 
 #include <string>
 #include <vector>
@@ -12,6 +13,13 @@ namespace hpvi
 /** `contact-NN.csv`: the points of each contact boundary, along its tangent. */
 template <int dim>
 std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact);
+
+/**
+ * The same of the primal path; in space the tangential columns are vectors along the axes of the body,
+ * with the suffixes _x, _y, _z.
+ */
+template <int dim>
+std::string contact_table(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points);
 } // namespace hpvi
 
 #endif

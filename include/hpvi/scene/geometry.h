@@ -65,7 +65,12 @@ struct Edge
 std::vector<Edge> edges_of(const Geometry<2> &geometry);
 
 /** Points all over the body, its boundary included. */
-std::vector<dealii::Point<2>> sample_body(const Geometry<2> &geometry);
+template <int dim>
+std::vector<dealii::Point<dim>> sample_body(const Geometry<dim> &geometry);
+
+/** Points all over one of its sides, by boundary id: Edge::sample() in the plane. */
+std::vector<dealii::Point<2>> sample_side(const Geometry<2> &geometry, unsigned int side);
+std::vector<dealii::Point<3>> sample_side(const Geometry<3> &geometry, unsigned int side);
 
 /** The angles of the body at its corners, in degrees and in the order of the corners. */
 std::array<double, 4> corner_angles(const Geometry<2> &geometry);

@@ -2,7 +2,7 @@
 #ifndef hpvi_parameters_h
 #define hpvi_parameters_h
 
-#include <hpvi/scene/parameter_file.h>
+#include <hpvi/base/parameter_file.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>

@@ -21,7 +21,7 @@ namespace hpvi
 {
 class Parameters;
 
-/** A function of x and y; null where there is none. */
+/** A function of x, y and in space z; null where there is none. */
 template <int dim>
 using Expression = std::shared_ptr<const dealii::Function<dim>>;
 
@@ -157,9 +157,27 @@ enum class CoulombMethod
   fixed_point ///< Tresca problems with the bounds of the last one, accelerated
 };
 
-/** How the quadratic program is solved. */
+/** Which discrete problem is solved; doc/space.md sets them beside each other. */
+enum class SolutionPath
+{
+  automatic, ///< reduced in the plane on one process, primal else
+  reduced,   ///< a quadratic program for the multipliers, its matrix dense
+  primal     ///< a convex minimum in displacements and moments, its matrices sparse
+};
+
+/** What solves the linear systems of the primal path. */
+enum class LinearMethod
+{
+  amg,   ///< conjugate gradients, preconditioned by algebraic multigrid
+  direct ///< sparse factorisation
+};
+
+/** How the discrete problem is solved. */
 struct SolverSettings
 {
+  SolutionPath path = SolutionPath::automatic;
+  LinearMethod linear = LinearMethod::amg;
+  double primal_tolerance = 1e-6; ///< of Newton's residual, relative to the load vector
   QpSolver qp_solver = QpSolver::active_set;
   bool qp_warm_start = true;                        ///< from the multiplier of the previous step
   double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)

@@ -18,7 +18,7 @@ inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "h
                                                       "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
 
 /** In the order of the enumerators of SmoothnessReading, Indicator, QpSolver, Shape, PlaneModel, Contact, NormalContact,
-    CoulombMethod, LoadAdaptivity. */
+    CoulombMethod, LoadAdaptivity, SolutionPath, LinearMethod. */
 inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       indicator_names = {"residual", "bound"},
                                       qp_solver_names = {"mprgp", "active set"},
@@ -28,7 +28,9 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                                        "tangential"},
                                       normal_contact_names = {"multiplier", "nodes"},
                                       coulomb_method_names = {"newton", "fixed point"},
-                                      load_adaptivity_names = {"first step", "every step"};
+                                      load_adaptivity_names = {"first step", "every step"},
+                                      path_names = {"auto", "reduced", "primal"},
+                                      linear_names = {"amg", "direct"};
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry
@@ -54,6 +56,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
   visit("Error", "Bound", scene.error_bound);
   auto &solver = scene.solver;
+  visit("Solver", "Primal tolerance", solver.primal_tolerance);
   visit("Solver", "QP warm start", solver.qp_warm_start);
   visit("Solver", "QP tolerance", solver.qp_tolerance);
   visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);

@@ -19,6 +19,13 @@ Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides = {},
                       SceneUse use = SceneUse::solve);
 
+/**
+ * The space dimension that @p file or an override names: 3, or 2, also where that is not said or
+ * wrong, which read_scene() finds.
+ */
+int scene_dimension(const std::string &file,
+                    const std::vector<std::pair<std::string, std::string>> &overrides);
+
 /** All entries of a plane scene with defaults and documentation, as a parameter file. */
 std::string default_parameters();
 } // namespace hpvi

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_box_tables_h
+#define hpvi_box_tables_h
+
+#include <hpvi/scene/material.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+/** Scalar shape functions of one degree at Gauss points of the unit cell. */
+template <int dim>
+struct BoxTable
+{
+  std::vector<dealii::Point<dim>> points;
+  std::vector<double> weights;       ///< they sum to 1
+  dealii::FullMatrix<double> values; ///< by point and shape function
+  std::array<dealii::FullMatrix<double>, dim> gradients;
+  std::array<std::array<dealii::FullMatrix<double>, dim>, dim> second; ///< empty but inside cells
+};
+
+/** The coefficients of a field on a cell, by shape function and component. */
+template <int dim>
+using CellField = std::vector<dealii::Tensor<1, dim>>;
+
+/**
+ * All that depends on the degree alone where cells are boxes: shape functions at Gauss points, the
+ * stiffness of the unit cell, and the change from the inner nodes of a contact face to moments.
+ *
+ * A contact face has as many inner nodes as Gauss points x_k of the rule with p-1 points a direction.
+ * With psi_k, Lagrange's basis at these points, the moments `m_k = int psi_k u / int psi_k` take the
+ * place of the inner nodal values:
+ *
+ *     m = M u_inner + W u_rim,    u_inner = M^-1 (m - W u_rim).
+ */
+template <int dim>
+class BoxTables
+{
+public:
+  explicit BoxTables(unsigned int degree);
+
+  const unsigned int degree;
+  const dealii::FESystem<dim> fe;      ///< of displacements
+  const unsigned int n_shapes;         ///< of the scalar element
+  const BoxTable<dim> cell;            ///< p+1 points in each direction
+  std::vector<BoxTable<dim>> faces;    ///< by face, likewise
+  std::vector<BoxTable<dim>> quarters; ///< by face and part(): one of the 2^(dim-1) parts of a face
+  std::vector<BoxTable<dim>> moment_points;          ///< by face: the Gauss points x_k
+  std::vector<std::vector<unsigned int>> inner, rim; ///< shape functions of a face by face
+  dealii::FullMatrix<double> M, M_inverse, W;        ///< the same for all faces
+
+  /** Number of moments of each component on a face, `(p-1)^(dim-1)`. */
+  unsigned int n_moments() const
+  {
+    return M.m();
+  }
+
+  /** The index in #quarters of the part of @p face that lies on the side @p above of each axis. */
+  static unsigned int part(unsigned int face, const std::array<bool, dim> &above);
+
+  /** psi_k at a point of the unit face whose coordinates along the axes of the body are @p x. */
+  double psi(unsigned int k, unsigned int face, const dealii::Point<dim> &x) const;
+
+  /** The stiffness matrix of a box, in the numbering of #fe. */
+  dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law,
+                                       const dealii::Tensor<1, dim> &size) const;
+
+  /** T of `u = T v` on a cell: @p moments[face] says where v has moments for inner nodes. */
+  dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &moments) const;
+
+private:
+  dealii::FE_Q<dim> scalar() const;
+  void make_moments();
+
+  std::vector<double> gauss; ///< coordinates of the points x_k
+  std::array<std::array<dealii::FullMatrix<double>, dim>, dim>
+      products; ///< int d_a phi_i d_b phi_j
+};
+
+/** The gradient of a field at point @p q of @p table in a box of @p size: (i,j) is d_j u_i. */
+template <int dim>
+dealii::Tensor<2, dim> gradient(const BoxTable<dim> &table, unsigned int q,
+                                const CellField<dim> &field, const dealii::Tensor<1, dim> &size);
+
+/** Its value. */
+template <int dim>
+dealii::Tensor<1, dim> value(const BoxTable<dim> &table, unsigned int q,
+                             const CellField<dim> &field);
+
+/** The axes along a face, in rising order. */
+template <int dim>
+std::array<unsigned int, dim - 1> tangents(const unsigned int face)
+{
+  std::array<unsigned int, dim - 1> axes{};
+  unsigned int n = 0;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (d != face / 2)
+      axes[n++] = d;
+  return axes;
+}
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_moment_matrix_h
+#define hpvi_moment_matrix_h
+
+#include <hpvi/primal/primal_system.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <memory>
+#include <vector>
+
+namespace hpvi
+{
+/** What Newton's method makes of a disc: no motion, or a stiffness H along the contact. */
+template <int dim>
+struct DiscState
+{
+  bool sticks = false;
+  dealii::SymmetricTensor<2, dim - 1> stiffness;
+};
+
+/**
+ * All that Newton's method asks of the matrix: products with A, its blocks at the discs, and solutions of
+ * `(A + H) v = b` in the unknowns that do not stick, by conjugate gradients with the algebraic
+ * multigrid of ML. Multigrid sees A + H with 1e4-fold diagonals where discs stick, and rigid body
+ * motions that vanish there. It is set up anew only where more than a fiftieth of the discs has changed
+ * its state; until then what sticks is masked, and what slips now gets its own block as a
+ * correction. Where the scene wants that, or where multigrid breaks down, a factorisation by MUMPS, anew for each
+ * linearisation, stands in its place. Behind this interface the matrix could as well be free of entries.
+ */
+template <int dim>
+class MomentMatrix
+{
+public:
+  using Block = dealii::SymmetricTensor<2, dim - 1>;
+
+  /** Takes changes of the entries of @p system.A at the discs for its own. */
+  MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system);
+
+  /** y = A x */
+  void multiply(DistributedVector &y, const DistributedVector &x) const;
+
+  /** Of A at the moments of a disc. */
+  const Block &block(unsigned int disc) const;
+
+  /** From here on solve() knows @p states. Collective. */
+  void linearise(const std::vector<DiscState<dim>> &states);
+
+  /**
+   * Improves @p v until the residual is below @p tolerance, and sets what sticks to zero. Collective. Where
+   * multigrid takes more than a thousand steps a factorisation takes its place from here on. Throws
+   * NumericalFailure where that does not help.
+   */
+  void solve(DistributedVector &v, const DistributedVector &b, double tolerance);
+
+  /** An approximate solution of `(A + H) z = r`. */
+  void precondition(DistributedVector &z, const DistributedVector &r) const;
+
+  unsigned int n_steps = 0;  ///< of conjugate gradients so far
+  unsigned int n_setups = 0; ///< of multigrid, or factorisations, so far
+  double setup_seconds = 0;  ///< which these took
+  bool fell_back = false;    ///< has multigrid broken down?
+
+private:
+  Tangential<dim> at(const DistributedVector &x, unsigned int disc) const;
+  void add(DistributedVector &x, unsigned int disc, const Tangential<dim> &value) const;
+  void mask(DistributedVector &x) const;
+  void set_up();
+  void factor();
+  bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance);
+  std::vector<double> rigid_motions() const;
+  void set_block(unsigned int disc, const Block &block);
+  void multiply_linearised(DistributedVector &y, const DistributedVector &x) const;
+
+  const MomentSpace<dim> &space;
+  PrimalSystem<dim> &system;
+  std::vector<Block> blocks, inserted; ///< of A; what set_up() has added to them in the matrix
+  std::vector<DiscState<dim>> states, known; ///< now; when multigrid was set up
+  std::vector<double> motions;               ///< rigid_motions(), one after the other
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
+  bool is_direct;
+  dealii::SolverControl control;
+  dealii::TrilinosWrappers::SparseMatrix
+      factored; ///< A + H with rows of the unit matrix where discs stick
+  std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_primal_system_h
+#define hpvi_primal_system_h
+
+#include <hpvi/primal/moment_space.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <map>
+#include <tuple>
+
+namespace hpvi
+{
+/** A and f of `1/2 v'A v - f'v` in the basis of moments; rows of constrained unknowns are diagonal. */
+template <int dim>
+class PrimalSystem
+{
+public:
+  /** Collective. Throws InputError where a load is not finite. */
+  explicit PrimalSystem(const MomentSpace<dim> &space);
+
+  double energy_product(const DistributedVector &u) const; ///< a(u, u), collective
+  double work(const DistributedVector &u) const;           ///< L(u), collective
+
+  /** Sums of the loads by the side they act on, body forces last; collective. */
+  std::vector<dealii::Tensor<1, dim>> load_resultants() const;
+
+  dealii::TrilinosWrappers::SparseMatrix A;
+  DistributedVector f;
+
+private:
+  using Cell = typename MomentSpace<dim>::Cell;
+  using Matrix = dealii::FullMatrix<double>;
+
+  /** Cells of one size, material and set of faces with friction share K and T'KT. */
+  const Matrix &stiffness(const Cell &cell, const std::vector<bool> &friction_faces) const;
+  CellField<dim> body_load(const Cell &cell) const;
+  CellField<dim> side_load(const Cell &cell, unsigned int face) const;
+  CellField<dim> load(const Cell &cell) const;
+  void assemble();
+
+  const MomentSpace<dim> &space;
+  mutable std::map<std::tuple<int, unsigned int, std::vector<bool>>, Matrix> matrices;
+};
+} // namespace hpvi
+
+#endif

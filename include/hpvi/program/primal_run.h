@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_primal_run_h
+#define hpvi_primal_run_h
+
+#include <hpvi/scene/scene.h>
+
+#include <string>
+
+namespace hpvi
+{
+/** How many processes mpirun has started with this one; 1 where there is none. */
+unsigned int n_started_processes();
+
+/** Is this the one of them that speaks for all? */
+bool is_first_process();
+
+/**
+ * Does @p scene take the primal path: in space, on several processes, or because it says so? Throws InputError
+ * where it asks for the reduced path on several processes.
+ */
+template <int dim>
+bool takes_primal_path(const Scene<dim> &scene);
+
+/** Solve @p scene by the primal path on all processes, print its rows and leave its files in @p directory. */
+template <int dim>
+void run_primal(const Scene<dim> &scene, const std::string &directory);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/primal/box_tables.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+BoxTable<dim> tabulate(const FiniteElement<dim> &fe, const std::vector<Point<dim>> &points,
+                       const std::vector<double> &weights, const bool second)
+{
+  BoxTable<dim> table;
+  table.points = points;
+  table.weights = weights;
+  table.values.reinit(points.size(), fe.dofs_per_cell);
+  for (unsigned int a = 0; a < dim; ++a)
+  {
+    table.gradients[a].reinit(points.size(), fe.dofs_per_cell);
+    for (unsigned int b = 0; second && b < dim; ++b)
+      table.second[a][b].reinit(points.size(), fe.dofs_per_cell);
+  }
+  for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+    {
+      table.values(q, i) = fe.shape_value(i, points[q]);
+      for (unsigned int a = 0; a < dim; ++a)
+      {
+        table.gradients[a](q, i) = fe.shape_grad(i, points[q])[a];
+        for (unsigned int b = 0; second && b < dim; ++b)
+          table.second[a][b](q, i) = fe.shape_grad_grad(i, points[q])[a][b];
+      }
+    }
+  return table;
+}
+
+/** @p rule on the part of a face that begins at @p begin and has edges of length @p length. */
+template <int dim>
+BoxTable<dim> tabulate_face(const FiniteElement<dim> &fe, const Quadrature<dim - 1> &rule,
+                            const unsigned int face, const Point<dim> &begin, const double length)
+{
+  const auto axes = tangents<dim>(face);
+  std::vector<Point<dim>> points(rule.size(), begin);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    points[q][face / 2] = face % 2;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      points[q][axes[s]] += length * rule.point(q)[s];
+  }
+  return tabulate(fe, points, rule.get_weights(), false);
+}
+
+template <int dim>
+BoxTable<dim> tabulate_cell(const FiniteElement<dim> &fe, const unsigned int n_gauss)
+{
+  const QGauss<dim> rule(n_gauss);
+  return tabulate(fe, rule.get_points(), rule.get_weights(), true);
+}
+} // namespace
+
+template <int dim>
+FE_Q<dim> BoxTables<dim>::scalar() const
+{
+  return FE_Q<dim>(degree);
+}
+
+template <int dim>
+BoxTables<dim>::BoxTables(const unsigned int degree)
+    : degree(degree), fe(FE_Q<dim>(degree), dim), n_shapes(fe.dofs_per_cell / dim),
+      cell(tabulate_cell(scalar(), degree + 1))
+{
+  const FE_Q<dim> element = scalar();
+  const QGauss<dim - 1> rule(degree + 1);
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+  {
+    faces.push_back(tabulate_face(element, rule, face, Point<dim>(), 1));
+    for (unsigned int part = 0; part < GeometryInfo<dim>::max_children_per_face; ++part)
+    {
+      Point<dim> begin;
+      for (unsigned int s = 0; s < dim - 1; ++s)
+        begin[tangents<dim>(face)[s]] = 0.5 * ((part >> s) & 1U);
+      quarters.push_back(tabulate_face(element, rule, face, begin, 0.5));
+    }
+    if (degree > 1)
+      moment_points.push_back(
+          tabulate_face(element, QGauss<dim - 1>(degree - 1), face, Point<dim>(), 1));
+  }
+  for (unsigned int a = 0; a < dim; ++a)
+    for (unsigned int b = 0; b < dim; ++b)
+    {
+      FullMatrix<double> weighted = cell.gradients[b];
+      for (unsigned int q = 0; q < cell.weights.size(); ++q)
+        for (unsigned int i = 0; i < n_shapes; ++i)
+          weighted(q, i) *= cell.weights[q];
+      products[a][b].reinit(n_shapes, n_shapes);
+      cell.gradients[a].Tmmult(products[a][b], weighted);
+    }
+  if (degree > 1)
+  {
+    for (unsigned int i = 0; i + 1 < degree; ++i) // along the first axis
+      gauss.push_back(moment_points.back().points[i][0]);
+    make_moments();
+  }
+}
+
+/** Products of moments along the axes: shape functions of a face are products of functions of one variable. */
+template <int dim>
+void BoxTables<dim>::make_moments()
+{
+  const FE_Q<dim> element = scalar();
+  const auto &nodes = element.get_unit_support_points();
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+  {
+    inner.emplace_back();
+    rim.emplace_back();
+    for (unsigned int i = 0; i < n_shapes; ++i)
+      if (element.has_support_on_face(i, face))
+      {
+        bool is_inner = true;
+        for (const unsigned int axis : tangents<dim>(face))
+          is_inner = is_inner && nodes[i][axis] > 1e-9 && nodes[i][axis] < 1 - 1e-9;
+        (is_inner ? inner : rim).back().push_back(i);
+      }
+    // deal.II numbers the nodes of a face in coordinates of its own.
+    const auto before = [&](const unsigned int i, const unsigned int j)
+    {
+      for (unsigned int s = dim - 1; s-- > 0;)
+        if (const double difference =
+                nodes[i][tangents<dim>(face)[s]] - nodes[j][tangents<dim>(face)[s]];
+            std::abs(difference) > 1e-9)
+          return difference < 0;
+      return false;
+    };
+    std::sort(inner.back().begin(), inner.back().end(), before);
+    std::sort(rim.back().begin(), rim.back().end(), before);
+  }
+  const unsigned int face = 0, n = inner[face].size();
+  const BoxTable<dim> &table = faces[face];
+  const auto moment = [&](const unsigned int k, const unsigned int shape)
+  {
+    double integral = 0;
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+      integral += table.weights[q] * psi(k, face, table.points[q]) * table.values(q, shape);
+    return integral / moment_points[face].weights[k];
+  };
+  M.reinit(n, n);
+  W.reinit(n, rim[face].size());
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    for (unsigned int j = 0; j < n; ++j)
+      M(k, j) = moment(k, inner[face][j]);
+    for (unsigned int j = 0; j < rim[face].size(); ++j)
+      W(k, j) = moment(k, rim[face][j]);
+  }
+  M_inverse.reinit(n, n);
+  M_inverse.invert(M);
+}
+
+template <int dim>
+unsigned int BoxTables<dim>::part(const unsigned int face, const std::array<bool, dim> &above)
+{
+  const auto axes = tangents<dim>(face);
+  unsigned int part = 0;
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    part += static_cast<unsigned int>(above[axes[s]]) << s;
+  return face * GeometryInfo<dim>::max_children_per_face + part;
+}
+
+template <int dim>
+double BoxTables<dim>::psi(const unsigned int k, const unsigned int face, const Point<dim> &x) const
+{
+  double product = 1;
+  for (const unsigned int axis : tangents<dim>(face))
+    for (const double other : gauss)
+    {
+      const double own = moment_points[face].points[k][axis];
+      if (std::abs(own - other) > 1e-9)
+        product *= (x[axis] - other) / (own - other);
+    }
+  return product;
+}
+
+template <int dim>
+FullMatrix<double> BoxTables<dim>::stiffness(const HookesLaw<dim> &law,
+                                             const Tensor<1, dim> &size) const
+{
+  double volume = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    volume *= size[d];
+  FullMatrix<double> K(fe.dofs_per_cell, fe.dofs_per_cell);
+  for (unsigned int i = 0; i < n_shapes; ++i)
+    for (unsigned int j = 0; j < n_shapes; ++j)
+    {
+      const auto P = [&](const unsigned int a, const unsigned int b)
+      { return products[a][b](i, j) * volume / (size[a] * size[b]); };
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          K(fe.component_to_system_index(c, i), fe.component_to_system_index(d, j)) =
+              law.stiffness(P, c, d);
+    }
+  return K;
+}
+
+template <int dim>
+FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &moments) const
+{
+  FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), W.n());
+  M_inverse.mmult(rim_to_inner, W);
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+    for (unsigned int s = 0; moments[face] && s < dim - 1; ++s)
+    {
+      const auto number = [&](const unsigned int shape)
+      { return fe.component_to_system_index(tangents<dim>(face)[s], shape); };
+      for (unsigned int r = 0; r < n_moments(); ++r)
+      {
+        const unsigned int row = number(inner[face][r]);
+        for (unsigned int k = 0; k < n_moments(); ++k)
+          T(row, number(inner[face][k])) = M_inverse(r, k);
+        for (unsigned int j = 0; j < W.n(); ++j)
+          T(row, number(rim[face][j])) = -rim_to_inner(r, j);
+      }
+    }
+  return T;
+}
+
+template <int dim>
+Tensor<2, dim> gradient(const BoxTable<dim> &table, const unsigned int q,
+                        const CellField<dim> &field, const Tensor<1, dim> &size)
+{
+  Tensor<2, dim> result;
+  for (unsigned int a = 0; a < dim; ++a)
+  {
+    Tensor<1, dim> derivative;
+    for (unsigned int i = 0; i < field.size(); ++i)
+      derivative += table.gradients[a](q, i) * field[i];
+    for (unsigned int c = 0; c < dim; ++c)
+      result[c][a] = derivative[c] / size[a];
+  }
+  return result;
+}
+
+template <int dim>
+Tensor<1, dim> value(const BoxTable<dim> &table, const unsigned int q, const CellField<dim> &field)
+{
+  Tensor<1, dim> result;
+  for (unsigned int i = 0; i < field.size(); ++i)
+    result += table.values(q, i) * field[i];
+  return result;
+}
+
+template class BoxTables<2>;
+template class BoxTables<3>;
+template Tensor<2, 2> gradient(const BoxTable<2> &, unsigned int, const CellField<2> &,
+                               const Tensor<1, 2> &);
+template Tensor<2, 3> gradient(const BoxTable<3> &, unsigned int, const CellField<3> &,
+                               const Tensor<1, 3> &);
+template Tensor<1, 2> value(const BoxTable<2> &, unsigned int, const CellField<2> &);
+template Tensor<1, 3> value(const BoxTable<3> &, unsigned int, const CellField<3> &);
+} // namespace hpvi

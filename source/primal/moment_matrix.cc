@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/primal/moment_matrix.h>
+
+#include <deal.II/base/timer.h>
+
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double stick_factor = 1e4;
+constexpr unsigned int maximum_steps = 1000;
+
+template <int dim>
+constexpr unsigned int n_motions = dim *(dim + 1) / 2;
+
+/** Smoothed aggregation, Chebyshev smoothers of degree two, a direct solver where few unknowns are left. */
+template <int dim>
+Teuchos::ParameterList multigrid_parameters(std::vector<double> &motions)
+{
+  Teuchos::ParameterList parameters;
+  ML_Epetra::SetDefaults("SA", parameters);
+  parameters.set("ML output", 0);
+  parameters.set("PDE equations", dim);
+  parameters.set("null space: type", "pre-computed");
+  parameters.set("null space: dimension", static_cast<int>(n_motions<dim>));
+  parameters.set("null space: vectors", motions.data());
+  parameters.set("aggregation: type", "Uncoupled");
+  parameters.set("aggregation: threshold", 0.);
+  parameters.set("coarse: type", "Amesos-KLU");
+  parameters.set("coarse: max size", 2000);
+  parameters.set("smoother: type", "Chebyshev");
+  parameters.set("smoother: Chebyshev alpha", 10.);
+  parameters.set("smoother: sweeps", 2);
+  return parameters;
+}
+
+/** The value at @p x of a translation or, about @p centre, a rotation. */
+template <int dim>
+Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm)
+{
+  Tensor<1, dim> result;
+  if (motion < dim)
+    result[motion] = 1;
+  else
+  {
+    const unsigned int a = motion == dim ? 0 : (motion == dim + 1 ? 1 : 2), b = (a + 1) % dim;
+    result[a] = -arm[b];
+    result[b] = arm[a];
+  }
+  return result;
+}
+} // namespace
+
+template <int dim>
+MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
+    : space(space), system(system), blocks(space.discs.size()), inserted(space.discs.size()),
+      states(space.discs.size()), is_direct(space.scene.solver.linear == LinearMethod::direct)
+{
+  for (unsigned int k = 0; k < space.discs.size(); ++k)
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      for (unsigned int t = 0; t <= s; ++t)
+        blocks[k][s][t] = system.A.el(space.owned.nth_index_in_set(space.discs[k].unknowns[s]),
+                                      space.owned.nth_index_in_set(space.discs[k].unknowns[t]));
+  motions = rigid_motions();
+}
+
+template <int dim>
+const typename MomentMatrix<dim>::Block &MomentMatrix<dim>::block(const unsigned int disc) const
+{
+  return blocks[disc];
+}
+
+template <int dim>
+Tangential<dim> MomentMatrix<dim>::at(const DistributedVector &x, const unsigned int disc) const
+{
+  Tangential<dim> result;
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    result[s] = x.local_element(space.discs[disc].unknowns[s]);
+  return result;
+}
+
+template <int dim>
+void MomentMatrix<dim>::add(DistributedVector &x, const unsigned int disc,
+                            const Tangential<dim> &value) const
+{
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    x.local_element(space.discs[disc].unknowns[s]) += value[s];
+}
+
+/** What sticks is no unknown. */
+template <int dim>
+void MomentMatrix<dim>::mask(DistributedVector &x) const
+{
+  for (unsigned int k = 0; k < states.size(); ++k)
+    if (states[k].sticks)
+      for (const unsigned int unknown : space.discs[k].unknowns)
+        x.local_element(unknown) = 0;
+}
+
+template <int dim>
+void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &x) const
+{
+  system.A.vmult(y, x);
+  for (unsigned int k = 0; k < inserted.size(); ++k)
+    add(y, k, -(inserted[k] * at(x, k)));
+}
+
+template <int dim>
+void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const DistributedVector &x) const
+{
+  system.A.vmult(y, x);
+  for (unsigned int k = 0; k < states.size(); ++k)
+    add(y, k, (states[k].stiffness - inserted[k]) * at(x, k));
+  mask(y);
+}
+
+/** At nodes the motion there, at moments that at their Gauss point: one motion after the other. */
+template <int dim>
+std::vector<double> MomentMatrix<dim>::rigid_motions() const
+{
+  const unsigned int n = space.owned.n_elements();
+  const FESystem<dim> &fe = space.tables.fe;
+  const Corners<dim> &corners = space.scene.geometry.corners;
+  const Point<dim> centre = corners.front() + 0.5 * (corners.back() - corners.front());
+  const double length = corners.back().distance(centre);
+  std::vector<double> result(n * n_motions<dim>, 0.);
+  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
+      for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+        if (space.owned.is_element(dofs[i]) && !space.constraints.is_constrained(dofs[i]))
+        {
+          Tensor<1, dim> arm = cell->vertex(0) - centre;
+          for (unsigned int d = 0; d < dim; ++d)
+            arm[d] += fe.unit_support_point(i)[d] * size[d];
+          for (unsigned int m = 0; m < n_motions<dim>; ++m)
+            result[m * n + space.owned.index_within_set(dofs[i])] =
+                rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
+        }
+    }
+  for (const FrictionFace<dim> &face : space.faces)
+    for (unsigned int k = face.first; k < face.first + space.tables.n_moments(); ++k)
+      for (unsigned int s = 0; s < dim - 1; ++s)
+        for (unsigned int m = 0; m < n_motions<dim>; ++m)
+          result[m * n + space.discs[k].unknowns[s]] =
+              rigid_motion(m, (space.discs[k].x - centre) / length)[tangents<dim>(face.face)[s]];
+  return result;
+}
+
+template <int dim>
+void MomentMatrix<dim>::set_block(const unsigned int disc, const Block &block)
+{
+  const auto &unknowns = space.discs[disc].unknowns;
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    for (unsigned int t = 0; t < dim - 1; ++t)
+      system.A.set(space.owned.nth_index_in_set(unknowns[s]),
+                   space.owned.nth_index_in_set(unknowns[t]), block[s][t]);
+}
+
+template <int dim>
+void MomentMatrix<dim>::set_up()
+{
+  const Timer timer;
+  amg.reset();
+  std::vector<double> free_motions = motions;
+  const unsigned int n = space.owned.n_elements();
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    inserted[k] = states[k].stiffness;
+    if (states[k].sticks)
+      for (unsigned int s = 0; s < dim - 1; ++s)
+      {
+        inserted[k][s][s] += (stick_factor - 1) * blocks[k][s][s];
+        for (unsigned int m = 0; m < n_motions<dim>; ++m)
+          free_motions[m * n + space.discs[k].unknowns[s]] = 0;
+      }
+    set_block(k, blocks[k] + inserted[k]);
+  }
+  system.A.compress(VectorOperation::insert);
+  Teuchos::ParameterList parameters = multigrid_parameters<dim>(free_motions);
+  amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+  amg->initialize(system.A, parameters);
+  known = states;
+  ++n_setups;
+  setup_seconds += timer.wall_time();
+}
+
+template <int dim>
+void MomentMatrix<dim>::factor()
+{
+  const Timer timer;
+  amg.reset();
+  factors.reset();
+  std::vector<types::global_dof_index> stuck;
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    inserted[k] = states[k].stiffness;
+    set_block(k, blocks[k] + inserted[k]);
+    for (const unsigned int unknown : space.discs[k].unknowns)
+      if (states[k].sticks)
+        stuck.push_back(space.owned.nth_index_in_set(unknown));
+  }
+  system.A.compress(VectorOperation::insert);
+  factored.reinit(system.A);
+  factored.copy_from(system.A);
+  factored.clear_rows(stuck, 1.);
+  using Factors = TrilinosWrappers::SolverDirect;
+  factors = std::make_unique<Factors>(control, Factors::AdditionalData(false, "Amesos_Mumps"));
+  factors->initialize(factored);
+  ++n_setups;
+  setup_seconds += timer.wall_time();
+}
+
+template <int dim>
+void MomentMatrix<dim>::linearise(const std::vector<DiscState<dim>> &new_states)
+{
+  types::global_dof_index changed = 0;
+  for (unsigned int k = 0; k < states.size(); ++k)
+    changed += states[k].sticks != new_states[k].sticks;
+  states = new_states;
+  if (is_direct)
+    factor();
+  else if (!amg || 50 * Utilities::MPI::sum(changed, space.communicator()) > space.n_discs)
+    set_up();
+}
+
+template <int dim>
+void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVector &r) const
+{
+  if (is_direct)
+  {
+    factors->solve(z, r);
+    return;
+  }
+  amg->vmult(z, r);
+  for (unsigned int k = 0; k < states.size(); ++k)
+    if (!states[k].sticks && known[k].sticks)
+      add(z, k, invert(blocks[k] + states[k].stiffness) * at(r, k));
+  mask(z);
+}
+
+/** Conjugate gradients; false where they break down. */
+template <int dim>
+bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b,
+                                const double tolerance)
+{
+  DistributedVector r = b, z = b, p, q = b;
+  mask(v);
+  multiply_linearised(q, v);
+  mask(r);
+  r -= q;
+  double rho = 0;
+  for (unsigned int step = 0; !(r.l2_norm() <= tolerance); ++step, ++n_steps)
+  {
+    precondition(z, r);
+    const double next = r * z;
+    if (step == 0)
+      p = z;
+    else
+      p.sadd(next / rho, 1., z);
+    rho = next;
+    multiply_linearised(q, p);
+    const double curvature = p * q;
+    if (!(rho > 0 && curvature > 0 && std::isfinite(rho / curvature)) || step == maximum_steps)
+      return false;
+    v.add(rho / curvature, p);
+    r.add(-rho / curvature, q);
+  }
+  return true;
+}
+
+template <int dim>
+void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
+                              const double tolerance)
+{
+  const DistributedVector start = v;
+  if (iterate(v, b, tolerance))
+    return;
+  fell_back = !is_direct;
+  is_direct = true;
+  factor();
+  v = start;
+  if (!iterate(v, b, tolerance))
+    throw NumericalFailure("neither conjugate gradients with multigrid nor a factorisation solve "
+                           "for the displacement; keep Poisson's ratio away from 1/2, take a mesh "
+                           "of less slender cells or raise Solver/Primal tolerance");
+}
+
+template class MomentMatrix<2>;
+template class MomentMatrix<3>;
+} // namespace hpvi

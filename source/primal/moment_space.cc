@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/primal/moment_space.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/numerics/vector_tools_boundary.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The prescribed displacement of a boundary. */
+template <int dim>
+class PrescribedDisplacement : public Function<dim>
+{
+public:
+  explicit PrescribedDisplacement(const BoundaryCondition<dim> &boundary)
+      : Function<dim>(dim), boundary(boundary)
+  {
+  }
+
+  void vector_value(const Point<dim> &x, Vector<double> &values) const override
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      values[c] = value(x, c);
+  }
+
+  double value(const Point<dim> &x, const unsigned int component) const override
+  {
+    const Expression<dim> &expression = boundary.displacement[component];
+    return expression ? expression->value(x) : 0.;
+  }
+
+private:
+  const BoundaryCondition<dim> &boundary;
+};
+} // namespace
+
+template <int dim>
+MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
+                              const BoxTables<dim> &tables)
+    : scene(scene), tables(tables), dof_handler(mesh)
+{
+  number();
+  together(communicator(), [this]() { constrain(); });
+  constraints.make_consistent_in_parallel(owned, relevant, communicator());
+  constraints.close();
+  together(communicator(), [this]() { find_discs(); });
+  types::global_dof_index constrained = 0;
+  for (const auto i : owned)
+    constrained += constraints.is_constrained(i);
+  n_free = dof_handler.n_dofs() - Utilities::MPI::sum(constrained, communicator());
+  n_discs = Utilities::MPI::sum(types::global_dof_index(discs.size()), communicator());
+}
+
+/** The components of a node one after the other, as multigrid wants them. */
+template <int dim>
+void MomentSpace<dim>::number()
+{
+  dof_handler.distribute_dofs(tables.fe);
+  owned = dof_handler.locally_owned_dofs();
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell),
+      renumbered(owned.n_elements(), numbers::invalid_dof_index);
+  types::global_dof_index next = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+  for (const Cell &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < tables.n_shapes; ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const auto index = dof(dofs, i, c); owned.is_element(index))
+            if (auto &number = renumbered[owned.index_within_set(index)];
+                number == numbers::invalid_dof_index)
+              number = next++;
+    }
+  dof_handler.renumber_dofs(renumbered);
+  owned = dof_handler.locally_owned_dofs();
+  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+}
+
+template <int dim>
+void MomentSpace<dim>::constrain()
+{
+  constraints.reinit(relevant);
+  DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    ComponentMask mask(dim, false);
+    for (unsigned int c = 0; c < dim; ++c)
+      mask.set(c, boundary.displacement[c] != nullptr ||
+                      (boundary.holds_normal() && c == boundary.id / 2));
+    if (mask.n_selected_components() > 0)
+      VectorTools::interpolate_boundary_values(
+          dof_handler, boundary.id, PrescribedDisplacement<dim>(boundary), constraints, mask);
+  }
+}
+
+template <int dim>
+void MomentSpace<dim>::find_discs()
+{
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  for (const Cell &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->at_boundary())
+    {
+      const std::vector<bool> has_friction = friction_faces(cell);
+      const Tensor<1, dim> size = extent(cell);
+      cell->get_dof_indices(dofs);
+      for (const unsigned int face : cell->face_indices())
+      {
+        if (!has_friction[face])
+          continue;
+        first_discs[{cell->active_cell_index(), face}] = discs.size();
+        faces.push_back({cell, face, static_cast<unsigned int>(discs.size())});
+        const BoxTable<dim> &table = tables.moment_points[face];
+        for (unsigned int k = 0; k < tables.n_moments(); ++k)
+        {
+          ContactDisc<dim> disc;
+          disc.radius = table.weights[k];
+          for (unsigned int d = 0; d < dim; ++d)
+            disc.x[d] = cell->vertex(0)[d] + table.points[k][d] * size[d];
+          for (unsigned int s = 0; s < dim - 1; ++s)
+          {
+            const unsigned int axis = tangents<dim>(face)[s];
+            disc.radius *= size[axis];
+            disc.unknowns[s] = owned.index_within_set(dof(dofs, tables.inner[face][k], axis));
+          }
+          disc.bound = condition(cell, face).friction.bound->value(disc.x);
+          disc.radius *= disc.bound;
+          discs.push_back(disc);
+        }
+      }
+    }
+}
+
+template <int dim>
+types::global_dof_index MomentSpace<dim>::dof(const std::vector<types::global_dof_index> &dofs,
+                                              const unsigned int shape,
+                                              const unsigned int component) const
+{
+  return dofs[tables.fe.component_to_system_index(component, shape)];
+}
+
+template <int dim>
+MPI_Comm MomentSpace<dim>::communicator() const
+{
+  return dof_handler.get_communicator();
+}
+
+template <int dim>
+DistributedVector MomentSpace<dim>::owned_vector() const
+{
+  return DistributedVector(owned, communicator());
+}
+
+template <int dim>
+DistributedVector MomentSpace<dim>::ghosted_vector() const
+{
+  return DistributedVector(owned, relevant, communicator());
+}
+
+template <int dim>
+DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) const
+{
+  DistributedVector complete = v;
+  constraints.distribute(complete);
+  DistributedVector u = ghosted_vector();
+  u.copy_locally_owned_data_from(complete);
+  u.update_ghost_values();
+  const unsigned int n = tables.n_moments();
+  Vector<double> rest(n), inner(n);
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  for (const FrictionFace<dim> &face : faces)
+  {
+    face.cell->get_dof_indices(dofs);
+    for (const unsigned int axis : tangents<dim>(face.face))
+    {
+      const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        rest[k] = u(dof(dofs, inner_shapes[k], axis));
+        for (unsigned int j = 0; j < rim_shapes.size(); ++j)
+          rest[k] -= tables.W(k, j) * u(dof(dofs, rim_shapes[j], axis));
+      }
+      tables.M_inverse.vmult(inner, rest);
+      for (unsigned int k = 0; k < n; ++k)
+        complete(dof(dofs, inner_shapes[k], axis)) = inner[k];
+    }
+  }
+  u.zero_out_ghost_values();
+  u.copy_locally_owned_data_from(complete);
+  u.update_ghost_values();
+  return u;
+}
+
+template <int dim>
+DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
+{
+  DistributedVector v = owned_vector();
+  v.copy_locally_owned_data_from(u);
+  for (const FrictionFace<dim> &face : faces)
+  {
+    const CellField<dim> field = this->field(face.cell, u);
+    for (unsigned int k = 0; k < tables.n_moments(); ++k)
+    {
+      Tensor<1, dim> m;
+      for (unsigned int j = 0; j < tables.n_moments(); ++j)
+        m += tables.M(k, j) * field[tables.inner[face.face][j]];
+      for (unsigned int j = 0; j < tables.W.n(); ++j)
+        m += tables.W(k, j) * field[tables.rim[face.face][j]];
+      for (unsigned int s = 0; s < dim - 1; ++s)
+        v.local_element(discs[face.first + k].unknowns[s]) = m[tangents<dim>(face.face)[s]];
+    }
+  }
+  constraints.set_zero(v);
+  return v;
+}
+
+template <int dim>
+CellField<dim> MomentSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
+{
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  cell->get_dof_indices(dofs);
+  CellField<dim> result(tables.n_shapes);
+  for (unsigned int i = 0; i < tables.n_shapes; ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      result[i][c] = u(dof(dofs, i, c));
+  return result;
+}
+
+template <int dim>
+Tensor<1, dim> MomentSpace<dim>::extent(const typename Triangulation<dim>::cell_iterator &cell)
+{
+  return cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1) - cell->vertex(0);
+}
+
+template <int dim>
+const BoundaryCondition<dim> &MomentSpace<dim>::condition(const Cell &cell,
+                                                          const unsigned int face) const
+{
+  return scene.boundaries[cell->face(face)->boundary_id()];
+}
+
+template <int dim>
+std::vector<bool> MomentSpace<dim>::friction_faces(const Cell &cell) const
+{
+  std::vector<bool> result(GeometryInfo<dim>::faces_per_cell, false);
+  for (const unsigned int face : cell->face_indices())
+    result[face] = cell->at_boundary(face) && condition(cell, face).has_contact() &&
+                   condition(cell, face).friction.bound;
+  return result;
+}
+
+template <int dim>
+unsigned int MomentSpace<dim>::first_disc(const Cell &cell, const unsigned int face) const
+{
+  return first_discs.at({cell->active_cell_index(), face});
+}
+
+template class MomentSpace<2>;
+template class MomentSpace<3>;
+} // namespace hpvi

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/one_thread.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/primal/primal_solver.h>
+#include <hpvi/primal/transfer.h>
+#include <hpvi/scene/space_checks.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** What Newton's method leaves, as a part of the estimated error. */
+constexpr double algebraic_part = 1e-2;
+
+/** Of a process: matrix, its pattern, the levels of multigrid; measured to a quarter. */
+template <int dim>
+double expected_bytes(const MomentSpace<dim> &space)
+{
+  const double n_cells = space.dof_handler.get_triangulation().n_global_active_cells() *
+                         (double(space.owned.n_elements()) / space.dof_handler.n_dofs()),
+               n = space.tables.fe.dofs_per_cell;
+  return 19 * n_cells * n * n;
+}
+
+/** What in the last step asks for care, one line each; of the contact on the first process. */
+template <int dim>
+std::vector<std::string> warnings(const PrimalReport<dim> &step)
+{
+  std::vector<std::string> result;
+  const Adaptivity &adaptivity = step.space.scene.adaptivity;
+  if (adaptivity.tolerance > 0 && adaptivity.tolerance_on == Indicator::bound)
+    result.push_back("the primal path has no guaranteed bound of the error: Adaptivity/Tolerance "
+                     "was held against the indicator, which is a measure and no bound");
+  if (step.newton.fell_back)
+    result.push_back("multigrid broke down, and a sparse factorisation took its place; "
+                     "Solver/Linear = direct begins with it");
+  double pull = 0, press = 0;
+  for (const MomentPoint<dim> &point : step.contact)
+    if (step.space.scene.boundaries[point.boundary].contact == Contact::bilateral)
+      (point.normal_traction > 0 ? pull : press) += point.area * std::abs(point.normal_traction);
+  if (pull > 1e-3 * (pull + press))
+    result.push_back("bilateral contact pulls with a force of " + to_string(pull) +
+                     " where it presses with " + to_string(press) +
+                     ": a body free to lift off would open a gap, which the plane's unilateral "
+                     "contact can follow");
+  return result;
+}
+
+/** Throws on all processes where those of one machine need more than it has. */
+template <int dim>
+void require_room(const MomentSpace<dim> &space)
+{
+  MPI_Comm machine;
+  MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const double bytes = Utilities::MPI::sum(expected_bytes(space), machine);
+  MPI_Comm_free(&machine);
+  together(space.communicator(),
+           [&]()
+           {
+             require_memory(bytes, "the matrix and its multigrid for " +
+                                       std::to_string(space.dof_handler.n_dofs()) + " unknowns");
+           });
+}
+} // namespace
+
+template <int dim>
+struct PrimalSolver<dim>::Stages
+{
+  const Scene<dim> &scene;
+  typename MomentSpace<dim>::Mesh mesh;
+  const BoxTables<dim> tables;
+  std::unique_ptr<const MomentSpace<dim>> space;
+  DistributedVector u;                 ///< on the current mesh, from the one before
+  std::vector<Tangential<dim>> lambda; ///< likewise; empty before the first step
+  StageTimes times;                    ///< of the current step
+  History history;                     ///< of the finished steps
+  std::function<void(const Progress &)> about_to = [](const Progress &) {};
+
+  Stages(const Scene<dim> &scene, MPI_Comm communicator)
+      : scene(scene), mesh(communicator), tables(scene.adaptivity.start_degree)
+  {
+    make_mesh(scene, static_cast<Triangulation<dim> &>(mesh));
+    const auto n = Utilities::MPI::n_mpi_processes(communicator);
+    if (mesh.n_global_active_cells() < n)
+      throw InputError(printable(scene.origin(), 400) +
+                       ": Geometry/Subdivisions: makes fewer cells, " +
+                       std::to_string(mesh.n_global_active_cells()) + ", than the " +
+                       std::to_string(n) + " processes; start fewer of them or take more cells");
+  }
+
+  void begin(const std::string &stage) const;
+  NewtonReport solve();
+  NewtonReport iterate(MomentNewton<dim> &newton, DistributedVector &v, double tolerance);
+  Energies energies(const PrimalSystem<dim> &system, const DistributedVector &v) const;
+  PrimalReport<dim> report(const NewtonReport &newton, const ErrorEstimate &estimate);
+  std::vector<bool> mark(const ErrorEstimate &estimate) const;
+  std::string limit() const;
+  void refine(const std::vector<bool> &marked);
+
+  Energies step_energies;
+};
+
+template <int dim>
+void PrimalSolver<dim>::Stages::begin(const std::string &stage) const
+{
+  about_to({static_cast<unsigned int>(history.size()) + 1, stage, ""});
+}
+
+template <int dim>
+NewtonReport PrimalSolver<dim>::Stages::iterate(MomentNewton<dim> &newton, DistributedVector &v,
+                                                const double tolerance)
+{
+  return newton.solve(v, lambda, tolerance,
+                      [this](const NewtonReport &sofar)
+                      {
+                        begin("finding stick and slip: Newton step " +
+                              std::to_string(sofar.steps + 1) + ", " +
+                              std::to_string(sofar.cg_steps) + " steps of conjugate gradients");
+                      });
+}
+
+template <int dim>
+NewtonReport PrimalSolver<dim>::Stages::solve()
+{
+  begin("assembling " + std::to_string(mesh.n_global_active_cells()) + " elements");
+  require_room(*space);
+  std::unique_ptr<PrimalSystem<dim>> system;
+  {
+    StageTimer timer(times.assemble);
+    system = std::make_unique<PrimalSystem<dim>>(*space);
+  }
+  const Timer timer;
+  MomentMatrix<dim> matrix(*space, *system);
+  MomentNewton<dim> newton(*space, *system, matrix);
+  DistributedVector v = history.empty() ? space->owned_vector() : space->moments(u);
+  const NewtonReport report = iterate(newton, v, scene.solver.primal_tolerance);
+  times.factor += matrix.setup_seconds;
+  times.qp += timer.wall_time() - matrix.setup_seconds;
+  StageTimer recovery(times.recover);
+  u = space->displacement(v);
+  step_energies = energies(*system, v);
+  return report;
+}
+
+template <int dim>
+Energies PrimalSolver<dim>::Stages::energies(const PrimalSystem<dim> &system,
+                                             const DistributedVector &v) const
+{
+  double coupling = 0;
+  for (unsigned int k = 0; k < space->discs.size(); ++k)
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      coupling +=
+          space->discs[k].radius * lambda[k][s] * v.local_element(space->discs[k].unknowns[s]);
+  coupling = Utilities::MPI::sum(coupling, space->communicator());
+  const double a = system.energy_product(u), potential = 0.5 * a - system.work(u),
+               friction = friction_work(*space, u);
+  check_finite("the energy", potential + friction);
+  return {potential + coupling, potential + friction, std::sqrt(std::max(a, 0.)),
+          friction - coupling};
+}
+
+template <int dim>
+PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton,
+                                                    const ErrorEstimate &estimate)
+{
+  const auto root_of_sum = [&](const std::vector<double> &squares)
+  {
+    return std::sqrt(Utilities::MPI::sum(std::accumulate(squares.begin(), squares.end(), 0.),
+                                         space->communicator()));
+  };
+  PrimalReport<dim> step{static_cast<unsigned int>(history.size()) + 1, *space, u, estimate};
+  step.n_cells = mesh.n_global_active_cells();
+  step.estimate_volume = root_of_sum(estimate.volume);
+  step.estimate_jumps = root_of_sum(estimate.jumps);
+  step.estimate_neumann = root_of_sum(estimate.neumann);
+  step.estimate_contact = root_of_sum(estimate.contact);
+  step.total_estimate = std::hypot(std::hypot(step.estimate_volume, step.estimate_jumps),
+                                   std::hypot(step.estimate_neumann, step.estimate_contact));
+  check_finite("the error indicator", step.total_estimate);
+  step.energies = step_energies;
+  step.scaled_estimate = step.total_estimate / std::sqrt(scene.coercivity());
+  step.relative_estimate =
+      step.scaled_estimate == 0 ? 0. : step.scaled_estimate / step.energies.norm;
+  {
+    StageTimer timer(times.recover);
+    step.contact = contact_points(*space, u, lambda);
+  }
+  step.newton = newton;
+  step.times = std::exchange(times, {});
+  step.seconds = (history.empty() ? 0. : history.back().seconds) +
+                 Utilities::MPI::max(step.times.total(), space->communicator());
+  const double no_bound = std::numeric_limits<double>::quiet_NaN();
+  history.push_back({step.total_estimate, step.relative_estimate, no_bound, step.seconds});
+  return step;
+}
+
+template <int dim>
+std::vector<bool> PrimalSolver<dim>::Stages::mark(const ErrorEstimate &estimate) const
+{
+  const Adaptivity &adaptivity = scene.adaptivity;
+  const bool uniform = adaptivity.method <= Method::hup4;
+  double sum = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      sum += estimate.indicator(cell->active_cell_index());
+  const double mean =
+      Utilities::MPI::sum(sum, mesh.get_communicator()) / mesh.n_global_active_cells();
+  std::vector<bool> marked(mesh.n_active_cells(), false);
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      marked[cell->active_cell_index()] = uniform || estimate.indicator(cell->active_cell_index()) >
+                                                         adaptivity.hap_threshold * mean;
+  return marked;
+}
+
+/** Why there is no next step; empty: there is. */
+template <int dim>
+std::string PrimalSolver<dim>::Stages::limit() const
+{
+  const Adaptivity &limits = scene.adaptivity;
+  const PastStep &last = history.back();
+  if (last.relative_estimate < limits.tolerance)
+    return "Tolerance";
+  if (history.size() >= limits.maximum_steps)
+    return "Maximum steps";
+  if (space->n_free >= limits.maximum_unknowns)
+    return "Maximum unknowns";
+  if (limits.maximum_seconds > 0 && last.seconds >= limits.maximum_seconds)
+    return "Maximum seconds";
+  return {};
+}
+
+template <int dim>
+void PrimalSolver<dim>::Stages::refine(const std::vector<bool> &marked)
+{
+  begin("refining");
+  {
+    StageTimer timer(times.refine);
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned() && marked[cell->active_cell_index()])
+        cell->set_refine_flag();
+    mesh.prepare_coarsening_and_refinement();
+  }
+  std::unique_ptr<Transfer<dim>> transfer;
+  {
+    StageTimer timer(times.refine);
+    transfer = std::make_unique<Transfer<dim>>(mesh, *space, u, lambda);
+    mesh.execute_coarsening_and_refinement();
+  }
+  {
+    StageTimer timer(times.setup);
+    begin("numbering the unknowns of " + std::to_string(mesh.n_global_active_cells()) +
+          " elements");
+    space = std::make_unique<const MomentSpace<dim>>(scene, mesh, tables);
+  }
+  StageTimer timer(times.refine);
+  transfer->unpack(*space, u, lambda);
+}
+
+template <int dim>
+PrimalSolver<dim>::PrimalSolver(const Scene<dim> &scene, MPI_Comm communicator)
+{
+  scene.check();
+  check_primal_path(scene);
+  stages = std::make_unique<Stages>(scene, communicator);
+}
+
+template <int dim>
+PrimalSolver<dim>::~PrimalSolver() = default;
+
+template <int dim>
+void PrimalSolver<dim>::run(const std::function<void(const PrimalReport<dim> &)> &finished_step,
+                            const std::function<void(const Progress &)> &about_to)
+{
+  const OneThread one_thread;
+  stages->about_to = about_to;
+  {
+    StageTimer timer(stages->times.setup);
+    stages->begin("numbering the unknowns");
+    stages->space =
+        std::make_unique<const MomentSpace<dim>>(stages->scene, stages->mesh, stages->tables);
+  }
+  for (bool finished = false; !finished;)
+  {
+    const NewtonReport newton = stages->solve();
+    ErrorEstimate estimate;
+    {
+      stages->begin("estimating the error");
+      StageTimer timer(stages->times.estimate);
+      together(stages->space->communicator(),
+               [&]() { estimate = estimate_error(*stages->space, stages->u, stages->lambda); });
+    }
+    const std::vector<bool> marked = stages->mark(estimate);
+    PrimalReport<dim> step = stages->report(newton, estimate);
+    step.stopped_by = stages->limit();
+    finished = !step.stopped_by.empty();
+    if (finished)
+      step.warnings = warnings(step);
+    finished_step(step);
+    if (!finished)
+      stages->refine(marked);
+  }
+}
+
+template class PrimalSolver<2>;
+template class PrimalSolver<3>;
+} // namespace hpvi

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/primal/primal_system.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Adds the integrals of @p load against the shape functions of @p table, in cells of @p size. */
+template <int dim>
+void integrate(const std::array<Expression<dim>, dim> &load, const BoxTable<dim> &table,
+               const Point<dim> &corner, const Tensor<1, dim> &size, const double measure,
+               CellField<dim> &result)
+{
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    Point<dim> x = corner;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] += table.points[q][d] * size[d];
+    for (unsigned int c = 0; c < dim; ++c)
+      if (load[c])
+      {
+        const double weighted = table.weights[q] * measure * load[c]->value(x);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          result[i][c] += weighted * table.values(q, i);
+      }
+  }
+}
+
+template <int dim>
+double product(const CellField<dim> &a, const CellField<dim> &b)
+{
+  double sum = 0;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+} // namespace
+
+template <int dim>
+PrimalSystem<dim>::PrimalSystem(const MomentSpace<dim> &space)
+    : f(space.ghosted_vector()), space(space)
+{
+  {
+    DynamicSparsityPattern pattern(space.relevant);
+    DoFTools::make_sparsity_pattern(space.dof_handler, pattern, space.constraints, false);
+    SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(),
+                                               space.relevant);
+    A.reinit(space.owned, space.owned, pattern, space.communicator());
+  }
+  together(space.communicator(), [this]() { assemble(); });
+  A.compress(VectorOperation::add);
+  f.compress(VectorOperation::add);
+  DistributedVector owned_part = space.owned_vector();
+  owned_part.copy_locally_owned_data_from(f);
+  f.swap(owned_part);
+}
+
+template <int dim>
+void PrimalSystem<dim>::assemble()
+{
+  const FESystem<dim> &fe = space.tables.fe;
+  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  Vector<double> nodal(fe.dofs_per_cell), F(fe.dofs_per_cell);
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const CellField<dim> loads = load(cell);
+      for (unsigned int i = 0; i < loads.size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          nodal[fe.component_to_system_index(c, i)] = loads[i][c];
+      const std::vector<bool> friction_faces = space.friction_faces(cell);
+      if (std::find(friction_faces.begin(), friction_faces.end(), true) == friction_faces.end())
+        F = nodal;
+      else
+        space.tables.basis_of_moments(friction_faces).Tvmult(F, nodal);
+      cell->get_dof_indices(dofs);
+      space.constraints.distribute_local_to_global(stiffness(cell, friction_faces), F, dofs, A, f);
+    }
+}
+
+template <int dim>
+const FullMatrix<double> &
+PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &friction_faces) const
+{
+  const auto [entry, is_new] =
+      matrices.try_emplace({cell->level(), cell->material_id(), friction_faces});
+  if (!is_new)
+    return entry->second;
+  const Matrix K = space.tables.stiffness(HookesLaw<dim>(space.scene.material_of(cell)),
+                                          MomentSpace<dim>::extent(cell));
+  if (std::find(friction_faces.begin(), friction_faces.end(), true) == friction_faces.end())
+    return entry->second = K;
+  const Matrix T = space.tables.basis_of_moments(friction_faces);
+  Matrix KT(K.m(), K.m());
+  K.mmult(KT, T);
+  entry->second.reinit(K.m(), K.m());
+  T.Tmmult(entry->second, KT);
+  return entry->second;
+}
+
+template <int dim>
+CellField<dim> PrimalSystem<dim>::body_load(const Cell &cell) const
+{
+  CellField<dim> result(space.tables.n_shapes);
+  if (space.scene.has_body_force())
+    integrate<dim>(space.scene.body_force, space.tables.cell, cell->vertex(0),
+                   MomentSpace<dim>::extent(cell), cell->measure(), result);
+  return result;
+}
+
+template <int dim>
+CellField<dim> PrimalSystem<dim>::side_load(const Cell &cell, const unsigned int face) const
+{
+  CellField<dim> result(space.tables.n_shapes);
+  if (cell->at_boundary(face) && space.condition(cell, face).has_traction())
+    integrate<dim>(space.condition(cell, face).traction, space.tables.faces[face], cell->vertex(0),
+                   MomentSpace<dim>::extent(cell), cell->face(face)->measure(), result);
+  return result;
+}
+
+template <int dim>
+CellField<dim> PrimalSystem<dim>::load(const Cell &cell) const
+{
+  CellField<dim> result = body_load(cell);
+  for (const unsigned int face : cell->face_indices())
+    if (cell->at_boundary(face))
+    {
+      const CellField<dim> side = side_load(cell, face);
+      for (unsigned int i = 0; i < side.size(); ++i)
+        result[i] += side[i];
+    }
+  return result;
+}
+
+template <int dim>
+double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
+{
+  double sum = 0;
+  const FESystem<dim> &fe = space.tables.fe;
+  const std::vector<bool> none(GeometryInfo<dim>::faces_per_cell, false);
+  Vector<double> local(fe.dofs_per_cell);
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_values(u, local);
+      sum += stiffness(cell, none).matrix_norm_square(local);
+    }
+  return Utilities::MPI::sum(sum, space.communicator());
+}
+
+template <int dim>
+double PrimalSystem<dim>::work(const DistributedVector &u) const
+{
+  double sum = 0;
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && (space.scene.has_body_force() || cell->at_boundary()))
+      sum += product(load(cell), space.field(cell, u));
+  return Utilities::MPI::sum(sum, space.communicator());
+}
+
+/** Shape functions sum to one. */
+template <int dim>
+std::vector<Tensor<1, dim>> PrimalSystem<dim>::load_resultants() const
+{
+  std::vector<Tensor<1, dim>> result(space.scene.boundaries.size() + 1);
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      for (const Tensor<1, dim> &force : body_load(cell))
+        result.back() += force;
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face))
+          for (const Tensor<1, dim> &force : side_load(cell, face))
+            result[cell->face(face)->boundary_id()] += force;
+    }
+  for (Tensor<1, dim> &force : result)
+    force = Utilities::MPI::sum(force, space.communicator());
+  return result;
+}
+
+template class PrimalSystem<2>;
+template class PrimalSystem<3>;
+} // namespace hpvi

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
+#include <hpvi/output/primal_output.h>
+#include <hpvi/program/interruption.h>
+#include <hpvi/program/primal_run.h>
+#include <hpvi/program/terminal.h>
+
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The first of the variables that Open MPI and MPICH set for each process, as a number. */
+unsigned int number_from(const std::initializer_list<const char *> variables,
+                         const unsigned int otherwise)
+{
+  for (const char *const variable : variables)
+    if (const char *const value = std::getenv(variable))
+      return std::atoi(value);
+  return otherwise;
+}
+
+void print_table_head()
+{
+  std::cout
+      << "step  elements  dofs_free multipliers  p    estimate  relative       slack  newton  "
+         "cg_steps   seconds"
+      << std::endl;
+}
+
+template <int dim>
+void print_row(const PrimalReport<dim> &step)
+{
+  std::cout << std::setw(4) << step.number << std::setw(10) << step.n_cells << std::setw(11)
+            << step.space.n_free << std::setw(12) << (dim - 1) * step.space.n_discs << std::setw(3)
+            << step.space.tables.degree << std::scientific << std::setprecision(3) << std::setw(12)
+            << step.total_estimate << std::setprecision(1) << std::setw(10)
+            << step.relative_estimate << std::setprecision(3) << std::setw(12)
+            << step.energies.slack << std::setw(8) << step.newton.steps << std::setw(10)
+            << step.newton.cg_steps << std::fixed << std::setprecision(2) << std::setw(10)
+            << step.seconds << std::endl;
+}
+
+/** A signal reaches processes at different times: they stop where the first one has noticed. */
+void stop_all_if_interrupted()
+{
+  int signal = 0;
+  try
+  {
+    stop_if_interrupted();
+  }
+  catch (const Interruption &interruption)
+  {
+    signal = interruption.signal;
+  }
+  if (signal = Utilities::MPI::max(signal, MPI_COMM_WORLD); signal != 0)
+    throw Interruption(signal);
+}
+
+/** What is said when the last step is over. */
+struct Ending
+{
+  StageTimes times;
+  std::string stopped_by;
+  std::vector<std::string> warnings;
+};
+
+template <int dim>
+void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, Ending &ending)
+{
+  ProgressLine progress;
+  solver.run(
+      [&](const PrimalReport<dim> &step)
+      {
+        progress.erase();
+        print_row(step);
+        ending.times += step.times;
+        ending.stopped_by = step.stopped_by;
+        ending.warnings = step.warnings;
+        output.write_step(step);
+      },
+      [&](const Progress &stage)
+      {
+        stop_all_if_interrupted();
+        progress.show(stage);
+      });
+}
+} // namespace
+
+unsigned int n_started_processes()
+{
+  return std::max(1U, number_from({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1));
+}
+
+bool is_first_process()
+{
+  return number_from({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0) == 0;
+}
+
+template <int dim>
+bool takes_primal_path(const Scene<dim> &scene)
+{
+  if (scene.solver.path == SolutionPath::reduced && n_started_processes() > 1)
+    throw InputError(
+        printable(scene.origin(), 400) + ": Solver/Path = reduced: works on one process, and " +
+        std::to_string(n_started_processes()) + " were started; start one or set Path = primal");
+  return dim == 3 || scene.solver.path == SolutionPath::primal || n_started_processes() > 1;
+}
+
+template <int dim>
+void run_primal(const Scene<dim> &scene, const std::string &directory)
+{
+  PrimalSolver<dim> solver(scene, MPI_COMM_WORLD); // first: it may still reject the mesh
+  note_interruptions();
+  PrimalOutput<dim> output(scene, directory, MPI_COMM_WORLD);
+  Ending ending;
+  const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
+            << legible(scene.title) << '\n'
+            << std::endl;
+  print_table_head();
+  try
+  {
+    run_steps(solver, output, ending);
+  }
+  catch (const Interruption &interruption)
+  {
+    output.give_up("interrupted", interruption.what());
+    throw Interruption(interruption.signal,
+                       "; " + output.safe_steps() + " in " + printable(directory));
+  }
+  catch (const std::exception &error)
+  {
+    output.give_up("failed", one_line(error)); // the finished steps stay
+    throw;
+  }
+  output.finish();
+  print_stages(ending.times);
+  for (const std::string &warning : ending.warnings)
+    std::cout << "\nwarning: " << warning;
+  std::cout << (ending.warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/"
+            << ending.stopped_by << "\nresults in " << directory << std::endl;
+  check_standard_output("; the results in " + printable(directory) + " are complete");
+}
+
+template bool takes_primal_path(const Scene<2> &);
+template bool takes_primal_path(const Scene<3> &);
+template void run_primal(const Scene<2> &, const std::string &);
+template void run_primal(const Scene<3> &, const std::string &);
+} // namespace hpvi

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/version.h>
+#include <hpvi/output/output.h>
+#include <hpvi/program/primal_run.h>
+#include <hpvi/program/terminal.h>
+
+#include <deal.II/base/config.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+
+namespace hpvi
+{
+std::string version_line()
+{
+  return "hpvi " + version() + " (" + build_type() + " build), deal.II " DEAL_II_PACKAGE_VERSION;
+}
+
+void check_standard_output(const std::string &complete)
+{
+  if (!std::cout.flush())
+    throw OutputFailure("hpvi: standard output cannot be written" + complete);
+}
+
+namespace
+{
+void print_stage(const std::string &name, const double seconds, const double total)
+{
+  std::cout << std::left << std::setw(10) << name << std::right << std::setprecision(3)
+            << std::setw(10) << seconds << std::setprecision(1) << std::setw(9)
+            << (total > 0 ? 100 * seconds / total : 0.) << '\n';
+}
+
+} // namespace
+
+void print_stages(const StageTimes &times)
+{
+  std::cout << "\nstage        seconds  percent\n" << std::fixed;
+  for (const auto &[name, seconds] : times.named())
+    print_stage(name, seconds, times.total());
+  print_stage("total", times.total(), times.total());
+}
+
+/** mpirun gives its first process a terminal whether it has one or not: there ./run says so. */
+ProgressLine::ProgressLine()
+    : is_terminal(isatty(STDOUT_FILENO) &&
+                  (n_started_processes() == 1 || std::getenv("HPVI_TERMINAL") != nullptr))
+{
+}
+
+ProgressLine::~ProgressLine()
+{
+  erase();
+}
+
+void ProgressLine::show(const Progress &progress)
+{
+  erase();
+  if (!progress.note.empty() && !noted)
+    std::cout << "note: " << progress.note << std::endl;
+  noted = noted || !progress.note.empty();
+  if (is_terminal)
+    std::cout << "step " << progress.step << ": " << progress.stage << " ..." << std::flush;
+  shown = is_terminal;
+}
+
+void ProgressLine::erase()
+{
+  const char *const return_and_clear = "\r\033[K";
+  if (shown)
+    std::cout << return_and_clear << std::flush;
+  shown = false;
+}
+} // namespace hpvi

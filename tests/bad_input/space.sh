@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# space.sh HPVI MPIRUN: what space and several processes do not offer ends with one line that says so.
+set -u
+hpvi=$1 mpirun=$2
+scratch=$(mktemp -d)
+trap 'rm -r "$scratch"' EXIT
+failures=0
+
+# check STATUS WORDS... -- COMMAND...: the command ends with the status and one line that has all words.
+check() {
+  local status=$1 words=() word
+  shift
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  "$@" >"$scratch/out" 2>"$scratch/err"
+  local got=$?
+  grep -v '^-*$\|mpirun\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/err" >"$scratch/lines"
+  [ "$got" -eq "$status" ] || { echo "status $got, not $status: $*"; failures=1; }
+  [ "$(wc -l <"$scratch/lines")" -eq 1 ] || { echo "not one line: $*"; cat "$scratch/err"; failures=1; }
+  for word in "${words[@]}"; do
+    grep -qF -- "$word" "$scratch/lines" || { echo "no \"$word\": $*"; cat "$scratch/lines"; failures=1; }
+  done
+}
+
+invalid() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  local arguments=()
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  check 1 "prm/slab.prm" "${words[@]}" -- "$hpvi" --validate prm/slab.prm "${arguments[@]}"
+}
+
+"$hpvi" --validate prm/slab.prm >/dev/null || failures=1
+
+# --- points and vectors have three components, and a plane scene has no z
+invalid "Upper corner = 4, 4" "three finite numbers" -- "Geometry/Upper corner=4, 4"
+invalid "Subdivisions = 4, 4" "three positive integers" -- "Geometry/Subdivisions=4, 4"
+invalid "2 component(s) instead of 3" -- "Boundary left/Traction=1; 0"
+invalid "expression of x, y and z" -- "Boundary left/Traction=1; 0; w"
+check 1 "expression of x and y" -- "$hpvi" --validate prm/han-6-12.prm --set "Boundary left/Traction=1; z"
+check 1 "Subdivisions = 4, 4, 2" "two positive integers" -- "$hpvi" --validate prm/slab.prm --set Dimension=2
+
+# --- what is of the plane
+invalid "Material/Plane" "unknown entry" -- "Material/Plane=stress"
+invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
+invalid "Exact solution" "unknown subsection" -- "Exact solution/Solution=smooth"
+
+# --- methods, laws and paths that space does not have
+for method in pu hpa1 hpa2 hpa3; do
+  invalid "Method = $method" "space does not offer" "hap2" -- "Adaptivity/Method=$method"
+done
+invalid "Start degree = 1" "2 to 8" -- "Adaptivity/Start degree=1"
+invalid "Coulomb" "Friction bound" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
+invalid "Contact = unilateral" "not offered by space" -- "Boundary bottom/Contact=unilateral"
+invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
+invalid "Condition number" "does not form" -- "Solver/Condition number=true"
+invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
+invalid "Steps = 3" "load history" -- "Loading/Steps=3"
+check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
+
+# --- boundaries
+invalid "rigid-body motion" -- "Boundary right/Displacement="
+invalid "contradicts" "common point" -- "Boundary top/Displacement=1; free; free"
+invalid "Traction" "that Displacement prescribes" -- "Boundary right/Traction=1; 0; 0"
+invalid "needs contact" -- "Boundary top/Friction bound=1"
+invalid "stands beside Contact" -- "Boundary bottom/Displacement=0; free; free"
+invalid "Friction bound" "g >= 0" -- "Boundary bottom/Friction bound=1 - x"
+invalid "million cells" -- "Geometry/Subdivisions=1000, 1000, 1000"
+invalid "more than Adaptivity/Maximum unknowns" -- "Geometry/Subdivisions=90, 90, 90" "Adaptivity/Maximum unknowns=1000"
+
+# --- the primal path in the plane
+plane() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  check 1 "${words[@]}" -- "$hpvi" --output "$scratch/o" prm/"$1".prm --set Solver/Path=primal
+}
+plane "Method = hpa2" "the primal path does not offer" -- han-6-12
+plane "primal" "does not offer" -- ssnv128
+
+# --- several processes
+parallel() {
+  "$mpirun" --oversubscribe --bind-to none "$@"
+}
+check 1 "fewer cells" "start fewer of them" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/slab.prm --set "Geometry/Subdivisions=1, 1, 1"
+check 1 "Path = reduced" "start one" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm --set Solver/Path=reduced
+check 1 "Method = hpa2" "does not offer" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm
+check 1 "Yung" "unknown entry" -- parallel -np 2 "$hpvi" prm/slab.prm --set "Material/Yung=1"
+
+exit $failures

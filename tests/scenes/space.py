@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""space.py HPVI MPIRUN: a run in space leaves the same tables from one process and from two, its files
+are complete and listed, and what it prints is printed once."""
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HPVI, MPIRUN = sys.argv[1:3]
+SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver/Primal tolerance=1e-11"]
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def run(directory, processes):
+    start = [] if processes == 1 else [MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", str(processes)]
+    return subprocess.run([*start, HPVI, "--output", str(directory), *SCENE], check=True,
+                          capture_output=True, text=True).stdout
+
+
+def near(a, b, what):
+    try:
+        x, y = float(a), float(b)
+    except ValueError:
+        assert a == b, (what, a, b)
+    else:
+        assert abs(x - y) <= 1e-7 * max(1, abs(x), abs(y)), (what, a, b)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = pathlib.Path(scratch)
+    one, two = scratch / "one", scratch / "two"
+    printed = {1: run(one, 1), 2: run(two, 2)}
+    for text in printed.values():
+        assert len(re.findall(r"^ +\d+ +\d+ ", text, re.M)) == 2, text
+        assert text.count("results in") == 1, text
+        assert "stopped by Adaptivity/Maximum steps" in text, text
+
+    tables = {name: rows(one / name) for name in ("convergence.csv", "contact-01.csv", "contact-02.csv")}
+    for name, table in tables.items():
+        other = rows(two / name)
+        assert len(table) == len(other), name
+        for row, twin in zip(table, other):
+            for column in row:
+                if "seconds" not in column and not column.startswith(("newton", "processes")):
+                    near(row[column], twin[column], (name, column))
+    assert rows(two / "convergence.csv")[0]["processes"] == "2"
+
+    # Contact: |T_t| <= g, slip against friction, one file sorted by place, forces that add up.
+    points = tables["contact-02.csv"]
+    places = [tuple(float(p[c]) for c in "xyz") for p in points]
+    assert places == sorted(places)
+    for p in points:
+        multiplier, slip = ([float(p[name + c]) for c in ("_x", "_y", "_z")]
+                            for name in ("multiplier", "tangential_displacement"))
+        size = sum(m * m for m in multiplier) ** 0.5
+        assert size <= 1 + 1e-12 and multiplier[1] == slip[1] == 0
+        assert p["state"] == ("slip" if size >= 1 - 1e-8 else "stick")
+        assert abs(float(p["tangential_traction_x"]) + 4.5 * multiplier[0]) < 1e-12
+    assert {p["state"] for p in points} == {"slip", "stick"}
+
+    for directory, n in ((one, 1), (two, 2)):
+        summary = json.loads((directory / "summary.json").read_text())
+        assert summary["status"] == "done" and summary["processes"] == n
+        assert sorted(summary["files"]) == sorted(p.name for p in directory.iterdir()), summary["files"]
+        index = (directory / "solution-02.pvtu").read_text()
+        for rank in range(n):
+            assert f"solution-02.{rank}.vtu" in index
+            assert (directory / f"solution-02.{rank}.vtu").stat().st_size > 1000
+        assert "solution-02.pvtu" in (directory / "solution.pvd").read_text()
+
+    # The scene that a run leaves repeats it.
+    again = subprocess.run([HPVI, "--validate", str(one / "scene.prm")], capture_output=True, text=True)
+    assert again.returncode == 0, again.stderr

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Fields in closed form: the primal path reproduces polynomials and converges at its rate to others.
+#include "runs.h"
+
+namespace
+{
+using namespace space;
+
+/** A box of cells that are no cubes, with hanging nodes on all sides. */
+Scene<3> graded_box(const unsigned int degree)
+{
+  Scene<3> scene;
+  scene.materials[0].young = 7;
+  scene.materials[0].poisson = 0.3;
+  scene.geometry.corners = box_corners(Point<3>(-1, 0, 2), Point<3>(2, 1, 4));
+  scene.geometry.subdivisions = {{2, 2, 1}};
+  scene.geometry.graded_towards = {Point<3>(-1, 0, 2), Point<3>(2, 0, 4)};
+  scene.geometry.grading_levels = 2;
+  scene.adaptivity.start_degree = degree;
+  scene.adaptivity.maximum_steps = 1;
+  scene.solver.primal_tolerance = 1e-13;
+  return scene;
+}
+
+const Tensor<1, 3> direction({3. / 13, 0., 4. * 3 / 13}); // of no length in particular
+
+/** `u = B x + b` */
+Field<3> linear(const Tensor<2, 3> &B, const Tensor<1, 3> &b)
+{
+  return {[=](const Point<3> &x) { return B * x + b; }, [=](const Point<3> &) { return B; }};
+}
+
+TEST(Exact, ConstantStress)
+{
+  const double entries[3][3] = {{0.1, 0.02, -0.3}, {0.05, -0.2, 0.07}, {0.11, 0.13, 0.17}};
+  const Field<3> exact = linear(Tensor<2, 3>(entries), Tensor<1, 3>({0.4, -0.5, 0.6}));
+  for (const unsigned int degree : {2U, 3U})
+  {
+    Scene<3> scene = graded_box(degree);
+    for (const char *const name : {"left", "bottom", "front"})
+      prescribe(scene.boundary(name), exact);
+    for (auto &boundary : scene.boundaries)
+      if (!boundary.has_displacement())
+      {
+        Tensor<1, 3> normal;
+        normal[boundary.id / 2] = 1;
+        const Tensor<1, 3> traction =
+            HookesLaw<3>(scene.materials[0]).traction(Tensor<2, 3>(entries), normal);
+        for (unsigned int c = 0; c < 3; ++c)
+          boundary.traction[c] = expression<3>(traction[c]);
+      }
+    steps_of<3>(scene,
+                [&](const PrimalReport<3> &step)
+                {
+                  EXPECT_LT(energy_error(step, exact), 1e-10 * step.energies.norm);
+                  EXPECT_LT(step.total_estimate, 1e-9 * step.energies.norm);
+                });
+  }
+}
+
+/** Uniform slip askew to the axes on the bottom under uniform shear: u = (s + gamma y) n, lambda = n. */
+TEST(Exact, UniformObliqueSlip)
+{
+  const double slip = 0.3, gamma = 0.2;
+  const Tensor<1, 3> n = direction / direction.norm();
+  Tensor<2, 3> B;
+  for (unsigned int i = 0; i < 3; ++i)
+    B[i][1] = gamma * n[i];
+  const Field<3> exact = linear(B, slip * n);
+  for (const unsigned int degree : {2U, 3U, 4U})
+  {
+    Scene<3> scene = graded_box(degree);
+    for (const char *const name : {"left", "right", "front", "back"})
+      prescribe(scene.boundary(name), exact);
+    const double shear = gamma * scene.materials[0].mu();
+    scene.boundary("bottom").contact = Contact::bilateral;
+    scene.boundary("bottom").friction.bound = expression<3>(shear);
+    for (unsigned int c = 0; c < 3; ++c)
+      scene.boundary("top").traction[c] = expression<3>(shear * n[c]);
+    const auto steps =
+        steps_of<3>(scene,
+                    [&](const PrimalReport<3> &step)
+                    {
+                      EXPECT_LT(energy_error(step, exact), 1e-10 * step.energies.norm);
+                      EXPECT_LT(step.energies.slack, 1e-10 * step.energies.norm);
+                      for (const MomentPoint<3> &point : step.contact)
+                      {
+                        EXPECT_TRUE(point.slips);
+                        EXPECT_LT((point.lambda - n).norm(), 1e-10);
+                        EXPECT_LT((point.displacement - slip * n).norm(), 1e-10);
+                        EXPECT_NEAR(point.normal_traction, 0, 1e-9);
+                      }
+                    });
+    EXPECT_EQ(steps[0].n_slipping, steps[0].n_contact_points);
+  }
+}
+
+/**
+ * A smooth field that slips everywhere, u = phi n with phi = exp((x + 2 z)/4) (1 + a y + y^2) + b y, so that
+ * T_t = -mu d_y phi n on y = 0. Friction's bound is constant for a = 0.
+ */
+struct SmoothSlip
+{
+  const double a, b;
+  const Tensor<1, 3> n = direction / direction.norm();
+
+  static double along(const Point<3> &x)
+  {
+    return std::exp((x[0] + 2 * x[2]) / 4);
+  }
+
+  double psi(const Point<3> &x) const
+  {
+    return along(x) * (1 + a * x[1] + x[1] * x[1]);
+  }
+
+  double psi_y(const Point<3> &x) const
+  {
+    return along(x) * (a + 2 * x[1]);
+  }
+
+  double bound(const Material &material, const Point<3> &x) const
+  {
+    return material.mu() * (a * along(x) + b);
+  }
+
+  Field<3> field() const
+  {
+    const SmoothSlip self = *this;
+    return {
+        [self](const Point<3> &x) { return (self.psi(x) + self.b * x[1]) * self.n; },
+        [self](const Point<3> &x)
+        {
+          const double psi = self.psi(x);
+          return outer_product(self.n, Tensor<1, 3>({psi / 4, self.psi_y(x) + self.b, psi / 2}));
+        }};
+  }
+
+  /** `-(lambda + mu) grad div u - mu Delta u`; div u = (n_x/4 + n_z/2) psi. */
+  Tensor<1, 3> body_force(const Material &material, const Point<3> &x) const
+  {
+    const double divergence = n[0] / 4 + n[2] / 2, mu = material.mu(), psi = this->psi(x);
+    return -((material.lambda(3) + mu) * divergence * Tensor<1, 3>({psi / 4, psi_y(x), psi / 2}) +
+             mu * ((1. / 16 + 1. / 4) * psi + 2 * along(x)) * n);
+  }
+};
+
+/** The unit cube with @p exact: prescribed all around but on the bottom, where it slips. */
+Scene<3> slipping_cube(const SmoothSlip &exact, const unsigned int degree)
+{
+  const auto of = [](const auto &function)
+  { return expression<3>(std::function<double(const Point<3> &)>(function)); };
+  Scene<3> scene;
+  scene.adaptivity.start_degree = degree;
+  scene.adaptivity.method =
+      std::array<Method, 3>{{Method::hup2, Method::hup3, Method::hup4}}[degree - 2];
+  scene.adaptivity.maximum_steps = degree == 2 ? 4 : 3;
+  scene.solver.primal_tolerance = 1e-12;
+  const Material material = scene.materials[0];
+  for (const char *const name : {"left", "right", "front", "back", "top"})
+    prescribe(scene.boundary(name), exact.field());
+  scene.boundary("bottom").contact = Contact::bilateral;
+  scene.boundary("bottom").friction.bound =
+      of([=](const Point<3> &x) { return exact.bound(material, x); });
+  for (unsigned int c = 0; c < 3; ++c)
+    scene.body_force[c] = of([=](const Point<3> &x) { return exact.body_force(material, x)[c]; });
+  return scene;
+}
+
+/** The rate of the energy norm in h between the last two meshes. */
+double rate(const Scene<3> &scene, const SmoothSlip &exact)
+{
+  std::vector<double> errors;
+  steps_of<3>(scene,
+              [&](const PrimalReport<3> &step)
+              {
+                errors.push_back(energy_error(step, exact.field()));
+                EXPECT_GT(step.scaled_estimate, 0.5 * errors.back());
+                EXPECT_LT(step.scaled_estimate, 20 * errors.back());
+              });
+  return std::log2(errors[errors.size() - 2] / errors.back());
+}
+
+TEST(Exact, RatesOfASmoothFieldThatSlips)
+{
+  const SmoothSlip exact{0, 0.7};
+  for (const unsigned int degree : {2U, 3U, 4U})
+    EXPECT_NEAR(rate(slipping_cube(exact, degree), exact), degree, 0.15);
+}
+
+/** A bound that varies has a polynomial of degree p-2 in its place, which costs half an order. */
+TEST(Exact, RatesWhereTheBoundVaries)
+{
+  const SmoothSlip exact{0.5, 0};
+  for (const unsigned int degree : {3U, 4U})
+    EXPECT_NEAR(rate(slipping_cube(exact, degree), exact), degree - 0.5, 0.15);
+}
+} // namespace

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the plane knows: there both paths solve the same discrete problem, and so does a slab in space.
+#include "runs.h"
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+
+namespace
+{
+using namespace space;
+
+std::vector<Step> reduced_steps(const Scene<2> &scene)
+{
+  std::vector<Step> steps;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        steps.push_back({step.solution.displacement_space.degrees().size(),
+                         step.solution.displacement_space.n_free_dofs(), 0, 0,
+                         step.energies.lagrangian, step.energies.energy, step.estimate.total(),
+                         step.energies.norm});
+      });
+  return steps;
+}
+
+Scene<2> example(const std::string &name, const Overrides &overrides)
+{
+  Scene<2> scene = read_scene<2>("prm/" + name + ".prm", overrides);
+  scene.solver.primal_tolerance = 1e-11;
+  return scene;
+}
+
+void expect_equal(const std::vector<Step> &primal, const std::vector<Step> &reduced)
+{
+  ASSERT_EQ(primal.size(), reduced.size());
+  for (unsigned int k = 0; k < primal.size(); ++k)
+  {
+    EXPECT_EQ(primal[k].n_cells, reduced[k].n_cells);
+    EXPECT_EQ(primal[k].n_free, reduced[k].n_free);
+    EXPECT_NEAR(primal[k].lagrangian, reduced[k].lagrangian,
+                1e-9 * std::abs(reduced[k].lagrangian));
+    EXPECT_NEAR(primal[k].estimate, reduced[k].estimate, 1e-7 * reduced[k].estimate);
+    EXPECT_NEAR(primal[k].norm, reduced[k].norm, 1e-9 * reduced[k].norm);
+  }
+}
+
+TEST(Plane, BothPathsAgree)
+{
+  for (const char *const method : {"hap2", "hap3", "hup4"})
+  {
+    const Scene<2> scene =
+        example("han-6-12", {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "4"}});
+    expect_equal(steps_of<2>(scene), reduced_steps(scene));
+  }
+}
+
+TEST(Plane, BothPathsAgreeWhereTheBoundVaries)
+{
+  const Scene<2> scene =
+      example("han-6-12", {{"Adaptivity/Method", "hap3"},
+                           {"Boundary bottom/Friction bound", "1 + x^2"},
+                           {"Boundary top/Displacement", "free; -0.01*x*(4 - x)"},
+                           {"Adaptivity/Maximum steps", "3"}});
+  expect_equal(steps_of<2>(scene), reduced_steps(scene));
+}
+
+/** Plane strain: u_z = 0 on both sides of a slab of one layer, whose solution does not depend on z. */
+TEST(Plane, SlabIsPlaneStrain)
+{
+  for (const char *const method : {"hup2", "hup3"})
+  {
+    const Scene<2> plane = example("han-6-12", {{"Adaptivity/Method", method},
+                                                {"Material/Plane", "strain"},
+                                                {"Adaptivity/Maximum steps", "2"}});
+    const Scene<3> scene = slab({{"Adaptivity/Method", method},
+                                 {"Geometry/Subdivisions", "4, 4, 1"},
+                                 {"Geometry/Upper corner", "4, 4, 0.75"},
+                                 {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
+                                 {"Boundary front/Displacement", "free; free; 0"},
+                                 {"Boundary back/Displacement", "free; free; 0"},
+                                 {"Adaptivity/Maximum steps", "2"}});
+    const auto thick = steps_of<3>(scene), flat = reduced_steps(plane);
+    for (unsigned int k = 0; k < flat.size(); ++k)
+      EXPECT_NEAR(thick[k].lagrangian / 0.75, flat[k].lagrangian,
+                  1e-9 * std::abs(flat[k].lagrangian));
+  }
+}
+
+/** The axes have no names of their own: y and z changed about, contact lies on the front. */
+TEST(Plane, TurnedSlabsAgree)
+{
+  const Overrides steps{{"Adaptivity/Maximum steps", "3"}};
+  Overrides turned{{"Geometry/Upper corner", "4, 2, 4"},
+                   {"Geometry/Subdivisions", "4, 2, 4"},
+                   {"Boundary left/Traction", "1.5*(5 - z); 0.5; -0.75"},
+                   {"Boundary bottom/Contact", "none"},
+                   {"Boundary bottom/Friction bound", ""},
+                   {"Boundary front/Contact", "bilateral"},
+                   {"Boundary front/Friction bound", "4.5"}};
+  turned.insert(turned.end(), steps.begin(), steps.end());
+  const auto upright = steps_of<3>(slab(steps)), lying = steps_of<3>(slab(turned));
+  for (unsigned int k = 0; k < upright.size(); ++k)
+  {
+    EXPECT_EQ(upright[k].n_free, lying[k].n_free);
+    EXPECT_EQ(upright[k].n_slipping, lying[k].n_slipping);
+    EXPECT_NEAR(upright[k].lagrangian, lying[k].lagrangian, 1e-10 * std::abs(lying[k].lagrangian));
+  }
+}
+} // namespace

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The same run on one process and on all that mpirun has started: in ctest on 1, 2 and 4.
+#include "runs.h"
+
+#include <hpvi/base/input_error.h>
+
+namespace
+{
+using namespace space;
+
+template <int dim>
+void expect_same_run(
+    const Scene<dim> &scene, const Look<dim> &look = [](const PrimalReport<dim> &) {})
+{
+  const auto alone = steps_of<dim>(scene);
+  const auto together = steps_of<dim>(scene, look, MPI_COMM_WORLD);
+  ASSERT_EQ(alone.size(), together.size());
+  for (unsigned int k = 0; k < alone.size(); ++k)
+  {
+    EXPECT_EQ(alone[k].n_cells, together[k].n_cells);
+    EXPECT_EQ(alone[k].n_free, together[k].n_free);
+    EXPECT_EQ(alone[k].n_slipping, together[k].n_slipping);
+    EXPECT_NEAR(alone[k].lagrangian, together[k].lagrangian, 1e-10 * std::abs(alone[k].lagrangian));
+    EXPECT_NEAR(alone[k].estimate, together[k].estimate, 1e-8 * alone[k].estimate);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    {
+      EXPECT_EQ(alone[k].n_contact_points, together[k].n_contact_points);
+    }
+  }
+}
+
+TEST(Ranks, Slab)
+{
+  expect_same_run(slab({{"Adaptivity/Maximum steps", "3"}}));
+}
+
+TEST(Ranks, SlabOfDegreeThree)
+{
+  expect_same_run(slab({{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "2"}}));
+}
+
+TEST(Ranks, Plane)
+{
+  Scene<2> scene = read_scene<2>(
+      "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "4"}});
+  scene.solver.primal_tolerance = 1e-11;
+  expect_same_run(scene);
+}
+
+TEST(Ranks, MultigridOrFactorisation)
+{
+  Scene<3> scene = slab({{"Adaptivity/Maximum steps", "2"}});
+  const auto multigrid = steps_of<3>(
+      scene, [](const PrimalReport<3> &) {}, MPI_COMM_WORLD);
+  scene.solver.linear = LinearMethod::direct;
+  const auto factors = steps_of<3>(
+      scene,
+      [](const PrimalReport<3> &step)
+      {
+        EXPECT_LE(step.newton.cg_steps, 2 * step.newton.steps);
+        EXPECT_FALSE(step.newton.fell_back);
+      },
+      MPI_COMM_WORLD);
+  for (unsigned int k = 0; k < factors.size(); ++k)
+    EXPECT_NEAR(multigrid[k].lagrangian, factors[k].lagrangian,
+                1e-10 * std::abs(factors[k].lagrangian));
+}
+
+/** A tower whose foot belongs to one process: the others have no contact at all. */
+TEST(Ranks, MostWithoutContact)
+{
+  const Scene<3> scene = slab({{"Geometry/Upper corner", "1, 8, 1"},
+                               {"Geometry/Subdivisions", "1, 8, 1"},
+                               {"Boundary left/Traction", "0.2; 0; 0.1"},
+                               {"Boundary bottom/Friction bound", "0.5"},
+                               {"Boundary right/Displacement", ""},
+                               {"Boundary top/Displacement", "0; 0; 0"},
+                               {"Adaptivity/Maximum steps", "2"}});
+  unsigned int without = 0;
+  expect_same_run<3>(
+      scene, [&](const PrimalReport<3> &step)
+      { without = Utilities::MPI::sum(step.space.discs.empty() ? 1U : 0U, MPI_COMM_WORLD); });
+  EXPECT_GE(without + 1, Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+}
+
+/** What one process alone finds out all of them say, with the same words. */
+TEST(Ranks, AnErrorOnOneIsOneOnAll)
+{
+  Scene<3> scene = slab({{"Adaptivity/Maximum steps", "2"}});
+  scene.boundary("left").traction[0] = expression<3>(std::function<double(const Point<3> &)>(
+      [](const Point<3> &x) -> double
+      {
+        if (x[1] > 3.3 && x[1] < 3.7 && x[2] > 1.8 && x[2] < 1.95)
+          throw InputError("found by one");
+        return 1;
+      }));
+  try
+  {
+    steps_of<3>(
+        scene, [](const PrimalReport<3> &) {}, MPI_COMM_WORLD);
+    ADD_FAILURE();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_STREQ(error.what(), "found by one");
+  }
+}
+
+TEST(Ranks, MoreThanCells)
+{
+  const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const Scene<3> scene = slab({{"Geometry/Subdivisions", "1, 1, 1"}});
+  if (n == 1)
+    GTEST_SKIP() << "one process never is more than the cells";
+  EXPECT_THROW(PrimalSolver<3>(scene, MPI_COMM_WORLD), InputError);
+}
+} // namespace
+
+int main(int argc, char *argv[])
+{
+  ::testing::InitGoogleTest(&argc, argv);
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  return RUN_ALL_TESTS();
+}
