@@ -381,7 +381,6 @@ invalid "Boundary right/Displacement" "contradicts" "(load step 3, t = 0.75)" --
 invalid "Output/Reference solution = true" "asks for a history" "remove either" -- "Loading/Steps=4" "Output/Reference solution=true"
 invalid "Error/Reference solution = base.prm" "asks for a history" -- "Loading/Steps=4" "Error/Reference solution=base.prm"
 invalid "Exact solution/Solution = stick-slip" "asks for a history" -- "${exact[@]}" "Loading/Steps=4"
-invalid "Adaptivity/Indicator = bound" "increments" "Indicator = residual" -- "Loading/Steps=4" "Adaptivity/Indicator=bound"
 refused "Loading/Steps = 4" "inf-sup" "remove it" -- --inf-sup --set "Loading/Steps=4" "$scenes/base.prm"
 
 # --- the good scene passes, and its effective parameters are the same scene again
