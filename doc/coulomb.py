@@ -69,6 +69,7 @@ def measure_solvers(lab):
                              "contraction": plain(max(contraction))
                              if solver == "fixed point" and any(contraction) else "-",
                              "dense factorisations": int(np.sum(run.column("qp_dense_solves"))),
+                             "milliseconds": round(1e3 * float(np.sum(run.column("seconds_qp"))), 1),
                              "ended": "" if run.status == "0" else run.message})
     write_csv(GALLERY / "solvers.csv", rows)
     put_table("overview", [overview(rows, problem, mu) for problem in PROBLEMS
@@ -119,7 +120,7 @@ def draw_solvers(rows):
 
 
 def draw_contraction(rows):
-    figure, panels = chart(2, "The fixed point beside Newton's method", 11)
+    figure, panels = chart(3, "The fixed point beside Newton's method", 15)
     for k, problem in enumerate(PROBLEMS):
         contraction = [np.nan if v == "-" else float(v)
                        for v in of(rows, problem, "fixed point", "contraction")]
@@ -129,15 +130,19 @@ def draw_contraction(rows):
         whole = [all(s.startswith(f"{STEPS} ") for s in pair)
                  for pair in zip(*(of(rows, problem, s, "solved") for s in factors))]
         ratio = np.where(whole, factors["fixed point"] / np.maximum(factors["Newton"], 1), np.nan)
+        times = {s: np.array(of(rows, problem, s, "milliseconds")) for s in factors}
+        slower = np.where(whole, times["fixed point"] / times["Newton"], np.nan)
         look = {"color": COLOURS[k], "marker": "osD"[k], "label": problem}
         panels[0].loglog(COEFFICIENTS, contraction, **look)
         panels[1].loglog(COEFFICIENTS, ratio, **look)
+        panels[2].loglog(COEFFICIENTS, slower, **look)
     for axes in panels:
         axes.axhline(1, color="k", linewidth=0.8)
         axes.set_xlabel("coefficient of friction $\\mu_f$ [-]")
         axes.legend()
     panels[0].set_ylabel("contraction number, the largest seen [-]")
     panels[1].set_ylabel("dense factorisations, fixed point / Newton [-]")
+    panels[2].set_ylabel("time of the solver, fixed point / Newton [-]")
     save(figure, "contraction.png", PAGE)
 
 
