@@ -48,7 +48,7 @@ invalid "Subdivisions = 4, 4" "three positive integers" -- "Geometry/Subdivision
 invalid "2 component(s) instead of 3" -- "Boundary left/Traction=1; 0"
 invalid "expression of x, y and z" -- "Boundary left/Traction=1; 0; w"
 check 1 "expression of x and y" -- "$hpvi" --validate prm/han-6-12.prm --set "Boundary left/Traction=1; z"
-check 1 "Subdivisions = 4, 4, 2" "two positive integers" -- "$hpvi" --validate prm/slab.prm --set Dimension=2
+check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/slab.prm --set Dimension=2
 
 # --- what is of the plane
 invalid "Material/Plane" "unknown entry" -- "Material/Plane=stress"

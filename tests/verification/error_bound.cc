@@ -46,7 +46,8 @@ SymmetricTensor<2, 2> derivative(const std::function<SymmetricTensor<2, 2>(doubl
 double imbalance(const Solution<2> &solution, const EquilibratedStress &stress,
                  const unsigned int cell, std::mt19937 &random)
 {
-  std::uniform_real_distribution<double> uniform(-0.8, 0.8); // off the corners, where differences would fail
+  std::uniform_real_distribution<double> uniform(
+      -0.8, 0.8); // off the corners, where differences would fail
   const Stress s = stress_of(stress, cell);
   const CellMap<2> map = map_of<2>(stress.patches().cells()[cell].iterator);
   const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5})); // d xi/d x is twice that
@@ -135,8 +136,10 @@ EquilibratedStress equilibrated(const Solution<2> &solution, EquilibrationCache 
 {
   const AdmissibleFriction<2> friction(solution);
   return EquilibratedStress(
-      solution, [&](const unsigned int face, const unsigned int end)
-      { return friction.part(face, end).coefficients(); }, cache);
+      solution,
+      [&](const unsigned int face, const unsigned int end)
+      { return friction.part(face, end).coefficients(); },
+      cache);
 }
 
 struct Body
@@ -198,8 +201,8 @@ TEST(Equilibration, EnergyIsThatOfTheStresses)
       for (unsigned int b = 0; b < gauss.size(); ++b)
       {
         const Point<2> point(gauss.point(a)[0], gauss.point(b)[0]);
-        const ShapeTable<2> table = tabulate<2>(
-            solution.displacement_space.degrees()[cell], {point}, {1.}, false);
+        const ShapeTable<2> table =
+            tabulate<2>(solution.displacement_space.degrees()[cell], {point}, {1.}, false);
         const std::vector<double> d = evaluate(table.derivatives, solution.coefficients(cell));
         Tensor<2, 2> reference;
         for (unsigned int c = 0; c < 2; ++c)
@@ -267,21 +270,20 @@ TEST_P(Effectivity, BoundIsAboveTheErrorAndNear)
 
 INSTANTIATE_TEST_SUITE_P(
     Runs, Effectivity,
-    ::testing::Values(
-        Body{"hpa3", "stick-slip", {}},
-        Body{"hpa3ByBound", "stick-slip", {{"Adaptivity/Indicator", "bound"}}},
-        Body{"hpa2", "stick-slip", {{"Adaptivity/Method", "hpa2"}}},
-        Body{"hap4",
-             "stick-slip",
-             {{"Adaptivity/Method", "hap4"},
-              {"Adaptivity/Start degree", "4"},
-              {"Adaptivity/Maximum steps", "8"}}},
-        Body{"hup2",
-             "stick-slip",
-             {{"Adaptivity/Method", "hup2"},
-              {"Adaptivity/Start degree", "2"},
-              {"Adaptivity/Maximum steps", "5"}}},
-        Body{"strain", "plane-strain", {}}, Body{"smooth", "smooth", {}}),
+    ::testing::Values(Body{"hpa3", "stick-slip", {}},
+                      Body{"hpa3ByBound", "stick-slip", {{"Adaptivity/Indicator", "bound"}}},
+                      Body{"hpa2", "stick-slip", {{"Adaptivity/Method", "hpa2"}}},
+                      Body{"hap4",
+                           "stick-slip",
+                           {{"Adaptivity/Method", "hap4"},
+                            {"Adaptivity/Start degree", "4"},
+                            {"Adaptivity/Maximum steps", "8"}}},
+                      Body{"hup2",
+                           "stick-slip",
+                           {{"Adaptivity/Method", "hup2"},
+                            {"Adaptivity/Start degree", "2"},
+                            {"Adaptivity/Maximum steps", "5"}}},
+                      Body{"strain", "plane-strain", {}}, Body{"smooth", "smooth", {}}),
     [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
 
 /** Where friction changes inside an edge, |l| <= 1 costs more until the edge is small. */

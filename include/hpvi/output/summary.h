@@ -27,10 +27,10 @@ struct Summary
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
   std::optional<ErrorBound> bound; ///< of the last step
-  std::string no_bound; ///< why there is none
+  std::string no_bound;            ///< why there is none
   double relative_bound = 0;
   double energy = 0; ///< J(u_N), likewise
-  LoadStep load; ///< the last one that is done, of a history
+  LoadStep load;     ///< the last one that is done, of a history
 
   /** Count a finished step, whose row is @p row. */
   void add(const StepReport<dim> &step, const Record &row);
