@@ -34,7 +34,7 @@ def method_settings(method, steps, indicator):
             "Adaptivity/Smoothness reading=plain", "Adaptivity/Maximum degree=12",
             f"Adaptivity/Maximum steps={steps}", "Adaptivity/Maximum unknowns=40000",
             f"Adaptivity/Indicator={indicator}", "Output/VTU=false", "Output/Mesh picture=false",
-            "Output/Contact=false"]
+            "Output/Contact tables=false"]
 
 
 def measure(lab):
