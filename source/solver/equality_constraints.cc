@@ -221,6 +221,8 @@ bool Nearest::shorten(const std::vector<double> &weights)
 Vector<double> EqualityConstraints::gap(const Vector<double> &z) const
 {
   Vector<double> result(e.size());
+  if (e.size() == 0) // supports hold the body
+    return result;
   G.Tvmult(result, z);
   result.sadd(-1., 1., e);
   return result;
