@@ -248,6 +248,8 @@ std::pair<double, double> effectivities(const Scene<2> &scene, const double floo
       [&](const StepReport<2> &step)
       {
         ASSERT_TRUE(step.bound);
+        EXPECT_GE(step.bound->total * (1 + 1e-12),
+                  std::hypot(step.bound->stress, step.bound->slip));
         if (step.errors.energy < floor * step.energies.norm)
           return;
         largest = std::max(largest, step.bound->total / step.errors.energy);
