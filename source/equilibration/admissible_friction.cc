@@ -67,7 +67,8 @@ public:
                                   solution.tables.gauss(face.n_multipliers)))
   {
     if (leans)
-      u_t = tangential_trace(face, solution.displacement_space, solution.tables, solution.u);
+      u_t = edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
+                       solution.u);
   }
 
   Side side(unsigned int end) const;

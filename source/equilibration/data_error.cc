@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/admissible_pressure.h>
 #include <hpvi/equilibration/data_error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -143,37 +145,99 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
   return *std::min_element(energies.begin(), energies.end());
 }
 
-/** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
-double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress,
-                   const unsigned int index)
+/** One component of u_D, or of u_0 n along unilateral contact, at s in [0,1] of an edge; none: neither. */
+std::function<double(double)> prescribed_value(const Solution<2> &solution, const StressEdge &edge,
+                                               const CellMap<2> &map, const unsigned int component)
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  if (const auto &u_D = condition.displacement[component])
+    return [&u_D, &map, face = edge.sides[0].face](const double s)
+    { return u_D->value(map.point(point_on_face<2>(face, Point<1>(s)))); };
+  if (!condition.is_unilateral() || !condition.gap)
+    return {};
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  return [&face, n = face.frame(0.5).normal[component]](const double s)
+  { return n * gap_on_face(face, s); };
+}
+
+/** delta = d on one edge: what the nodes of V_N miss of u_D or u_0 n. */
+struct MissedDisplacement
+{
+  std::array<Vector<double>, 2> value, slope; ///< Legendre coefficients; slope by s in [0,1]
+  double unread = 0; ///< by how much the polynomial differs from the data between its nodes
+};
+
+MissedDisplacement missed_displacement(const Solution<2> &solution,
+                                       const EquilibratedStress &stress, const unsigned int index)
 {
   const StressEdge &edge = stress.patches().edges()[index];
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
   const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
   const unsigned int p = solution.displacement_space.degrees()[cell], n = p + 13;
-  const auto &iterator = stress.patches().cells()[cell].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const QGaussLobatto<1> &points = solution.tables.gauss_lobatto(n);
-  const std::vector<Point<1>> nodes(points.get_points());
-  std::vector<Point<2>> on_face;
-  for (const Point<1> &node : nodes)
-    on_face.push_back(point_on_face<2>(face, node));
-  const ShapeTable<2> table = tabulate<2>(p, on_face, points.get_weights(), false);
-  const std::vector<double> u = evaluate(table.values, solution.coefficients(cell));
-  const FullMatrix<double> &from_nodes = stress.legendre_tables().from_nodes(n - 1);
-  std::array<Vector<double>, 2> delta{{Vector<double>(n), Vector<double>(n)}}, slope = delta;
+  const CellMap<2> map = map_of<2>(stress.patches().cells()[cell].iterator);
+  const QGaussLobatto<1> &nodes = solution.tables.gauss_lobatto(n),
+                         &own = solution.tables.gauss_lobatto(p + 1);
+  const auto dofs = solution.displacement_space.cell_dofs(cell);
+  const std::vector<unsigned int> &on_edge = solution.tables.numbering(p).edge[face];
+  const LegendreTables &tables = stress.legendre_tables();
+  MissedDisplacement result;
   for (unsigned int c = 0; c < 2; ++c)
   {
-    if (!condition.displacement[c])
+    result.value[c].reinit(n);
+    result.slope[c].reinit(n);
+    const auto data = prescribed_value(solution, edge, map, c);
+    if (!data)
       continue;
-    Vector<double> values(n);
-    for (unsigned int k = 1; k + 1 < n; ++k) // nodes of u_N at the ends
-      values[k] = condition.displacement[c]->value(map.point(on_face[k])) - u[c * n + k];
-    from_nodes.vmult(delta[c], values);
+    Vector<double> at_own(p + 1), coarse(p + 1), at_nodes(n);
+    for (unsigned int k = 0; k <= p; ++k)
+      at_own[k] = condition.displacement[c] ? solution.u[dofs[on_edge[c * (p + 1) + k]]]
+                                            : data(own.point(k)[0]);
+    tables.from_nodes(p).vmult(coarse, at_own);
+    for (unsigned int k = 0; k < n; ++k)
+      at_nodes[k] = data(nodes.point(k)[0]);
+    tables.from_nodes(n - 1).vmult(result.value[c], at_nodes);
+    const std::vector<double> fine(result.value[c].begin(), result.value[c].end());
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const double s = (k + 0.5) / n;
+      result.unread =
+          std::max(result.unread, std::abs(legendre::evaluate(fine, 2 * s - 1) - data(s)));
+    }
+    for (unsigned int i = 0; i <= p; ++i)
+      result.value[c][i] -= coarse[i];
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < i; ++j)
-        slope[c][j] += 2 * legendre::derivative(i, j) * delta[c][i]; // by s in [0,1]
+        result.slope[c][j] += 2 * legendre::derivative(i, j) * result.value[c][i];
   }
+  return result;
+}
+
+/** int s n . d over an edge. */
+double boundary_work(const EquilibratedStress &stress, const unsigned int index,
+                     const MissedDisplacement &missed)
+{
+  const StressEdge &edge = stress.patches().edges()[index];
+  double sum = 0;
+  for (unsigned int k = 0; k < 2; ++k)
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int i = 0; i < stress.tractions()[index][k].size(); ++i)
+        if (i < missed.value[c].size())
+          sum += edge.components[k].direction[c] * stress.tractions()[index][k][i] *
+                 missed.value[c][i];
+  const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
+  return 0.5 * cell->face(edge.sides[0].face)->diameter() * (edge.sides[0].face % 2 ? 1. : -1.) *
+         sum;
+}
+
+/** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
+double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress,
+                   const unsigned int index, const MissedDisplacement &missed)
+{
+  const StressEdge &edge = stress.patches().edges()[index];
+  const unsigned int face = edge.sides[0].face;
+  const auto &iterator = stress.patches().cells()[edge.sides[0].cell].iterator;
+  const CellMap<2> map = map_of<2>(iterator);
+  const auto &[delta, slope, unread] = missed;
   if (!map.is_affine())
     return distorted_energy(map, face, delta, slope,
                             HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);
@@ -228,8 +292,14 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
     if (condition.has_traction() || condition.friction)
       oscillation[cell] += shape.trace(face) * missed_traction(stress, e);
-    if (condition.has_displacement()) // two edges of a cell: the triangle inequality
-      lifts[cell] += std::sqrt(std::max(0., lift_energy(solution, stress, e)));
+    if (condition.has_displacement() || (condition.is_unilateral() && condition.gap))
+    {
+      const MissedDisplacement missed = missed_displacement(solution, stress, e);
+      // two edges of a cell: the triangle inequality
+      lifts[cell] += std::sqrt(std::max(0., lift_energy(solution, stress, e, missed)));
+      lift_work += boundary_work(stress, e, missed);
+      unread = std::max(unread, missed.unread);
+    }
   }
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
   {

@@ -68,6 +68,15 @@ double EdgePolynomial::operator()(const double s) const
   return sum;
 }
 
+EdgePolynomial EdgePolynomial::operator+(const EdgePolynomial &other) const
+{
+  EdgePolynomial result(*this);
+  result.terms.resize(std::max(terms.size(), other.terms.size()));
+  for (unsigned int i = 0; i < other.terms.size(); ++i)
+    result.terms[i] += other.terms[i];
+  return result;
+}
+
 std::vector<double> EdgePolynomial::coefficients() const
 {
   std::vector<double> result(terms);
@@ -139,23 +148,23 @@ Vector<double> legendre_basis(const unsigned int n, const double s)
 }
 
 template <int dim>
-EdgePolynomial tangential_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
-                                const ShapeTables<dim> &tables, const Vector<double> &v)
+EdgePolynomial edge_trace(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
+                          const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+                          const Vector<double> &v)
 {
-  static_assert(dim == 2, "one tangent along a straight edge");
   const unsigned int p = face.degree, n = p + 1;
   const auto dofs = space.cell_dofs(face.cell->active_cell_index());
   const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[face.face_no];
-  const Tensor<1, dim> tangent = face.frame(0.5).tangent;
   const FullMatrix<double> &shapes = tables.edge(p, face.n_points, n).shapes;
   std::vector<double> values(n);
   for (unsigned int q = 0; q < n; ++q)
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < n; ++j)
-        values[q] += shapes(q, j) * tangent[c] * v[dofs[on_edge[c * n + j]]];
+        values[q] += shapes(q, j) * direction[c] * v[dofs[on_edge[c * n + j]]];
   return EdgePolynomial::through(values, tables.gauss(n));
 }
 
-template EdgePolynomial tangential_trace(const ContactFace<2> &, const DisplacementSpace<2> &,
-                                         const ShapeTables<2> &, const Vector<double> &);
+template EdgePolynomial edge_trace(const ContactFace<2> &, const Tensor<1, 2> &,
+                                   const DisplacementSpace<2> &, const ShapeTables<2> &,
+                                   const Vector<double> &);
 } // namespace hpvi

@@ -66,10 +66,10 @@ void add(Modes<2> &sum, const Modes<2> &part)
 }
 } // namespace
 
-EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Friction &friction,
-                                       EquilibrationCache &cache)
+EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
+                                       const Parts &pressure, EquilibrationCache &cache)
     : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
-      cache(cache), vertex_patches(solution, has_distorted_cells(solution))
+      pressure(pressure), cache(cache), vertex_patches(solution, has_distorted_cells(solution))
 {
   known.resize(vertex_patches.edges().size());
   for (unsigned int e = 0; e < known.size(); ++e)
@@ -161,6 +161,12 @@ void EquilibratedStress::set_known_tractions(const unsigned int index)
       for (unsigned int q = 0; q < rule.points.size(); ++q)
         add_load(index, end, rule.points[q], rule.weights[q],
                  friction_on(edge, end, rule.points[q], rule.values[q]));
+      if (condition.is_unilateral())
+      {
+        const std::vector<double> t = pressure(edge.contact_face, end);
+        for (unsigned int i = 0; i < t.size(); ++i)
+          known[index][end][0][i] -= t[i];
+      }
     }
     meet_ends(edge, end, prescribed_traction(index, end));
   }
@@ -175,7 +181,11 @@ Tensor<1, 2> EquilibratedStress::prescribed_traction(const unsigned int index, c
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
   const double bound = face.friction_bound(face.point(s));
   for (unsigned int end = 0; end < 2; ++end)
+  {
     result += (end == 0 ? 1 - s : s) * friction_on(edge, end, s, bound);
+    if (face.condition->is_unilateral())
+      result -= legendre::evaluate(pressure(edge.contact_face, end), 2 * s - 1) * edge.normal;
+  }
   return result;
 }
 

@@ -16,6 +16,76 @@ namespace
 {
 /** Relative imbalance that is taken for round-off. */
 constexpr double tolerable = 1e-9;
+
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
+/** |w|_a */
+double norm(const SlipCorrection<2> &correction)
+{
+  return std::sqrt(std::max(0., sum(correction.energy()))); // round-off
+}
+
+void set_squares(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
+                 const SlipCorrection<2> &correction, const DataError &data)
+{
+  for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
+    result.squares.push_back(std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
+                             std::max(0., correction.energy()[cell]));
+  const auto &faces = solution.contact_space.faces();
+  for (unsigned int face = 0; face < faces.size(); ++face)
+    result.squares[faces[face].cell->active_cell_index()] +=
+        2 * std::max(0., correction.gap()[face]);
+}
+
+void set_norms(ErrorBound &result, const EquilibratedStress &stress,
+               const SlipCorrection<2> &correction, const DataError &data)
+{
+  const double eta_square = sum(stress.squares), w = norm(correction),
+               gap = std::max(0., sum(correction.gap())); // round-off
+  result.stress = std::sqrt(eta_square);
+  result.slip = std::sqrt(2 * gap + w * w);
+  result.oscillation = std::sqrt(std::inner_product(
+      data.oscillation.begin(), data.oscillation.end(), data.oscillation.begin(), 0.));
+  result.data = data.lift;
+  result.total = result.oscillation + std::sqrt(eta_square + 2 * gap +
+                                                std::pow(w + result.data + result.oscillation, 2));
+}
+
+/** Of U = u_N + d, minus w where contact is unilateral: u_N itself need not be admissible there. */
+void set_energy(ErrorBound &result, const Solution<2> &solution,
+                const SlipCorrection<2> &correction, const DataError &data)
+{
+  const bool is_moved = solution.scene.has_unilateral_contact();
+  const double w = is_moved ? norm(correction) : 0.,
+               gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap()),
+               change = is_moved ? correction.energy_change() : 0.;
+  result.energy = std::pow(result.stress + w + data.lift + result.oscillation, 2) / 2 + gap;
+  // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
+  const double centre = change + data.lift_work + data.lift * data.lift / 2,
+               unknown = (result.stress + w + result.oscillation) * data.lift;
+  result.energy_above = centre + unknown;
+  result.energy_below = result.energy + unknown - centre;
+}
+
+std::string flaw(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
+                 const AdmissiblePressure<2> &pressure, const EquilibratedStress &stress,
+                 const SlipCorrection<2> &correction, const DataError &data)
+{
+  if (friction.imbalance() > tolerable)
+    return "Friction bound varies between the points of the multiplier";
+  if (pressure.fails())
+    return "pressure is negative between the nodes of contact, and cannot be made admissible";
+  if (correction.fails())
+    return "the displacement penetrates the foundation between nodes, and supports keep it there";
+  if (!(data.unread <= 1e-8 * solution.u.linfty_norm()))
+    return "prescribed displacement or gap is not smooth along an edge";
+  if (!(stress.defect <= tolerable))
+    return "loads and contact are not in balance on some patch of cells";
+  return {};
+}
 } // namespace
 
 std::vector<double> ErrorBound::indicators() const
@@ -30,44 +100,22 @@ ErrorBound ErrorBounds::compute(const Solution<2> &solution,
                                 const Discretisation<2> &discretisation)
 {
   const AdmissibleFriction<2> friction(solution);
+  const AdmissiblePressure<2> pressure(solution);
   const EquilibratedStress stress(
       solution,
       [&](const unsigned int face, const unsigned int end)
       { return friction.part(face, end).coefficients(); },
+      [&](const unsigned int face, const unsigned int end)
+      { return pressure.part(face, end).coefficients(); },
       cache);
-  const SlipCorrection<2> correction(solution, discretisation, friction);
+  const SlipCorrection<2> correction(solution, discretisation, friction, pressure);
   const DataError data(solution, stress);
-
-  const auto sum = [](const std::vector<double> &values)
-  { return std::accumulate(values.begin(), values.end(), 0.); };
   ErrorBound result;
-  result.squares.resize(stress.squares.size());
-  double oscillation = 0;
-  for (unsigned int cell = 0; cell < result.squares.size(); ++cell)
-  {
-    result.squares[cell] = std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
-                           std::max(0., correction.energy()[cell]); // round-off
-    oscillation += data.oscillation[cell] * data.oscillation[cell];
-  }
-  const auto &faces = solution.contact_space.faces();
-  for (unsigned int face = 0; face < faces.size(); ++face)
-    result.squares[faces[face].cell->active_cell_index()] += 2 * correction.gap()[face];
-
-  const double eta_square = sum(stress.squares), gap = sum(correction.gap()),
-               w = std::sqrt(std::max(0., sum(correction.energy())));
-  result.stress = std::sqrt(eta_square);
-  result.slip = std::sqrt(2 * gap + w * w);
-  result.oscillation = std::sqrt(oscillation);
-  result.data = data.lift;
-  result.total = result.oscillation + std::sqrt(eta_square + 2 * gap +
-                                                std::pow(w + result.data + result.oscillation, 2));
-  result.energy = std::pow(result.stress + result.data + result.oscillation, 2) / 2 +
-                  sum(correction.uncorrected_gap());
+  set_squares(result, solution, stress, correction, data);
+  set_norms(result, stress, correction, data);
+  set_energy(result, solution, correction, data);
   result.imbalance = stress.defect;
-  if (friction.imbalance() > tolerable)
-    result.flaw = "Friction bound varies between the points of the multiplier";
-  else if (!(stress.defect <= tolerable))
-    result.flaw = "loads and friction are not in balance on some patch of cells";
+  result.flaw = flaw(solution, friction, pressure, stress, correction, data);
   return result;
 }
 } // namespace hpvi

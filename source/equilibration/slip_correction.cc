@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 namespace hpvi
 {
@@ -57,14 +59,14 @@ Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
   return result;
 }
 
-/** The tangential displacement on a contact face by the unknowns of the linear system. */
+/** One component of the displacement on a contact face by the unknowns of the linear system. */
 struct Trace
 {
   std::vector<unsigned int> unknowns;
   FullMatrix<double> legendre; ///< coefficients x unknowns
-  std::vector<double> u;       ///< those of u_Nt
+  std::vector<double> u;       ///< those of u_Nt, or of u_Nn - u_0
 
-  /** u_Nt - w_t */
+  /** u minus that of w */
   EdgePolynomial rest(const Vector<double> &w) const
   {
     std::vector<double> result(u);
@@ -76,11 +78,11 @@ struct Trace
 };
 
 template <int dim>
-Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
-               const Unknowns<dim> &unknowns, const FullMatrix<double> &legendre)
+Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
+               const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+               const FullMatrix<double> &legendre)
 {
   const unsigned int n = face.degree + 1;
-  const Tensor<1, dim> tangent = face.frame(0.5).tangent;
   const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
   const std::vector<unsigned int> &on_edge =
       solution.tables.numbering(face.degree).edge[face.face_no];
@@ -90,13 +92,13 @@ Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
     for (unsigned int c = 0; c < dim; ++c)
     {
       const types::global_dof_index dof = dofs[on_edge[c * n + j]];
-      u[j] += tangent[c] * solution.u[dof];
+      u[j] += direction[c] * solution.u[dof];
       for (const auto &[unknown, weight] : unknowns.terms(dof))
       {
         Vector<double> &column = columns[unknown];
         if (column.size() == 0)
           column.reinit(n);
-        column[j] += tangent[c] * weight;
+        column[j] += direction[c] * weight;
       }
     }
   Trace result;
@@ -117,37 +119,61 @@ Trace trace_of(const ContactFace<dim> &face, const Solution<dim> &solution,
   return result;
 }
 
-/** The unknowns on which u_n depends along a contact face. */
-template <int dim>
-std::vector<unsigned int> normal_unknowns(const ContactFace<dim> &face,
-                                          const Solution<dim> &solution,
-                                          const Unknowns<dim> &unknowns)
+/** What happens along the normal on a face with unilateral contact. */
+struct Opening
 {
-  const unsigned int n = face.degree + 1;
-  const Tensor<1, dim> normal = face.frame(0.5).normal;
-  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(face.degree).edge[face.face_no];
-  std::vector<unsigned int> result;
-  for (unsigned int j = 0; j < n; ++j)
+  enum Mode
   {
-    std::map<unsigned int, double> u_n;
-    for (unsigned int c = 0; c < dim; ++c)
-      for (const auto &[unknown, weight] : unknowns.terms(dofs[on_edge[c * n + j]]))
-        u_n[unknown] += normal[c] * weight;
-    for (const auto &[unknown, weight] : u_n)
-      if (std::abs(weight) > 1e-12)
-        result.push_back(unknown);
+    closed,
+    partly,
+    open
+  } mode;
+  Trace penetration; ///< u_Nn - u_0
+  EdgePolynomial pressure;
+
+  /** `int pi (u_0 - u_Nn + w_n)` over [0,1] */
+  double gap(const EdgePolynomial &rest) const
+  {
+    const std::vector<double> pi = pressure.coefficients(), r = rest.coefficients();
+    return -0.5 * std::inner_product(pi.begin(), pi.begin() + std::min(pi.size(), r.size()),
+                                     r.begin(), 0.);
   }
+};
+
+double largest_value(const EdgePolynomial &polynomial)
+{
+  double result = polynomial(0.);
+  for (const double s : polynomial.extremes())
+    result = std::max(result, polynomial(s));
   return result;
 }
 
-/** `int g (|v| - l* v)` over one face, cut where g jumps or v changes sign. */
 template <int dim>
-double friction_gap(const unsigned int number, const EdgePolynomial &v,
-                    const Solution<dim> &solution, const AdmissibleFriction<dim> &friction)
+Opening opening_of(const unsigned int number, const Solution<dim> &solution,
+                   const Unknowns<dim> &unknowns, const AdmissiblePressure<dim> &pressure,
+                   const LegendreTables &tables)
 {
   const ContactFace<dim> &face = solution.contact_space.faces()[number];
+  unsigned int n_pressing = 0;
+  for (const unsigned int i : face.pressures)
+    n_pressing += solution.z[i] > 0.;
+  Opening result{
+      n_pressing == 0                      ? Opening::open
+      : n_pressing < face.pressures.size() ? Opening::partly
+                                           : Opening::closed,
+      trace_of(face, face.frame(0.5).normal, solution, unknowns, tables.from_nodes(face.degree)),
+      pressure.value(number)};
+  const std::vector<double> gap = gap_at_nodes(face, solution.tables, tables).coefficients();
+  for (unsigned int i = 0; i < gap.size(); ++i)
+    result.penetration.u[i] -= gap[i];
+  return result;
+}
+
+/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign. */
+template <int dim, class F>
+double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
+                    const Solution<dim> &solution, const F &l)
+{
   if (face.friction.vanishes())
     return 0.;
   std::vector<double> cuts = v.zeros();
@@ -160,9 +186,8 @@ double friction_gap(const unsigned int number, const EdgePolynomial &v,
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
       const double value = v(s);
-      // One difference at a time: where l* is the direction of v, nothing is left, not even round-off.
-      const double density =
-          std::abs(value) * (1. - (value < 0. ? -1. : 1.) * friction.value(number, s));
+      // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
+      const double density = std::abs(value) * (1. - (value < 0. ? -1. : 1.) * l(s));
       if (density != 0.)
         result +=
             face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
@@ -173,7 +198,7 @@ double friction_gap(const unsigned int number, const EdgePolynomial &v,
 enum class Role
 {
   outside, ///< w is zero there
-  fixed,   ///< by u_Nt where the body sticks
+  fixed,   ///< by u_Nt where the body sticks, by u_Nn - u_0 where it presses
   free
 };
 
@@ -334,6 +359,37 @@ double energy_product(const SymmetricMatrix &A, const Vector<double> &x)
   return result;
 }
 
+/** A trace of w at a point of its face by the unknowns of a strip that are kept. */
+Vector<double> trace_row(const Strip &strip, const Trace &trace, const double s)
+{
+  const Vector<double> L = legendre_basis(trace.legendre.m(), s);
+  Vector<double> values(trace.unknowns.size()), row(strip.n_kept());
+  trace.legendre.Tvmult(values, L);
+  for (unsigned int m = 0; m < values.size(); ++m)
+    if (const unsigned int place = strip.place(trace.unknowns[m]); place != none)
+      row[place] += values[m];
+  return row;
+}
+
+/** `sign (rest - w) <= 0` along a face, w that of the unknowns kept. */
+struct Condition
+{
+  const Trace *trace;
+  EdgePolynomial rest;
+  double sign;
+
+  /** At one point; false: w is fixed there. */
+  bool add_to(InequalityProgram &program, const Strip &strip, const double s) const
+  {
+    Vector<double> row = trace_row(strip, *trace, s);
+    row *= sign;
+    if (row.linfty_norm() <= 1e-9)
+      return false;
+    program.add_inequality(row, sign * rest(s));
+    return true;
+  }
+};
+
 /** One w and what it is worth. */
 struct Candidate
 {
@@ -348,21 +404,32 @@ class Search
 {
 public:
   Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-         const AdmissibleFriction<dim> &friction);
+         const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure);
 
+  /** Of w, with as much more as it takes for u_N - w not to penetrate. */
   Candidate of(const Vector<double> &w) const;
   /** The best one, from one that is known. */
   Candidate best(Candidate result) const;
+  /** J(u_N - w) - J(u_N) */
+  double energy_change(const Vector<double> &w) const;
 
 private:
   std::vector<Role> roles() const;
-  Vector<double> stuck_displacement() const;
+  void add_normal_roles(std::vector<Role> &roles) const;
+  Vector<double> fixed_displacement() const;
+  bool is_near_pressure(unsigned int face) const;
+  double penetration(const Vector<double> &w, std::map<unsigned int, double> &heights) const;
+  bool lift(Vector<double> &w) const;
+  void add_friction(const Strip &strip, const std::vector<bool> &nearby,
+                    const Vector<double> &fixed, Vector<double> &h,
+                    std::vector<Condition> &conditions) const;
+  void add_pressure(const Strip &strip, const Vector<double> &fixed, Vector<double> &h,
+                    std::vector<Condition> &conditions) const;
   std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
   std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
                                           const std::vector<Role> &roles) const;
   void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
                          const Vector<double> &fixed, Candidate &best) const;
-  Vector<double> trace_row(const Strip &strip, unsigned int face, double s) const;
   void take_better(Candidate &best, const Vector<double> &w) const;
 
   const Solution<dim> &solution;
@@ -370,36 +437,101 @@ private:
   const AdmissibleFriction<dim> &friction;
   const std::vector<ContactFace<dim>> &faces;
   std::vector<Slip> slips;
-  std::vector<Trace> traces;
+  std::vector<Trace> traces; ///< of u_t
+  std::vector<std::optional<Opening>> openings;
+  double tolerance = 0; ///< of penetrations: round-off
 };
 
 template <int dim>
 Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-                    const AdmissibleFriction<dim> &friction)
+                    const AdmissibleFriction<dim> &friction,
+                    const AdmissiblePressure<dim> &pressure)
     : solution(solution), discretisation(discretisation), friction(friction),
-      faces(solution.contact_space.faces())
+      faces(solution.contact_space.faces()), openings(faces.size())
 {
   const LegendreTables tables;
-  for (const ContactFace<dim> &face : faces)
+  for (unsigned int k = 0; k < faces.size(); ++k)
   {
-    slips.push_back(slip_of(face, solution));
-    traces.push_back(
-        trace_of(face, solution, discretisation.unknowns, tables.from_nodes(face.degree)));
+    slips.push_back(slip_of(faces[k], solution));
+    traces.push_back(trace_of(faces[k], faces[k].frame(0.5).tangent, solution,
+                              discretisation.unknowns, tables.from_nodes(faces[k].degree)));
+    if (faces[k].condition->is_unilateral())
+    {
+      openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
+      tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
+    }
   }
+}
+
+/** The largest of u_Nn - w_n - u_0, and at each vertex that of its faces. */
+template <int dim>
+double Search<dim>::penetration(const Vector<double> &w,
+                                std::map<unsigned int, double> &heights) const
+{
+  double result = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k])
+    {
+      const double height = largest_value(openings[k]->penetration.rest(w));
+      result = std::max(result, height);
+      for (unsigned int end = 0; end < 2; ++end)
+      {
+        double &at_vertex = heights[faces[k].cell->face(faces[k].face_no)->vertex_index(end)];
+        at_vertex = std::max(at_vertex, height);
+      }
+    }
+  return result;
+}
+
+/** w_n += a piecewise linear function that takes away what penetrates; false: supports are in the way. */
+template <int dim>
+bool Search<dim>::lift(Vector<double> &w) const
+{
+  std::map<unsigned int, double> heights;
+  if (penetration(w, heights) <= tolerance)
+    return true;
+  Vector<double> u(solution.u.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k])
+    {
+      const unsigned int n = faces[k].degree + 1;
+      const auto face = faces[k].cell->face(faces[k].face_no);
+      const double first = heights[face->vertex_index(0)], last = heights[face->vertex_index(1)];
+      const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
+      const std::vector<unsigned int> &on_edge =
+          solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double s = solution.tables.gauss_lobatto(n).point(j)[0];
+          if (const auto dof = dofs[on_edge[c * n + j]];
+              discretisation.unknowns.terms(dof).size() > 0)
+            u[dof] = faces[k].frame(0.5).normal[c] * (1. + 1e-10) * (first + s * (last - first));
+        }
+    }
+  w += discretisation.unknowns.coordinates(u);
+  return penetration(w, heights) <= tolerance;
 }
 
 template <int dim>
 Candidate Search<dim>::of(const Vector<double> &w) const
 {
-  Candidate result{w, {}, energy_product(discretisation.system.A, w)};
+  Candidate result{w, {}, 0.};
+  const bool is_admissible = lift(result.w);
+  result.total = is_admissible ? energy_product(discretisation.system.A, result.w)
+                               : std::numeric_limits<double>::infinity();
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
-    const EdgePolynomial rest = traces[k].rest(w);
+    const EdgePolynomial rest = traces[k].rest(result.w);
     // Where w has taken u_Nt away, round-off is left, whose signs are not worth the search.
     result.gaps.push_back(rest.largest() > 1e-13 * EdgePolynomial(traces[k].u).largest()
-                              ? friction_gap(k, rest, solution, friction)
+                              ? friction_gap(faces[k], rest, solution,
+                                             [&](const double s) { return friction.value(k, s); })
                               : 2. * rest.largest() * faces[k].length *
                                     faces[k].friction.integral());
+    if (openings[k])
+      result.gaps.back() +=
+          faces[k].length * openings[k]->gap(openings[k]->penetration.rest(result.w));
   }
   result.total += 2. * sum(result.gaps);
   return result;
@@ -415,7 +547,7 @@ void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
 
 /**
  * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
- * that more cells would change its energy by a few hundredths. Pressures ask for w_n = 0.
+ * more cells would change its energy by a few hundredths.
  */
 template <int dim>
 std::vector<Role> Search<dim>::roles() const
@@ -423,9 +555,9 @@ std::vector<Role> Search<dim>::roles() const
   const Unknowns<dim> &unknowns = discretisation.unknowns;
   std::vector<Role> result(unknowns.n(), Role::free);
   std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
-  for (const ContactFace<dim> &face : faces)
-    if (!face.friction.vanishes())
-      is_at_contact[face.cell->active_cell_index()] = true;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (!faces[k].friction.vanishes() || is_near_pressure(k))
+      is_at_contact[faces[k].cell->active_cell_index()] = true;
   for (unsigned int cell = 0; cell < is_at_contact.size(); ++cell)
     if (!is_at_contact[cell])
       for (const auto dof : solution.displacement_space.cell_dofs(cell))
@@ -437,36 +569,73 @@ std::vector<Role> Search<dim>::roles() const
         result[unknown] = Role::fixed;
       else if (!faces[k].friction.vanishes() && result[unknown] == Role::outside)
         result[unknown] = Role::free;
-  for (const ContactFace<dim> &face : faces)
-    if (face.condition->has_pressure())
-      for (const unsigned int unknown : normal_unknowns(face, solution, unknowns))
-        result[unknown] = Role::outside;
+  add_normal_roles(result);
   return result;
 }
 
-/** The unknowns of a displacement that is u_Nt where the body sticks; elsewhere of no use. */
+/** Along a slanted boundary both components share unknowns: what one of them fixes is fixed. */
 template <int dim>
-Vector<double> Search<dim>::stuck_displacement() const
+void Search<dim>::add_normal_roles(std::vector<Role> &roles) const
+{
+  for (const bool is_near : {false, true})
+    for (unsigned int k = 0; k < faces.size(); ++k)
+      if (openings[k] && is_near == is_near_pressure(k))
+        for (const unsigned int unknown : openings[k]->penetration.unknowns)
+          if (roles[unknown] != Role::fixed)
+            roles[unknown] = is_near ? Role::free : Role::outside;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k] && openings[k]->mode == Opening::closed)
+      for (const unsigned int unknown : openings[k]->penetration.unknowns)
+        roles[unknown] = Role::fixed;
+}
+
+/** Does a face press, or one of two on either side of it, or does it penetrate? */
+template <int dim>
+bool Search<dim>::is_near_pressure(const unsigned int face) const
+{
+  if (!openings[face])
+    return false;
+  for (unsigned int other = face < 2 ? 0 : face - 2;
+       other < std::min<std::size_t>(face + 3, faces.size()); ++other)
+    if (openings[other] && openings[other]->mode != Opening::open)
+      return true;
+  return largest_value(EdgePolynomial(openings[face]->penetration.u)) > tolerance;
+}
+
+/**
+ * The unknowns of a displacement that is u_Nt where the body sticks and u_Nn - u_0 where it presses;
+ * elsewhere of no use.
+ */
+template <int dim>
+Vector<double> Search<dim>::fixed_displacement() const
 {
   Vector<double> u(solution.u.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode == Slip::nowhere)
+  {
+    const ContactFrame<dim> frame = faces[k].frame(0.5);
+    const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
+    const std::vector<unsigned int> &on_edge =
+        solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
+    const unsigned int n = faces[k].degree + 1;
+    // A corner has had its part of another face.
+    const auto complete = [&](const Tensor<1, dim> &direction, const auto &wanted)
     {
-      const Tensor<1, dim> tangent = faces[k].frame(0.5).tangent;
-      const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
-      const std::vector<unsigned int> &on_edge =
-          solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
-      const unsigned int n = faces[k].degree + 1;
       for (unsigned int j = 0; j < n; ++j)
       {
-        double missing = 0; // a corner has had its part of another face
+        double missing = wanted(solution.tables.gauss_lobatto(n).point(j)[0]);
         for (unsigned int c = 0; c < dim; ++c)
-          missing +=
-              tangent[c] * (solution.u[dofs[on_edge[c * n + j]]] - u[dofs[on_edge[c * n + j]]]);
+          missing -= direction[c] * u[dofs[on_edge[c * n + j]]];
         for (unsigned int c = 0; c < dim; ++c)
-          u[dofs[on_edge[c * n + j]]] += missing * tangent[c];
+          if (const auto dof = dofs[on_edge[c * n + j]];
+              discretisation.unknowns.terms(dof).size() > 0)
+            u[dof] += missing * direction[c];
       }
-    }
+    };
+    if (slips[k].mode == Slip::nowhere)
+      complete(frame.tangent, EdgePolynomial(traces[k].u));
+    if (openings[k] && openings[k]->mode == Opening::closed)
+      complete(frame.normal, EdgePolynomial(openings[k]->penetration.u));
+  }
   return discretisation.unknowns.coordinates(u);
 }
 
@@ -507,6 +676,11 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
       for (const unsigned int unknown : traces[k].unknowns)
         if (roles[unknown] == Role::free)
           result.push_back(unknown);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (is_near_pressure(k))
+      for (const unsigned int unknown : openings[k]->penetration.unknowns)
+        if (roles[unknown] == Role::free)
+          result.push_back(unknown);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -514,50 +688,76 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
 
 /** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
 template <int dim>
+void Search<dim>::add_friction(const Strip &strip, const std::vector<bool> &nearby,
+                               const Vector<double> &fixed, Vector<double> &h,
+                               std::vector<Condition> &conditions) const
+{
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (nearby[k])
+    {
+      const FrictionRule &rule = faces[k].friction;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+        h.add(faces[k].length * rule.weights[q] * rule.values[q] *
+                  (slips[k].direction - friction.value(k, rule.points[q])),
+              trace_row(strip, traces[k], rule.points[q]));
+      conditions.push_back({&traces[k], traces[k].rest(fixed), -slips[k].direction});
+    }
+}
+
+/** Where the body presses or nearly does, u_Nn - w_n <= u_0; the gap is linear in w. */
+template <int dim>
+void Search<dim>::add_pressure(const Strip &strip, const Vector<double> &fixed, Vector<double> &h,
+                               std::vector<Condition> &conditions) const
+{
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (is_near_pressure(k))
+    {
+      const Trace &trace = openings[k]->penetration;
+      const QGauss<1> &gauss = solution.tables.gauss(faces[k].degree + 1);
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = gauss.point(q)[0];
+        h.add(-faces[k].length * gauss.weight(q) * openings[k]->pressure(s),
+              trace_row(strip, trace, s));
+      }
+      conditions.push_back({&trace, trace.rest(fixed), 1.});
+    }
+}
+
+template <int dim>
 void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
                                     const Vector<double> &fixed, Candidate &best) const
 {
   Vector<double> h = strip.h();
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    for (unsigned int q = 0; nearby[k] && q < faces[k].friction.points.size(); ++q)
-    {
-      const FrictionRule &rule = faces[k].friction;
-      const double s = rule.points[q];
-      h.add(faces[k].length * rule.weights[q] * rule.values[q] *
-                (slips[k].direction - friction.value(k, s)),
-            trace_row(strip, k, s));
-    }
+  std::vector<Condition> conditions;
+  add_friction(strip, nearby, fixed, h, conditions);
+  add_pressure(strip, fixed, h, conditions);
   InequalityProgram program(strip.H(), h);
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (nearby[k])
-    {
-      const EdgePolynomial rest = traces[k].rest(fixed);
-      for (unsigned int i = 0, n = 2 * faces[k].degree + 2; i <= n; ++i)
+  for (const Condition &condition : conditions)
+    for (unsigned int i = 0, n = 2 * condition.trace->legendre.m(); i <= n; ++i)
+      condition.add_to(program, strip, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
+  if (!program.solve())
+    return;
+  take_better(best, strip.minimiser(program.minimiser()));
+  // What still penetrates between the points is worth more points.
+  bool stands_out = true;
+  for (unsigned int round = 0; stands_out && round < 10; ++round)
+  {
+    const Vector<double> w = strip.minimiser(program.minimiser());
+    stands_out = false;
+    for (const Condition &condition : conditions)
+      if (condition.sign > 0.)
       {
-        const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / n);
-        Vector<double> row = trace_row(strip, k, s);
-        row *= -slips[k].direction;
-        if (row.linfty_norm() > 1e-9) // else w is fixed there
-          program.add_inequality(row, -slips[k].direction * rest(s));
+        const EdgePolynomial rest = condition.trace->rest(w);
+        for (const double s : rest.extremes())
+          if (rest(s) > tolerance)
+            stands_out = condition.add_to(program, strip, s) || stands_out;
       }
-    }
-  if (program.solve())
-    take_better(best, strip.minimiser(program.minimiser()));
-}
-
-/** w_t at a point of a face by the unknowns of the strip that are kept. */
-template <int dim>
-Vector<double> Search<dim>::trace_row(const Strip &strip, const unsigned int face,
-                                      const double s) const
-{
-  const Trace &trace = traces[face];
-  const Vector<double> L = legendre_basis(trace.legendre.m(), s);
-  Vector<double> values(trace.unknowns.size()), row(strip.n_kept());
-  trace.legendre.Tvmult(values, L);
-  for (unsigned int m = 0; m < values.size(); ++m)
-    if (const unsigned int place = strip.place(trace.unknowns[m]); place != none)
-      row[place] += values[m];
-  return row;
+    if (stands_out && program.solve())
+      take_better(best, strip.minimiser(program.minimiser()));
+    else
+      stands_out = false;
+  }
 }
 
 template <int dim>
@@ -566,7 +766,7 @@ Candidate Search<dim>::best(Candidate result) const
   if (result.total == 0.)
     return result;
   const std::vector<Role> all_roles = roles();
-  Vector<double> fixed = stuck_displacement();
+  Vector<double> fixed = fixed_displacement();
   for (unsigned int i = 0; i < fixed.size(); ++i)
     if (all_roles[i] != Role::fixed)
       fixed[i] = 0.;
@@ -584,18 +784,38 @@ Candidate Search<dim>::best(Candidate result) const
     }
   return result;
 }
+
+/** The discrete equations say a(u_N, w) - L(w) = -<z, w>. */
+template <int dim>
+double Search<dim>::energy_change(const Vector<double> &w) const
+{
+  double result =
+      energy_product(discretisation.system.A, w) / 2. +
+      solution.z * solution.spaces->contact_operator.moments(discretisation.unknowns.expand(w));
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    const auto work = [&](const EdgePolynomial &u_t)
+    { return friction_gap(faces[k], u_t, solution, [](double) { return 0.; }); };
+    result += work(traces[k].rest(w)) - work(EdgePolynomial(traces[k].u));
+  }
+  return result;
+}
 } // namespace
 
 template <int dim>
 SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
                                     const Discretisation<dim> &discretisation,
-                                    const AdmissibleFriction<dim> &friction)
+                                    const AdmissibleFriction<dim> &friction,
+                                    const AdmissiblePressure<dim> &pressure)
     : cell_energies(solution.displacement_space.degrees().size())
 {
-  const Search<dim> search(solution, discretisation, friction);
+  const Search<dim> search(solution, discretisation, friction, pressure);
   Candidate best = search.of(Vector<double>(discretisation.unknowns.n()));
   uncorrected = best.gaps;
   best = search.best(std::move(best));
+  has_failed = !std::isfinite(best.total);
+  if (solution.scene.has_unilateral_contact())
+    change = search.energy_change(best.w);
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)
@@ -627,6 +847,18 @@ template <int dim>
 const std::vector<double> &SlipCorrection<dim>::energy() const
 {
   return cell_energies;
+}
+
+template <int dim>
+double SlipCorrection<dim>::energy_change() const
+{
+  return change;
+}
+
+template <int dim>
+bool SlipCorrection<dim>::fails() const
+{
+  return has_failed;
 }
 
 template <int dim>

@@ -80,10 +80,8 @@ std::string Summary<dim>::json_bound() const
     return "  \"error_bound\": null,\n  \"no_error_bound\": " + json_string(no_bound) + ",\n";
   return "  \"error_bound\": {\n    \"guaranteed\": true,\n    \"energy_norm\": " +
          text(bound->total) + ",\n    \"relative\": " + text(relative_bound) +
-         ",\n    \"energy\": " +
-         (bound->data == 0 ? "[" + text(energy - bound->energy) + ", " + text(energy) + "]"
-                           : "null") +
-         "\n  },\n";
+         ",\n    \"energy\": [" + text(energy - bound->energy_below) + ", " +
+         text(energy + bound->energy_above) + "]\n  },\n";
 }
 
 template <int dim>

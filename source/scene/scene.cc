@@ -203,8 +203,6 @@ std::string Scene<dim>::no_error_bound() const
 {
   if (has_coulomb_friction())
     return "Coulomb's law minimises no energy";
-  if (has_unilateral_contact())
-    return "contact is unilateral";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (!geometry.has_affine_cells())

@@ -340,7 +340,8 @@ TEST(SlipCorrection, KnowsItsEnergy)
   for_each_case(
       [&](const Solution<2> &solution, const Laboratory &lab)
       {
-        const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution));
+        const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                     AdmissiblePressure<2>(solution));
         const double energy = energy_product(correction(slip, lab), lab);
         EXPECT_NEAR(sum(slip.energy()), energy, 1e-11 * energy);
         EXPECT_NEAR(slip.total(), 2. * sum(slip.gap()) + energy, 1e-11 * slip.total());
@@ -357,18 +358,23 @@ TEST(SlipCorrection, KnowsItsGaps)
       [](const Solution<2> &solution, const Laboratory &lab)
       {
         const AdmissibleFriction<2> friction(solution);
-        const SlipCorrection<2> slip(solution, lab.discretisation, friction);
+        const AdmissiblePressure<2> pressure(solution);
+        const SlipCorrection<2> slip(solution, lab.discretisation, friction, pressure);
         Vector<double> rest(solution.u);
         const auto check = [&](const std::vector<double> &gaps)
         {
           for (unsigned int k = 0; k < gaps.size(); ++k)
           {
             const ContactFace<2> &face = solution.contact_space.faces()[k];
-            const EdgePolynomial v =
-                tangential_trace(face, solution.displacement_space, solution.tables, rest);
-            const auto gap = [&](const double s) {
+            const EdgePolynomial v = edge_trace(face, face.frame(0.5).tangent,
+                                                solution.displacement_space, solution.tables, rest);
+            const EdgePolynomial v_n = edge_trace(
+                face, face.frame(0.5).normal, solution.displacement_space, solution.tables, rest);
+            const auto gap = [&](const double s)
+            {
               return face.friction_bound(face.point(s)) *
-                     (std::abs(v(s)) - friction.value(k, s) * v(s));
+                         (std::abs(v(s)) - friction.value(k, s) * v(s)) +
+                     pressure.value(k)(s) * (face.condition->gap_at(face.point(s)) - v_n(s));
             };
             const double size = integral([&](const double s) { return std::abs(v(s)); }, 1),
                          round_off = 1e-14 * solution.u.linfty_norm();
@@ -377,7 +383,8 @@ TEST(SlipCorrection, KnowsItsGaps)
                             (2e-6 * size + round_off));
           }
         };
-        check(slip.uncorrected_gap());
+        if (!solution.scene.has_unilateral_contact()) // else not of u_N, which may penetrate
+          check(slip.uncorrected_gap());
         rest -= correction(slip, lab);
         check(slip.gap());
       });
@@ -414,9 +421,7 @@ void expect_admissible(const Vector<double> &w, const Laboratory &lab)
         EXPECT_EQ(w[y], 0.);
       });
   for_each_node(
-      lab,
-      [](const auto &condition)
-      { return condition.has_contact() && condition.contact != Contact::tangential; },
+      lab, [](const auto &condition) { return condition.contact == Contact::bilateral; },
       [&](const auto x, const auto y, const Tensor<1, 2> &normal)
       { EXPECT_NEAR(normal[0] * w[x] + normal[1] * w[y], 0., 1e-13 * size); });
   AffineConstraints<double> homogeneous(lab.displacement_space.constraints());
@@ -433,9 +438,136 @@ TEST(SlipCorrection, IsATestFunction)
   for_each_case(
       [](const Solution<2> &solution, const Laboratory &lab)
       {
-        const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution));
+        const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                     AdmissiblePressure<2>(solution));
         expect_admissible(correction(slip, lab), lab);
       });
+}
+
+/** u_N - w is below the gap at every point, though u_N is not. */
+TEST(SlipCorrection, TakesPenetrationAway)
+{
+  for (const std::string contact : {"nodes", "multiplier"})
+    for (const unsigned int seed : {1, 2, 3})
+    {
+      const Scene<2> scene =
+          shipped_scene("han-6-12-unilateral", {{"Solver/Normal contact", contact}});
+      const RandomMesh mesh(scene, 3, seed, 2, 6);
+      const Laboratory lab(scene, mesh);
+      const Solution<2> solution = lab.solve();
+      const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                   AdmissiblePressure<2>(solution));
+      EXPECT_FALSE(slip.fails());
+      const auto penetration = [&](const Vector<double> &v)
+      {
+        double result = 0;
+        for (const ContactFace<2> &face : lab.contact_space.faces())
+        {
+          const EdgePolynomial v_n =
+              edge_trace(face, face.frame(0.5).normal, lab.displacement_space, lab.tables, v);
+          for (unsigned int i = 0; i <= 200; ++i)
+            result = std::max(result, v_n(i / 200.) - face.condition->gap_at(face.point(i / 200.)));
+        }
+        return result / solution.u.linfty_norm();
+      };
+      Vector<double> rest(solution.u);
+      EXPECT_GT(penetration(rest), 1e-6);
+      rest -= correction(slip, lab);
+      EXPECT_LE(penetration(rest), 1e-13);
+    }
+}
+
+/** J(u_N - w) by strains, loads and friction of both displacements. */
+TEST(SlipCorrection, KnowsItsChangeOfEnergy)
+{
+  const Scene<2> scene = shipped_scene("han-6-12-unilateral");
+  const RandomMesh mesh(scene, 3, 4, 2, 6);
+  const Laboratory lab(scene, mesh);
+  const Solution<2> solution = lab.solve();
+  const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                               AdmissiblePressure<2>(solution));
+  const auto J = [&](const Vector<double> &v)
+  {
+    double friction = 0;
+    for (const ContactFace<2> &face : lab.contact_space.faces())
+    {
+      const EdgePolynomial v_t =
+          edge_trace(face, face.frame(0.5).tangent, lab.displacement_space, lab.tables, v);
+      friction +=
+          face.length * integral([&](const double s)
+                                 { return face.friction_bound(face.point(s)) * std::abs(v_t(s)); },
+                                 4000);
+    }
+    return energy_product(v, lab) / 2. - lab.discretisation.system.work(v) + friction;
+  };
+  Vector<double> moved(solution.u);
+  moved -= correction(slip, lab);
+  const double change = J(moved) - J(solution.u);
+  EXPECT_GT(std::abs(change), 1e-6);
+  EXPECT_NEAR(slip.energy_change(), change, 1e-3 * std::abs(change) + 1e-7);
+}
+
+/** pi >= 0, with the force and moment of z_n on the hat of every vertex. */
+TEST(AdmissiblePressure, IsInBalanceAndPushes)
+{
+  unsigned int n_negative = 0;
+  for (const std::string contact : {"nodes", "multiplier"})
+    for (const unsigned int seed : {1, 2, 3, 4})
+    {
+      const Scene<2> scene =
+          shipped_scene("han-6-12-unilateral", {{"Solver/Normal contact", contact}});
+      const RandomMesh mesh(scene, 3, seed, 2, 6);
+      const Laboratory lab(scene, mesh);
+      const Solution<2> solution = lab.solve();
+      const AdmissiblePressure<2> pressure(solution);
+      EXPECT_FALSE(pressure.fails());
+      std::map<unsigned int, std::array<double, 2>> missing; // force and moment by vertex
+      double scale = 0;
+      for (unsigned int k = 0; k < lab.contact_space.faces().size(); ++k)
+      {
+        const ContactFace<2> &face = lab.contact_space.faces()[k];
+        const auto z = [&](const double s)
+        { return lab.contact_space.pressure(face, solution.z, s); };
+        bool is_negative = false;
+        for (unsigned int i = 0; i <= 200; ++i)
+        {
+          scale = std::max(scale, z(i / 200.));
+          is_negative = is_negative || z(i / 200.) < -1e-6;
+          EXPECT_GE(pressure.value(k)(i / 200.), -1e-11);
+        }
+        n_negative += is_negative;
+        for (const unsigned int end : {0, 1})
+        {
+          auto &[force, moment] = missing[face.cell->face(face.face_no)->vertex_index(end)];
+          const auto x = [&](const double s) { return face.point(s)[0]; };
+          // That of the nodes is a Gauss-Lobatto sum: for p = 2 not the integral.
+          const QGaussLobatto<1> lobatto(face.degree + 1);
+          const QGauss<1> gauss(face.degree + 2);
+          const Quadrature<1> &rule =
+              contact == "nodes" ? static_cast<const Quadrature<1> &>(lobatto) : gauss;
+          for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            const double s = rule.point(q)[0],
+                         work = face.length * rule.weight(q) * hat(end, s) * z(s);
+            const auto &nodes = face.normal_points; // none where a support holds the corner
+            if (contact == "nodes" && std::find(nodes.begin(), nodes.end(), s) == nodes.end())
+              continue;
+            force -= work;
+            moment -= work * x(s);
+          }
+          force +=
+              face.length * integral([&](const double s) { return pressure.part(k, end)(s); }, 1);
+          moment += face.length *
+                    integral([&](const double s) { return x(s) * pressure.part(k, end)(s); }, 1);
+        }
+      }
+      for (const auto &[vertex, balance] : missing)
+      {
+        EXPECT_NEAR(balance[0], 0., 1e-12 * scale);
+        EXPECT_NEAR(balance[1], 0., 1e-11 * scale);
+      }
+    }
+  EXPECT_GE(n_negative, 4u);
 }
 
 /** u_Nt - w_t vanishes where all Gauss points stick, unless nothing is corrected. */
@@ -448,7 +580,8 @@ TEST(SlipCorrection, TakesAwayTheSlipOfStickingFaces)
     const RandomMesh mesh(scene, 3, 3, 3, 6);
     const Laboratory lab(scene, mesh);
     const Solution<2> solution = lab.solve();
-    const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution));
+    const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                 AdmissiblePressure<2>(solution));
     ASSERT_GT(sum(slip.energy()), 0.);
     Vector<double> rest(solution.u);
     rest -= correction(slip, lab);
@@ -457,7 +590,8 @@ TEST(SlipCorrection, TakesAwayTheSlipOfStickingFaces)
       bool sticks = true;
       for (unsigned int i = 0; i < face.n_multipliers; ++i)
         sticks = sticks && std::abs(solution.z[face.first_multiplier + i]) < 0.299;
-      const EdgePolynomial v = tangential_trace(face, lab.displacement_space, lab.tables, rest);
+      const EdgePolynomial v =
+          edge_trace(face, face.frame(0.5).tangent, lab.displacement_space, lab.tables, rest);
       for (const double s : {0., 0.2, 0.7, 1.})
         EXPECT_LE(sticks * std::abs(v(s)), 1e-14 * solution.u.linfty_norm());
       n_sticking += sticks;
@@ -484,7 +618,8 @@ TEST(SlipCorrection, IsOfTheSizeOfTheErrorSquared)
           {
             const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
             const SlipCorrection<2> slip(step.solution, discretisation,
-                                         AdmissibleFriction<2>(step.solution));
+                                         AdmissibleFriction<2>(step.solution),
+                                         AdmissiblePressure<2>(step.solution));
             const double error = step.errors.energy * step.errors.energy;
             EXPECT_LT(slip.total(), factor * error);
             EXPECT_GT(2. * sum(slip.uncorrected_gap()), 4. * error); // what it takes away
@@ -519,8 +654,9 @@ TEST(SlipCorrection, BoundsTheErrorTogetherWithAStress)
               step.solution,
               [&](const unsigned int face, const unsigned int end)
               { return friction.part(face, end).coefficients(); },
-              cache);
-          const SlipCorrection<2> slip(step.solution, discretisation, friction);
+              {}, cache);
+          const SlipCorrection<2> slip(step.solution, discretisation, friction,
+                                       AdmissiblePressure<2>(step.solution));
           const double effectivity =
               std::sqrt(sum(stress.squares) + slip.total()) / step.errors.energy;
           EXPECT_GT(effectivity, 1.);

@@ -327,7 +327,7 @@ TEST(MacroStresses, AreAdmissible)
   const Solution<2> solution = lab.solve();
   EquilibrationCache cache;
   const EquilibratedStress stress(
-      solution, [](unsigned int, unsigned int) { return std::vector<double>(); }, cache);
+      solution, [](unsigned int, unsigned int) { return std::vector<double>(); }, {}, cache);
   ASSERT_TRUE(stress.has_macro_cells());
   double largest = 0, jump = 0, neumann = 0, divergence = 0;
   const auto traction = [&](const StressEdge &edge, const StressEdge::Side &side, const double s)

@@ -29,7 +29,8 @@ namespace hpvi
  * circle about the centre (Horgan and Payne; proof by Costabel and Dauge, arXiv:1303.6141).
  *
  * Prescribed displacements u_D outside V_N: `d = (u_D - u_N)(t) (1 - n)^q` in the cells at the boundary,
- * n from 0 there to 1 on the opposite edge in the reference cell, with the best q up to 60. u_D is read at the Gauss-Lobatto points of a
+ * n from 0 there to 1 on the opposite edge in the reference cell, with the best q up to 60; likewise what the
+ * interpolation I at the nodes of V_N misses of a gap, `u_0 - I u_0` along the normal. Both are read at the Gauss-Lobatto points of a
  * polynomial of degree p + 12 on each edge.
  */
 class DataError
@@ -39,6 +40,9 @@ public:
 
   std::vector<double> oscillation; ///< of loads, by active cell index: to be added to |s - sigma|_K
   double lift = 0;                 ///< |d|_a
+  double lift_work = 0;            ///< int s n . d over the boundary [stress length^dim]
+  double unread =
+      0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
 };
 } // namespace hpvi
 

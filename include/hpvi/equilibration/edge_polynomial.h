@@ -26,6 +26,8 @@ public:
 
   double operator()(double s) const;
 
+  EdgePolynomial operator+(const EdgePolynomial &other) const;
+
   std::vector<double> coefficients() const;
 
   double largest() const; ///< no less than the largest of its absolute values over [0,1]
@@ -45,10 +47,11 @@ private:
 /** L_0 to L_{n-1} at s. */
 dealii::Vector<double> legendre_basis(unsigned int n, double s);
 
-/** v_t along a contact face, for displacement unknowns v of the space. */
+/** v in one direction along a contact face, for displacement unknowns v of the space. */
 template <int dim>
-EdgePolynomial tangential_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
-                                const ShapeTables<dim> &tables, const dealii::Vector<double> &v);
+EdgePolynomial edge_trace(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
+                          const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+                          const dealii::Vector<double> &v);
 } // namespace hpvi
 
 #endif

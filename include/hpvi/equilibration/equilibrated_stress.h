@@ -11,7 +11,7 @@ namespace hpvi
 {
 /**
  * A stress s in equilibrium with the loads, `div s = -Pi F` and `s n = Pi G` where tractions are
- * given, with continuous tractions, and `s_t = -Pi (g lam*)` along the contact: the sum over all
+ * given, with continuous tractions, and `s_t = -Pi (g lam*)` along the contact, and a given s_n <= 0 where that is unilateral: the sum over all
  * vertices a of stresses near psi_a sigma(u_N), each the solution of a small problem on the patch of a
  * (DOI 10.1090/S0025-5718-07-02080-7 for the idea). These can be solved because u_N meets the discrete
  * equations for psi_a times any rigid motion, which takes p >= 2.
@@ -19,13 +19,14 @@ namespace hpvi
 class EquilibratedStress
 {
 public:
-  /**
-   * Legendre coefficients of a polynomial l on a contact face, from the end of the face whose hat
-   * function psi is 1 there: `lam* = sum psi l`.
-   */
-  using Friction = std::function<std::vector<double>(unsigned int face, unsigned int end)>;
+  /** Legendre coefficients of a polynomial on a contact face, that of one of its ends. */
+  using Parts = std::function<std::vector<double>(unsigned int face, unsigned int end)>;
 
-  EquilibratedStress(const Solution<2> &solution, const Friction &friction,
+  /**
+   * @p friction: l with `lam* = sum psi l`, psi the hat function that is 1 at the end; @p pressure: t with
+   * `s_n = -sum t` on faces with unilateral contact, which are not asked for elsewhere.
+   */
+  EquilibratedStress(const Solution<2> &solution, const Parts &friction, const Parts &pressure,
                      EquilibrationCache &cache);
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
@@ -100,7 +101,7 @@ private:
   void measure();
 
   const Solution<2> &solution;
-  const Friction friction;
+  const Parts friction, pressure;
   EquilibrationCache &cache;
   const VertexPatches vertex_patches;
   std::unique_ptr<const MacroStresses> macro_stresses; ///< or what follows, up to batches

@@ -12,17 +12,19 @@ namespace hpvi
 {
 /**
  * A guaranteed bound of the error of u_N against the solution u of the variational inequality. With a
- * stress s in equilibrium and friction -g lam*, |lam*| <= 1, along the contact,
+ * stress s in equilibrium, friction -g lam*, |lam*| <= 1, along the contact, and a pressure pi >= 0 where that
+ * is unilateral,
  *
  *     |u - u_N|_a <= O + (eta^2 + 2 gap(u_N - w) + (|w|_a + |d|_a + O)^2)^{1/2},
- *     eta = |s - sigma(u_N)| in energy,   gap(v) = int g (|v_t| - lam* v_t),
+ *     eta = |s - sigma(u_N)| in energy,   gap(v) = int g (|v_t| - lam* v_t) + int pi (u_0 - v_n),
  *
- * w from SlipCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. If u_N meets
- * prescribed displacements, its energy is above the least one by at most
+ * w from SlipCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. The energy
+ * of an admissible displacement, U = u_N + d, or u_N - w + d where contact is unilateral, is above the least
+ * one by at most
  *
- *     J(u_N) - J(u) <= eta^2/2 + gap(u_N)
+ *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + |w|_a + |d|_a + O)^2/2 + gap(u_N - w).
  *
- * and what oscillation adds. doc/bound.md proves both.
+ * doc/bound.md proves both.
  */
 struct ErrorBound
 {
@@ -31,7 +33,10 @@ struct ErrorBound
   double slip = 0;        ///< (2 gap(u_N - w) + |w|_a^2)^{1/2}
   double oscillation = 0; ///< O
   double data = 0;        ///< |d|_a
-  double energy = 0;      ///< of J(u_N) - J(u) [stress length^dim]
+  double energy = 0;      ///< of J(U) - J(u) [stress length^dim]
+
+  /** `J(u_N) - energy_below <= J(u) <= J(u_N) + energy_above`; u_N admissible: energy and 0. */
+  double energy_below = 0, energy_above = 0;
 
   /** By active cell: eta_K^2 and what oscillation and slip add; to mark by. */
   std::vector<double> squares;

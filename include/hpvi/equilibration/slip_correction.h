@@ -4,42 +4,53 @@
 
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/equilibration/admissible_pressure.h>
 
 #include <vector>
 
 namespace hpvi
 {
 /**
- * What friction adds to the bound of the error,
+ * What contact adds to the bound of the error,
  *
- *     |u - u_N|_a^2 <= |s - sigma(u_N)|^2 + 2 gap(u_N - w) + |w|_a^2,   gap(v) = int g (|v_t| - l* v_t),
+ *     |u - u_N|_a^2 <= |s - sigma(u_N)|^2 + 2 gap(u_N - w) + |w|_a^2,
+ *     gap(v) = int g (|v_t| - l* v_t) + int pi (u_0 - v_n),
  *
- * for a stress s in balance with the admissible friction g l*, and any w in V_N that vanishes where
- * displacements are prescribed, with w_n = 0 on contact. gap(u_N) alone would be of first order in u_Nt
- * where the body sticks and u_Nt oscillates.
+ * for a stress s in balance with the admissible friction g l* and pressure pi, and any w in V_N that vanishes where
+ * displacements are prescribed, with w_n = 0 on bilateral contact and u_Nn - w_n <= u_0 on unilateral. gap(u_N)
+ * alone would be of first order in u_Nt where the body sticks and u_Nt oscillates.
  *
- * Here w_t = u_Nt on faces that stick, and elsewhere w is one of these, whichever gives least: it has the
+ * Here w_t = u_Nt on faces that stick, w_n = u_Nn - u_0 on faces that press, and elsewhere w is one of these,
+ * whichever gives least: it has the
  * least energy; or it makes `2 gap + |w|_a^2` least while u_Nt - w_t keeps the direction of slip on faces
- * with both stick and slip and on slipping ones nearby. Or w = 0. It lives in the cells at the contact
- * boundary.
+ * with both stick and slip and on slipping ones nearby, and u_Nn - w_n stays below u_0. Or w = 0. What of
+ * u_Nn - w_n still exceeds u_0, read at the nodes of the faces (what it does between them is for DataError),
+ * goes by a piecewise linear w_n. It lives in the cells at the contact boundary.
  */
 template <int dim>
 class SlipCorrection
 {
 public:
   SlipCorrection(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-                 const AdmissibleFriction<dim> &friction);
+                 const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure);
 
   const std::vector<double> &gap() const; ///< of u_N - w, by contact face [stress length^dim]
   const std::vector<double> &uncorrected_gap() const; ///< of u_N
   const std::vector<double> &energy() const;          ///< |w|_a^2 by cell [stress length^dim]
   const dealii::Vector<double> &unknowns() const;     ///< w, as Unknowns counts them
 
+  /** J(u_N - w) - J(u_N), for u_N that solves the discrete problem [stress length^dim]. */
+  double energy_change() const;
+
+  bool fails() const; ///< Do supports keep u_N - w from being admissible?
+
   double total() const; ///< `2 gap(u_N - w) + |w|_a^2`
 
 private:
   std::vector<double> face_gaps, uncorrected, cell_energies;
   dealii::Vector<double> w;
+  double change = 0;
+  bool has_failed = false;
 };
 } // namespace hpvi
 

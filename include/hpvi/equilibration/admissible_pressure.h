@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_admissible_pressure_h
+#define hpvi_admissible_pressure_h
+
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/equilibration/edge_polynomial.h>
+#include <hpvi/stresses/legendre.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Pressure near that of the discrete solution which unilateral contact admits at every point, `pi >= 0`,
+ * and which is in balance patch by patch: the datum of an equilibrated stress. The discrete pressure is
+ * not negative at its points, but can be between them.
+ *
+ * On each face of degree p, for each of its ends a, there is a polynomial t_a of degree p, psi_a included, with
+ *
+ *     sum_f int t_a (alpha + beta s) = <z_n, psi_a (alpha + beta s)>_N   for all alpha and beta,
+ *     pi = t_a + t_b >= 0,
+ *
+ * over the one or two faces f at a that lie on one straight boundary, where < >_N is the product of the discrete
+ * equations. Where z_n allows it, t_a is the projection of psi_a z_n with these moments face by face. Else
+ * the faces of a neighbourhood, which grows until it is possible, share a quadratic program: least
+ *
+ *     h/(2 mu p) sum_a |t_a - psi_a z_n|^2 + 2 int pi (u_0 - u_Nn).
+ */
+template <int dim>
+class AdmissiblePressure
+{
+public:
+  explicit AdmissiblePressure(const Solution<dim> &solution);
+
+  /** t_a at end 0 or 1 of a face of ContactSpace::faces() [stress]; zero where none can press. */
+  const EdgePolynomial &part(unsigned int face, unsigned int end) const;
+
+  EdgePolynomial value(unsigned int face) const; ///< pi
+
+  /** Is there no admissible pressure that the method finds? Then pi is negative somewhere. */
+  bool fails() const;
+
+private:
+  std::vector<std::array<EdgePolynomial, 2>> parts; ///< by face and end
+  bool has_failed = false;
+};
+
+/** u_0 at s in [0,1] of a contact face; at an end where it jumps that of the face's own side [length]. */
+template <int dim>
+double gap_on_face(const ContactFace<dim> &face, double s);
+
+/** u_0 on a contact face, read at the Gauss-Lobatto nodes of its displacement [length]. */
+template <int dim>
+EdgePolynomial gap_at_nodes(const ContactFace<dim> &face, const ShapeTables<dim> &tables,
+                            const LegendreTables &legendre);
+} // namespace hpvi
+
+#endif
