@@ -26,6 +26,7 @@ struct Side
   FullMatrix<double> H;   ///< of 1/2 l'Hl - h'l, half of what is to be minimised
   Vector<double> h;
   EdgePolynomial l;
+  double missing = 0; ///< this face's share of the work that g l_a leaves undone
 
   /** 1 or -1 where no other l does the work of z_N; else 0. */
   double forced() const
@@ -88,7 +89,7 @@ template <int dim>
 Side FaceIntegrals<dim>::side(const unsigned int end) const
 {
   Side result{number, end, 0., 0., Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
-              {}};
+              {},     0.};
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0];
@@ -264,8 +265,8 @@ void shrink(const std::vector<Side *> &sides)
   }
 }
 
-/** Find l on the one or two sides of a patch; returns AdmissibleFriction::imbalance() of it. */
-double distribute(const std::vector<Side *> &sides)
+/** Find l on the one or two sides of a patch, and what work it leaves undone. */
+void distribute(const std::vector<Side *> &sides)
 {
   std::vector<Side *> free;
   double slip = 0;
@@ -284,16 +285,17 @@ double distribute(const std::vector<Side *> &sides)
       for (Side *side : sides)
         side->l = EdgePolynomial::constant(constant_part(sides));
   shrink(sides);
-  double difference = 0, limit = 0;
+  double missing = 0, limit = 0;
   for (const Side *side : sides)
   {
     const std::vector<double> coefficients = side->l.coefficients();
-    difference -= side->work;
+    missing += side->work;
     limit += side->limit;
     for (unsigned int i = 0; i < coefficients.size(); ++i)
-      difference += coefficients[i] * side->moments[i];
+      missing -= coefficients[i] * side->moments[i];
   }
-  return std::abs(difference) / limit;
+  for (Side *side : sides)
+    side->missing = missing * side->limit / limit;
 }
 
 /** Do the faces of two sides lie on one straight line? */
@@ -306,7 +308,7 @@ bool are_aligned(const Side &a, const Side &b, const std::vector<ContactFace<dim
 
 template <int dim>
 AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
-    : parts(solution.contact_space.faces().size())
+    : parts(solution.contact_space.faces().size()), missing(parts.size())
 {
   static_assert(dim == 2, "vertices of edges");
   const std::vector<ContactFace<dim>> &faces = solution.contact_space.faces();
@@ -322,12 +324,16 @@ AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
   for (auto &[vertex, around] : sides)
   {
     if (around.size() == 2 && are_aligned(around[0], around[1], faces))
-      largest_imbalance = std::max(largest_imbalance, distribute({&around[0], &around[1]}));
+      distribute({&around[0], &around[1]});
     else
       for (Side &side : around)
-        largest_imbalance = std::max(largest_imbalance, distribute({&side}));
+        distribute({&side});
     for (const Side &side : around)
+    {
       parts[side.face][side.end] = side.l;
+      missing[side.face][side.end] = side.missing;
+      largest_imbalance = std::max(largest_imbalance, std::abs(side.missing) / side.limit);
+    }
   }
 }
 
@@ -349,6 +355,35 @@ template <int dim>
 double AdmissibleFriction<dim>::imbalance() const
 {
   return largest_imbalance;
+}
+
+/** By the density `m (4 psi_a - 2 psi_b)/length`, which does the work m on psi_a and none on psi_b. */
+template <int dim>
+Vector<double> AdmissibleFriction<dim>::missing_forces(const Solution<dim> &solution) const
+{
+  Vector<double> result(solution.u.size());
+  for (unsigned int k = 0; k < missing.size(); ++k)
+  {
+    if (missing[k][0] == 0. && missing[k][1] == 0.)
+      continue;
+    const ContactFace<dim> &face = solution.contact_space.faces()[k];
+    const unsigned int n = face.degree + 1;
+    const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+    const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+    const std::vector<unsigned int> &on_edge =
+        solution.tables.numbering(face.degree).edge[face.face_no];
+    const FullMatrix<double> &shapes = solution.tables.edge(face.degree, face.n_points, n).shapes;
+    const QGauss<1> &gauss = solution.tables.gauss(n);
+    for (unsigned int q = 0; q < n; ++q)
+    {
+      const double s = gauss.point(q)[0], first = 4. - 6. * s, last = 6. * s - 2.,
+                   work = gauss.weight(q) * (missing[k][0] * first + missing[k][1] * last);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int j = 0; j < n; ++j)
+          result[dofs[on_edge[c * n + j]]] += work * shapes(q, j) * tangent[c];
+    }
+  }
+  return result;
 }
 
 template class AdmissibleFriction<2>;

@@ -410,8 +410,6 @@ public:
   Candidate of(const Vector<double> &w) const;
   /** The best one, from one that is known. */
   Candidate best(Candidate result) const;
-  /** J(u_N - w) - J(u_N) */
-  double energy_change(const Vector<double> &w) const;
 
 private:
   std::vector<Role> roles() const;
@@ -784,22 +782,6 @@ Candidate Search<dim>::best(Candidate result) const
     }
   return result;
 }
-
-/** The discrete equations say a(u_N, w) - L(w) = -<z, w>. */
-template <int dim>
-double Search<dim>::energy_change(const Vector<double> &w) const
-{
-  double result =
-      energy_product(discretisation.system.A, w) / 2. +
-      solution.z * solution.spaces->contact_operator.moments(discretisation.unknowns.expand(w));
-  for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    const auto work = [&](const EdgePolynomial &u_t)
-    { return friction_gap(faces[k], u_t, solution, [](double) { return 0.; }); };
-    result += work(traces[k].rest(w)) - work(EdgePolynomial(traces[k].u));
-  }
-  return result;
-}
 } // namespace
 
 template <int dim>
@@ -814,8 +796,6 @@ SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
   uncorrected = best.gaps;
   best = search.best(std::move(best));
   has_failed = !std::isfinite(best.total);
-  if (solution.scene.has_unilateral_contact())
-    change = search.energy_change(best.w);
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)
@@ -850,12 +830,6 @@ const std::vector<double> &SlipCorrection<dim>::energy() const
 }
 
 template <int dim>
-double SlipCorrection<dim>::energy_change() const
-{
-  return change;
-}
-
-template <int dim>
 bool SlipCorrection<dim>::fails() const
 {
   return has_failed;
@@ -873,5 +847,30 @@ double SlipCorrection<dim>::total() const
   return 2. * sum(face_gaps) + sum(cell_energies);
 }
 
+template <int dim>
+double energy_change(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                     const Vector<double> &v)
+{
+  const Vector<double> all = discretisation.unknowns.expand(v);
+  double result = energy_product(discretisation.system.A, v) / 2. -
+                  solution.z * solution.spaces->contact_operator.moments(all);
+  Vector<double> moved(solution.u);
+  moved += all;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  {
+    const auto work = [&](const Vector<double> &u)
+    {
+      return friction_gap(face,
+                          edge_trace(face, face.frame(0.5).tangent, solution.displacement_space,
+                                     solution.tables, u),
+                          solution, [](double) { return 0.; });
+    };
+    result += work(moved) - work(solution.u);
+  }
+  return result;
+}
+
 template class SlipCorrection<2>;
+template double energy_change(const Solution<2> &, const Discretisation<2> &,
+                              const Vector<double> &);
 } // namespace hpvi

@@ -44,13 +44,20 @@ public:
 
   /**
    * The largest of `|sum_f int g psi_a l_a - int psi_a z_N|`, relative to int psi_a g: above round-off
-   * only where z_N does more work than g lets it, because g varies between the Gauss points. No stress is
-   * in balance with l* then.
+   * only where z_N does more work than g lets it, because g varies between the Gauss points. No stress
+   * near sigma(u_N) is in balance with l* then.
    */
   double imbalance() const;
 
+  /**
+   * Forces on the displacement unknowns that do the work which g l* leaves undone,
+   * `int psi_a z_N - sum_f int g psi_a l_a` along the tangent, on each hat function.
+   */
+  dealii::Vector<double> missing_forces(const Solution<dim> &solution) const;
+
 private:
   std::vector<std::array<EdgePolynomial, 2>> parts; ///< by face and end
+  std::vector<std::array<double, 2>> missing;       ///< work, likewise
   double largest_imbalance = 0;
 };
 } // namespace hpvi

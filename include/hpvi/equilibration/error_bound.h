@@ -24,14 +24,15 @@ namespace hpvi
  *
  *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + |w|_a + |d|_a + O)^2/2 + gap(u_N - w).
  *
- * doc/bound.md proves both.
+ * Where the friction bound varies so much that no admissible friction is in balance with u_N, all this is of
+ * u_N + x, x the displacement by what is missing, and |x|_a comes to the bound. doc/bound.md proves both.
  */
 struct ErrorBound
 {
   double total = 0;       ///< of |u - u_N|_a, (stress length^dim)^{1/2}
   double stress = 0;      ///< eta
   double slip = 0;        ///< (2 gap(u_N - w) + |w|_a^2)^{1/2}
-  double oscillation = 0; ///< O
+  double oscillation = 0; ///< O, and how far u_N is moved for a friction bound that varies
   double data = 0;        ///< |d|_a
   double energy = 0;      ///< of J(U) - J(u) [stress length^dim]
 

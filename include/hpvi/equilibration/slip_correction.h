@@ -39,9 +39,6 @@ public:
   const std::vector<double> &energy() const;          ///< |w|_a^2 by cell [stress length^dim]
   const dealii::Vector<double> &unknowns() const;     ///< w, as Unknowns counts them
 
-  /** J(u_N - w) - J(u_N), for u_N that solves the discrete problem [stress length^dim]. */
-  double energy_change() const;
-
   bool fails() const; ///< Do supports keep u_N - w from being admissible?
 
   double total() const; ///< `2 gap(u_N - w) + |w|_a^2`
@@ -49,9 +46,16 @@ public:
 private:
   std::vector<double> face_gaps, uncorrected, cell_energies;
   dealii::Vector<double> w;
-  double change = 0;
   bool has_failed = false;
 };
+
+/**
+ * J(u_N + v) - J(u_N) [stress length^dim], v by its unknowns: u_N solves the discrete problem, where
+ * `a(u_N, v) - L(v) = -<z_N, v>`.
+ */
+template <int dim>
+double energy_change(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                     const dealii::Vector<double> &v);
 } // namespace hpvi
 
 #endif
