@@ -33,19 +33,22 @@ std::array<double, 4> bilinear(const std::array<double, 4> &v)
 template <unsigned int n_components>
 Modes<n_components> times(const unsigned int variable, const Modes<n_components> &modes)
 {
-  Modes<n_components> result(modes.n);
-  for (unsigned int k = 0; k < n_components; ++k)
-    for (unsigned int i = 0; i < modes.n; ++i)
-      for (unsigned int j = 0; j < modes.n; ++j)
+  const unsigned int n = modes.n, step = variable == 0 ? n : 1, other_step = n + 1 - step;
+  Modes<n_components> result(n);
+  for (unsigned int power = 0; power + 1 < n; ++power)
+  {
+    const double shift = legendre::shift(power + 1);
+    for (unsigned int k = 0; k < n_components; ++k)
+    {
+      const double *const from = &modes.components[k][power * step];
+      double *const to = &result.components[k][power * step];
+      for (unsigned int i = 0; i < n * other_step; i += other_step)
       {
-        const unsigned int power = variable == 0 ? i : j;
-        const unsigned int up_i = i + (variable == 0), up_j = j + (variable == 1);
-        if (power + 1 < modes.n)
-        {
-          result(k, up_i, up_j) += legendre::shift(power + 1) * modes(k, i, j);
-          result(k, i, j) += legendre::shift(power + 1) * modes(k, up_i, up_j);
-        }
+        to[i + step] += shift * from[i];
+        to[i] += shift * from[i + step];
       }
+    }
+  }
   return result;
 }
 
@@ -569,6 +572,7 @@ void EquilibratedStress::measure()
   for (const auto &[element, batch] : batches)
   {
     std::vector<double> R;
+    R.reserve(std::size_t(element->n_data) * batch.cells.size());
     for (const unsigned int index : batch.cells)
     {
       const std::vector<double> r = data_of(index);

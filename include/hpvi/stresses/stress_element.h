@@ -120,7 +120,10 @@ private:
   void factorise();
   std::vector<double> corner_amplitudes(const Modes<3> &stress, const Modes<3> &q) const;
   Modes<3> nearest(const Modes<3> &stress, std::vector<double> &amplitudes) const;
+  void subtract_data(const Modes<3> &q, double *r) const;
   Modes<3> inverse_compliance(const Modes<3> &moments) const;
+  void set_nearest(unsigned int i, unsigned int j, const std::array<double, 3> &moments,
+                   Modes<3> &result) const;
   Modes<3> moments(const Modes<3> &stress) const;
 
   /** The additional stress of a marked corner. */
