@@ -174,6 +174,8 @@ double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress
       for (unsigned int j = 0; j < i; ++j)
         slope[c][j] += 2 * legendre::derivative(i, j) * delta[c][i]; // by s in [0,1]
   }
+  if (delta[0].all_zero() && delta[1].all_zero())
+    return 0.;
   if (!map.is_affine())
     return distorted_energy(map, face, delta, slope,
                             HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);

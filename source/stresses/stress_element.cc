@@ -282,10 +282,9 @@ void StressElement::add_corner_stress(const unsigned int corner)
   for (unsigned int k = 0; k < n; ++k)
   {
     double energy = energies[k];
-    for (unsigned int c = 0; c < 3; ++c)
-      energy -= std::inner_product(corners[k].nearest.components[c].begin(),
-                                   corners[k].nearest.components[c].end(),
-                                   result.moments.components[c].begin(), 0.);
+    energy -= std::inner_product(corners[k].nearest.coefficients.begin(),
+                                 corners[k].nearest.coefficients.end(),
+                                 result.moments.coefficients.begin(), 0.);
     enlarged[k * n + n - 1] = enlarged[(n - 1) * n + k] = energy;
   }
   corner_energy = enlarged;
@@ -508,7 +507,7 @@ void StressElement::subtract_data(const Modes<3> &q, double *const r) const
       for (unsigned int i = n_across; i-- > 0;)
       {
         const double root = legendre::root(i);
-        const double *const from = &q.components[component][i * q_across];
+        const double *const from = &q.coefficients[component * q.n * q.n + i * q_across];
         double *const to = target + i * t_across;
         std::vector<double> &same = sums[i % 2], &other = sums[1 - i % 2];
         if (i + 1 < n_across)
@@ -578,14 +577,13 @@ StressElement::Stress StressElement::stress(const Modes<3> &stress, const double
     more[c] = std::inner_product(y.begin(), y.end(), corners[c].data.begin(), 0.);
   for (const char op : {'N', 'T'})
     solve_triangular(op, n, 1, {corner_energy.data(), n}, more.data(), n);
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < result.modes.components[k].size(); ++i)
-    {
-      result.modes.components[k][i] += added.components[k][i];
-      for (unsigned int c = 0; c < n; ++c)
-        result.modes.components[k][i] -=
-            (amplitudes[c] + more[c]) * corners[c].nearest.components[k][i];
-    }
+  for (unsigned int i = 0; i < result.modes.coefficients.size(); ++i)
+  {
+    result.modes.coefficients[i] += added.coefficients[i];
+    for (unsigned int c = 0; c < n; ++c)
+      result.modes.coefficients[i] -=
+          (amplitudes[c] + more[c]) * corners[c].nearest.coefficients[i];
+  }
   for (unsigned int c = 0; c < n; ++c)
     result.corners.emplace_back(corners[c].corner, amplitudes[c] + more[c]);
   return result;

@@ -17,23 +17,21 @@ namespace hpvi
 template <unsigned int n_components>
 struct Modes
 {
-  explicit Modes(const unsigned int n = 0) : n(n)
+  explicit Modes(const unsigned int n = 0) : n(n), coefficients(n_components * n * n)
   {
-    for (auto &c : components)
-      c.assign(n * n, 0.);
   }
 
   double &operator()(const unsigned int k, const unsigned int i, const unsigned int j)
   {
-    return components[k][i * n + j];
+    return coefficients[(k * n + i) * n + j];
   }
   double operator()(const unsigned int k, const unsigned int i, const unsigned int j) const
   {
-    return components[k][i * n + j];
+    return coefficients[(k * n + i) * n + j];
   }
 
   unsigned int n;
-  std::array<std::vector<double>, n_components> components;
+  std::vector<double> coefficients; ///< of one component after the other, j fastest
 };
 
 /**
