@@ -63,7 +63,7 @@ PivotedCholesky::PivotedCholesky(const unsigned int n, std::vector<double> A,
       columns.push_back(A[pivot * n + i] / std::sqrt(diagonal));
     const double *const column = &columns[columns.size() - n];
     for (const unsigned int j : left)
-      for (const unsigned int i : left)
+      for (unsigned int i = 0; i < n; ++i) // those of order too, which nothing reads again
         A[j * n + i] -= column[i] * column[j];
   }
   const unsigned int rank = order.size();

@@ -205,6 +205,8 @@ MissedDisplacement missed_displacement(const Solution<2> &solution,
     }
     for (unsigned int i = 0; i <= p; ++i)
       result.value[c][i] -= coarse[i];
+    if (result.value[c].linfty_norm() <= 1e-14 * at_nodes.linfty_norm())
+      result.value[c] = 0.; // round-off
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < i; ++j)
         result.slope[c][j] += 2 * legendre::derivative(i, j) * result.value[c][i];
@@ -238,6 +240,8 @@ double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress
   const auto &iterator = stress.patches().cells()[edge.sides[0].cell].iterator;
   const CellMap<2> map = map_of<2>(iterator);
   const auto &[delta, slope, unread] = missed;
+  if (delta[0].all_zero() && delta[1].all_zero())
+    return 0.;
   if (!map.is_affine())
     return distorted_energy(map, face, delta, slope,
                             HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);

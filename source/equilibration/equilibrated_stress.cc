@@ -33,19 +33,22 @@ std::array<double, 4> bilinear(const std::array<double, 4> &v)
 template <unsigned int n_components>
 Modes<n_components> times(const unsigned int variable, const Modes<n_components> &modes)
 {
-  Modes<n_components> result(modes.n);
-  for (unsigned int k = 0; k < n_components; ++k)
-    for (unsigned int i = 0; i < modes.n; ++i)
-      for (unsigned int j = 0; j < modes.n; ++j)
+  const unsigned int n = modes.n, step = variable == 0 ? n : 1, other_step = n + 1 - step;
+  Modes<n_components> result(n);
+  for (unsigned int power = 0; power + 1 < n; ++power)
+  {
+    const double shift = legendre::shift(power + 1);
+    for (unsigned int k = 0; k < n_components; ++k)
+    {
+      const double *const from = &modes.coefficients[k * n * n + power * step];
+      double *const to = &result.coefficients[k * n * n + power * step];
+      for (unsigned int i = 0; i < n * other_step; i += other_step)
       {
-        const unsigned int power = variable == 0 ? i : j;
-        const unsigned int up_i = i + (variable == 0), up_j = j + (variable == 1);
-        if (power + 1 < modes.n)
-        {
-          result(k, up_i, up_j) += legendre::shift(power + 1) * modes(k, i, j);
-          result(k, i, j) += legendre::shift(power + 1) * modes(k, up_i, up_j);
-        }
+        to[i + step] += shift * from[i];
+        to[i] += shift * from[i + step];
       }
+    }
+  }
   return result;
 }
 
@@ -444,24 +447,24 @@ void EquilibratedStress::set_data()
       const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma),
                      times_both = times(1, times_xi);
       double *column = &batch.r[std::size_t(n) * cells[index].first_column];
+      Modes<3> product(sigma.n);
+      Modes<2> divergence(sigma.n);
+      const unsigned int size = sigma.n * sigma.n;
       for (const VertexPatches::Hat &hat : vertex_patches.cells()[index].hats)
       {
         const std::array<double, 4> c = bilinear(hat.values);
-        Modes<3> product(sigma.n);
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int i = 0; i < sigma.components[k].size(); ++i)
-            product.components[k][i] =
-                c[0] * sigma.components[k][i] + c[1] * times_xi.components[k][i] +
-                c[2] * times_eta.components[k][i] + c[3] * times_both.components[k][i];
-        Modes<2> divergence(sigma.n);
+        for (unsigned int i = 0; i < product.coefficients.size(); ++i)
+          product.coefficients[i] = c[0] * sigma.coefficients[i] + c[1] * times_xi.coefficients[i] +
+                                    c[2] * times_eta.coefficients[i] +
+                                    c[3] * times_both.coefficients[i];
         for (unsigned int k = 0; k < 2; ++k)
-          for (unsigned int i = 0; i < divergence.components[k].size(); ++i)
-          {
-            const unsigned int x = k == 0 ? 0 : 2, y = k == 0 ? 2 : 1;
-            divergence.components[k][i] =
-                c[1] * sigma.components[x][i] + c[3] * times_eta.components[x][i] +
-                c[2] * sigma.components[y][i] + c[3] * times_xi.components[y][i];
-          }
+        {
+          const unsigned int x = k == 0 ? 0 : 2 * size, y = k == 0 ? 2 * size : size;
+          for (unsigned int i = 0; i < size; ++i)
+            divergence.coefficients[k * size + i] =
+                c[1] * sigma.coefficients[x + i] + c[3] * times_eta.coefficients[x + i] +
+                c[2] * sigma.coefficients[y + i] + c[3] * times_xi.coefficients[y + i];
+        }
         add(divergence, load(index, hat.values));
         element->residual(product, divergence, column);
         column += n;
@@ -495,27 +498,34 @@ void EquilibratedStress::solve_patches()
   for (const StressEdge &edge : vertex_patches.edges())
     sums.push_back(
         {{std::vector<double>(edge.components[0].n), std::vector<double>(edge.components[1].n)}});
+  std::vector<PatchCell> patch;
+  std::vector<PatchEdge> edges;
   for (const auto &[vertex, hats] : vertex_patches.patches())
   {
-    std::vector<PatchCell> patch;
-    std::map<unsigned int, PatchEdge> edges;
+    patch.clear();
+    edges.clear();
     for (const auto &[index, hat] : hats)
     {
       patch.push_back(patch_cell(index, hat));
-      for (const unsigned int e : vertex_patches.cells()[index].edges)
+      const VertexPatches::Cell &cell = vertex_patches.cells()[index];
+      const std::array<double, 4> &psi = cell.hats[hat].values;
+      for (unsigned int face = 0; face < 4; ++face)
       {
+        const unsigned int e = cell.edges[face];
+        const bool first = psi[vertex_of_face[face][0]] != 0;
         const StressEdge &edge = vertex_patches.edges()[e];
-        const bool first = vertex_patches.hat(vertex, edge.vertices[0]) != 0;
-        if (first || vertex_patches.hat(vertex, edge.vertices[1]) != 0)
-          edges.emplace(e, PatchEdge{&edge, edge.at_boundary() ? known[e][first ? 0 : 1]
-                                                               : decltype(PatchEdge::traction)()});
+        if (first || psi[vertex_of_face[face][1]] != 0) // linear along an edge that hangs here
+          edges.push_back(
+              {e, &edge, edge.at_boundary() ? &known[e][first ? 0 : 1] : nullptr, &sums[e]});
       }
     }
+    std::sort(edges.begin(), edges.end(),
+              [](const PatchEdge &a, const PatchEdge &b) { return a.index < b.index; });
+    edges.erase(std::unique(edges.begin(), edges.end(),
+                            [](const PatchEdge &a, const PatchEdge &b)
+                            { return a.index == b.index; }),
+                edges.end());
     defect = std::max(defect, solve_patch(patch, edges, cache));
-    for (const auto &[e, edge] : edges)
-      for (unsigned int c = 0; c < 2; ++c)
-        for (unsigned int i = 0; i < sums[e][c].size(); ++i)
-          sums[e][c][i] += edge.traction[c][i];
   }
   double largest = 0;
   for (const auto &edge : sums)
@@ -579,6 +589,7 @@ void EquilibratedStress::measure()
   for (const auto &[element, batch] : batches)
   {
     std::vector<double> R;
+    R.reserve(std::size_t(element->n_data) * batch.cells.size());
     for (const unsigned int index : batch.cells)
     {
       const std::vector<double> r = data_of(index);

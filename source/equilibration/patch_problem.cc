@@ -21,21 +21,21 @@ struct Block
   double weight;                    ///< of the component in the direction of the data
   const FullMatrix<double> *R;      ///< to a half of the edge; null: the whole
   unsigned int unknown;             ///< the first, or none
-  const std::vector<double> *known; ///< coefficients
+  const std::vector<double> *known; ///< coefficients, where there is no unknown
 };
 
 class PatchProblem
 {
 public:
-  PatchProblem(const std::vector<PatchCell> &cells, std::map<unsigned int, PatchEdge> &edges,
+  PatchProblem(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
                EquilibrationCache &cache)
-      : cells(cells), edges(edges), cache(cache)
+      : cells(cells), edges(edges), cache(cache), first_unknown(edges.size())
   {
-    for (auto &[index, edge] : edges)
+    for (unsigned int e = 0; e < edges.size(); ++e)
       for (unsigned int c = 0; c < 2; ++c)
       {
-        const StressEdge::Component &component = edge.edge->components[c];
-        first_unknown[index][c] = component.is_unknown ? n : none;
+        const StressEdge::Component &component = edges[e].edge->components[c];
+        first_unknown[e][c] = component.is_unknown ? n : none;
         n += component.is_unknown ? component.n : 0;
       }
     for (const PatchCell &cell : cells)
@@ -45,6 +45,7 @@ public:
   double solve();
 
 private:
+  unsigned int place(unsigned int edge) const;
   std::vector<Block> blocks_of(const PatchCell &cell) const;
   EquilibrationCache::Signature signature() const;
   void factorise(PatchFactor &factor) const;
@@ -54,22 +55,32 @@ private:
                 std::vector<double> &g, std::vector<double> &right) const;
 
   const std::vector<PatchCell> &cells;
-  std::map<unsigned int, PatchEdge> &edges;
+  const std::vector<PatchEdge> &edges;
   EquilibrationCache &cache;
-  std::map<unsigned int, std::array<unsigned int, 2>> first_unknown;
-  std::vector<std::vector<Block>> blocks; ///< by cell
+  std::vector<std::array<unsigned int, 2>> first_unknown; ///< by edge of the patch and component
+  std::vector<std::vector<Block>> blocks;                 ///< by cell
   unsigned int n = 0;
 };
+
+/** Of an edge of the mesh among those of the patch, or none. */
+unsigned int PatchProblem::place(const unsigned int edge) const
+{
+  for (unsigned int e = 0; e < edges.size(); ++e)
+    if (edges[e].index == edge)
+      return e;
+  return none;
+}
 
 std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
 {
   std::vector<Block> result;
+  result.reserve(8);
   for (unsigned int face = 0; face < 4; ++face)
   {
-    const auto found = edges.find(cell.cell->edges[face]);
-    if (found == edges.end())
+    const unsigned int e = place(cell.cell->edges[face]);
+    if (e == none)
       continue;
-    const StressEdge &edge = *found->second.edge;
+    const StressEdge &edge = *edges[e].edge;
     const unsigned int part = cell.cell->parts[face];
     for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int row = 0; row < 2; ++row)
@@ -78,10 +89,9 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
         const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
         if (std::abs(weight) < 1e-12)
           continue;
-        const unsigned int unknown = first_unknown.at(found->first)[c];
         result.push_back({cell.element.edge_entry(face, row), component.n, weight,
                           part == whole_edge ? nullptr : &cache.legendre.half(component.n, part),
-                          unknown, &found->second.traction[c]});
+                          first_unknown[e][c], edges[e].known ? &(*edges[e].known)[c] : nullptr});
       }
   }
   return result;
@@ -91,24 +101,21 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
 EquilibrationCache::Signature PatchProblem::signature() const
 {
   EquilibrationCache::Signature key;
-  std::map<unsigned int, unsigned int> order;
-  for (const auto &[index, edge] : edges)
-  {
-    order.emplace(index, order.size());
+  key.reserve(4 * edges.size() + 6 * cells.size());
+  for (const PatchEdge &edge : edges)
     for (const StressEdge::Component &component : edge.edge->components)
     {
       key.push_back(component.is_unknown ? component.n : 0);
       key.push_back(std::lround(1e11 * (component.direction * edge.edge->normal)));
     }
-  }
   for (const PatchCell &cell : cells)
   {
     key.push_back(reinterpret_cast<long>(cell.element.G.entries));
     key.push_back(std::lround(1e6 * std::log2(cell.area / cells[0].area)));
     for (unsigned int face = 0; face < 4; ++face)
     {
-      const auto found = order.find(cell.cell->edges[face]);
-      key.push_back(found == order.end() ? -1 : 4 * found->second + (cell.cell->parts[face] + 1));
+      const unsigned int e = place(cell.cell->edges[face]);
+      key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
     }
   }
   return key;
@@ -165,6 +172,10 @@ void PatchProblem::factorise(PatchFactor &factor) const
 {
   factor.n = n;
   factor.H.assign(std::size_t(n) * n, 0.);
+  unsigned int n_all = 0;
+  for (const PatchCell &cell : cells)
+    n_all += cell.element.n_conditions;
+  factor.conditions.reserve(std::size_t(n) * n_all);
   for (unsigned int k = 0; k < cells.size(); ++k)
     add_energy(cells[k], blocks[k], cells[k].area / cells[0].area, factor);
   AssertThrow(cholesky(n, factor.H.data(), n), ExcInternalError());
@@ -183,25 +194,26 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
 {
   const TractionEnergy &element = cell.element;
   const unsigned int n_edges = element.n_edges(), n_conditions = element.n_conditions;
-  std::vector<double> known(n_edges), gradient(cell.gradient, cell.gradient + n_edges),
-      defect(cell.defect, cell.defect + n_conditions);
-  bool has_known = false;
+  const double *gradient = cell.gradient, *defect = cell.defect;
+  std::vector<double> known, changed_gradient, changed_defect;
   for (const Block &b : parts)
     if (b.unknown == none)
       for (unsigned int i = 0; i < b.n; ++i)
-      {
-        double value = b.R ? 0. : (*b.known)[i];
-        for (unsigned int l = 0; b.R && l < b.n; ++l)
-          value += (*b.R)(i, l) * (*b.known)[l];
-        known[b.row + i] += b.weight * value;
-        has_known = has_known || value != 0.;
-      }
-  if (has_known)
+        if ((*b.known)[i] != 0.) // edges of the boundary do not hang
+        {
+          known.resize(n_edges);
+          known[b.row + i] += b.weight * (*b.known)[i];
+        }
+  if (!known.empty())
   {
+    changed_gradient.assign(gradient, gradient + n_edges);
+    changed_defect.assign(defect, defect + n_conditions);
     multiply('N', 'N', n_edges, 1, n_edges, 1., element.G, {known.data(), n_edges}, 1.,
-             gradient.data(), n_edges);
+             changed_gradient.data(), n_edges);
     multiply('T', 'N', n_conditions, 1, n_edges, 1., element.N, {known.data(), n_edges}, 1.,
-             defect.data(), n_conditions);
+             changed_defect.data(), n_conditions);
+    gradient = changed_gradient.data();
+    defect = changed_defect.data();
   }
   for (const Block &b : parts)
     for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
@@ -211,8 +223,8 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
         sum += (*b.R)(l, i) * gradient[b.row + l];
       g[b.unknown + i] += scale * b.weight * sum;
     }
-  for (const double value : defect)
-    right.push_back(-value);
+  for (unsigned int k = 0; k < n_conditions; ++k)
+    right.push_back(-defect[k]);
 }
 
 double PatchProblem::solve()
@@ -239,10 +251,15 @@ double PatchProblem::solve()
   solve_triangular('T', n, 1, {factor.H.data(), n}, x.data(), n);
   multiply('T', 'N', m, 1, n, -1., {factor.conditions.data(), n}, {x.data(), n}, 1., right.data(),
            m);
-  for (auto &[index, edge] : edges)
+  for (unsigned int e = 0; e < edges.size(); ++e)
     for (unsigned int c = 0; c < 2; ++c)
-      if (const unsigned int first = first_unknown[index][c]; first != none)
-        edge.traction[c].assign(x.begin() + first, x.begin() + first + edge.edge->components[c].n);
+    {
+      const unsigned int first = first_unknown[e][c];
+      const double *const found = first == none ? (*edges[e].known)[c].data() : &x[first];
+      std::vector<double> &sum = (*edges[e].sum)[c];
+      for (unsigned int i = 0; i < sum.size(); ++i)
+        sum[i] += found[i];
+    }
   double largest = 0;
   for (const double value : right)
     largest = std::max(largest, std::abs(value));
@@ -283,7 +300,7 @@ TractionEnergy traction_energy(const MacroStressElement &element)
           {element.conditions().data(), element.n_edges}};
 }
 
-double solve_patch(const std::vector<PatchCell> &cells, std::map<unsigned int, PatchEdge> &edges,
+double solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
                    EquilibrationCache &cache)
 {
   return PatchProblem(cells, edges, cache).solve();

@@ -131,13 +131,6 @@ void VertexPatches::set_hats(const Solution<2> &solution)
   }
 }
 
-double VertexPatches::hat(const unsigned int a, const unsigned int v) const
-{
-  const auto &at_vertex = values.at(v);
-  const auto found = at_vertex.find(a);
-  return found == at_vertex.end() ? 0. : found->second;
-}
-
 const std::vector<StressEdge> &VertexPatches::edges() const
 {
   return all_edges;

@@ -20,17 +20,13 @@ std::vector<double> legendre::values(const unsigned int n, const double x)
   return P;
 }
 
-double legendre::root(const unsigned int i)
+const std::array<double, legendre::n_roots> legendre::roots = []
 {
-  static const auto table = []
-  {
-    std::array<double, 128> roots;
-    for (unsigned int k = 0; k < roots.size(); ++k)
-      roots[k] = std::sqrt(2. * k + 1);
-    return roots;
-  }();
-  return table[i];
-}
+  std::array<double, n_roots> result;
+  for (unsigned int i = 0; i < n_roots; ++i)
+    result[i] = std::sqrt(2. * i + 1);
+  return result;
+}();
 
 double legendre::shift(const unsigned int i)
 {

@@ -215,14 +215,18 @@ Modes<3> StressElement::inverse_compliance(const Modes<3> &moments) const
   Modes<3> result(m + 1);
   for (unsigned int i = 0; i <= m; ++i)
     for (unsigned int j = 0; j <= m; ++j)
-    {
-      const unsigned int bits = has(0, i, j) + 2 * has(1, i, j) + 4 * has(2, i, j);
-      if (bits != 0)
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int l = 0; l < 3; ++l)
-            result(k, i, j) += inverses[bits][k][l] * moments(l, i, j);
-    }
+      set_nearest(i, j, {{moments(0, i, j), moments(1, i, j), moments(2, i, j)}}, result);
   return result;
+}
+
+/** A mode from its moments, with the components that exist. */
+void StressElement::set_nearest(const unsigned int i, const unsigned int j,
+                                const Components &moments, Modes<3> &result) const
+{
+  const unsigned int bits = has(0, i, j) + 2 * has(1, i, j) + 4 * has(2, i, j);
+  for (unsigned int k = 0; bits != 0 && k < 3; ++k)
+    for (unsigned int l = 0; l < 3; ++l)
+      result(k, i, j) += inverses[bits][k][l] * moments[l];
 }
 
 void StressElement::add_corner_stress(const unsigned int corner)
@@ -278,10 +282,9 @@ void StressElement::add_corner_stress(const unsigned int corner)
   for (unsigned int k = 0; k < n; ++k)
   {
     double energy = energies[k];
-    for (unsigned int c = 0; c < 3; ++c)
-      energy -= std::inner_product(corners[k].nearest.components[c].begin(),
-                                   corners[k].nearest.components[c].end(),
-                                   result.moments.components[c].begin(), 0.);
+    energy -= std::inner_product(corners[k].nearest.coefficients.begin(),
+                                 corners[k].nearest.coefficients.end(),
+                                 result.moments.coefficients.begin(), 0.);
     enlarged[k * n + n - 1] = enlarged[(n - 1) * n + k] = energy;
   }
   corner_energy = enlarged;
@@ -451,11 +454,84 @@ std::vector<double> StressElement::corner_amplitudes(const Modes<3> &stress,
   return result;
 }
 
+/** Where all components exist, that is the stress itself. */
 Modes<3> StressElement::nearest(const Modes<3> &stress, std::vector<double> &amplitudes) const
 {
-  const Modes<3> right = moments(stress);
-  amplitudes = corner_amplitudes(stress, right);
-  return inverse_compliance(right);
+  if (!corners.empty())
+    amplitudes = corner_amplitudes(stress, moments(stress));
+  Modes<3> result(m + 1);
+  const unsigned int n = std::min(stress.n, m + 1);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      const Components s{{stress(0, i, j), stress(1, i, j), stress(2, i, j)}};
+      if (std::max(i, j) + 2 <= m)
+        for (unsigned int k = 0; k < 3; ++k)
+          result(k, i, j) = s[k];
+      else if (s[0] != 0. || s[1] != 0. || s[2] != 0.)
+      {
+        Components e{};
+        for (unsigned int k = 0; k < 3; ++k)
+          for (unsigned int l = 0; l < 3 && has(k, i, j); ++l)
+            e[k] += compliance[k][l] * s[l];
+        set_nearest(i, j, e, result);
+      }
+    }
+  return result;
+}
+
+/**
+ * r -= A q, the data of a stress as for_each_datum() has them: since `L_i' = root(i) sum root(a) L_a` over
+ * a = i-1, i-3, ..., sums over the even and the odd modes from the highest one down are all it takes.
+ */
+void StressElement::subtract_data(const Modes<3> &q, double *const r) const
+{
+  double *const first = r, *const second = r + m * (m - 1);
+  for (const unsigned int component : {0, 1, 2})
+    for (const unsigned int along_xi : {0, 1}) // derivative by xi (0) or eta (1)
+    {
+      if (component == 1 - along_xi)
+        continue;
+      // Modes `across` of the variable of the derivative, `along` of the other one.
+      const unsigned int n_across = component == 2 ? m : m + 1,
+                         n_along = component == 2 ? m : m - 1;
+      const unsigned int q_across = along_xi ? 1 : m + 1, q_along = along_xi ? m + 1 : 1;
+      // xx and yy stand in their own equation, xy in the other one.
+      const bool is_first = (component == 2) == bool(along_xi);
+      const unsigned int row = is_first ? m - 1 : m;
+      double *const target = is_first ? first : second;
+      const unsigned int t_across = along_xi ? 1 : row, t_along = along_xi ? row : 1;
+      std::array<std::vector<double>, 2> sums;
+      for (auto &sum : sums)
+        sum.assign(n_along, 0.);
+      for (unsigned int i = n_across; i-- > 0;)
+      {
+        const double root = legendre::root(i);
+        const double *const from = &q.coefficients[component * q.n * q.n + i * q_across];
+        double *const to = target + i * t_across;
+        std::vector<double> &same = sums[i % 2], &other = sums[1 - i % 2];
+        if (i + 1 < n_across)
+          for (unsigned int j = 0; j < n_along; ++j)
+            to[j * t_along] -= root * other[j];
+        for (unsigned int j = 0; j < n_along; ++j)
+          same[j] += root * from[j * q_along];
+      }
+      const auto &T = traction[along_xi];
+      for (const unsigned int side : {0, 1})
+        for (unsigned int j = 0; j < n_along; ++j)
+        {
+          const double end =
+              0.70710678118654752440 * (sums[0][j] + (side == 0 ? -sums[1][j] : sums[1][j]));
+          double *const edge = r + n_divergence + edge_entry(2 * along_xi + side, 0);
+          if (component == 2)
+            edge[n_normal + j] -= T[2] * end;
+          else
+          {
+            edge[j] -= T[0] * end;
+            edge[n_normal + j] -= T[1] * end;
+          }
+        }
+    }
 }
 
 void StressElement::residual(const Modes<3> &stress, const Modes<2> &divergence,
@@ -472,13 +548,7 @@ void StressElement::residual(const Modes<3> &stress, const Modes<2> &divergence,
         r[m * (m - 1) + i * m + j] = divergence(1, i, j);
     }
   std::vector<double> amplitudes;
-  const Modes<3> q = nearest(stress, amplitudes);
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i <= m; ++i)
-      for (unsigned int j = 0; j <= m; ++j)
-        if (const double mode = q(k, i, j))
-          for_each_datum(
-              k, i, j, [&](const unsigned int row, const double entry) { r[row] -= entry * mode; });
+  subtract_data(nearest(stress, amplitudes), r);
   for (unsigned int c = 0; c < corners.size(); ++c)
     for (unsigned int i = 0; i < n_data; ++i)
       r[i] -= amplitudes[c] * corners[c].data[i];
@@ -507,14 +577,13 @@ StressElement::Stress StressElement::stress(const Modes<3> &stress, const double
     more[c] = std::inner_product(y.begin(), y.end(), corners[c].data.begin(), 0.);
   for (const char op : {'N', 'T'})
     solve_triangular(op, n, 1, {corner_energy.data(), n}, more.data(), n);
-  for (unsigned int k = 0; k < 3; ++k)
-    for (unsigned int i = 0; i < result.modes.components[k].size(); ++i)
-    {
-      result.modes.components[k][i] += added.components[k][i];
-      for (unsigned int c = 0; c < n; ++c)
-        result.modes.components[k][i] -=
-            (amplitudes[c] + more[c]) * corners[c].nearest.components[k][i];
-    }
+  for (unsigned int i = 0; i < result.modes.coefficients.size(); ++i)
+  {
+    result.modes.coefficients[i] += added.coefficients[i];
+    for (unsigned int c = 0; c < n; ++c)
+      result.modes.coefficients[i] -=
+          (amplitudes[c] + more[c]) * corners[c].nearest.coefficients[i];
+  }
   for (unsigned int c = 0; c < n; ++c)
     result.corners.emplace_back(corners[c].corner, amplitudes[c] + more[c]);
   return result;

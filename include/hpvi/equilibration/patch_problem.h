@@ -77,20 +77,21 @@ struct PatchCell
   const VertexPatches::Cell *cell;
 };
 
-/** A traction on one edge of a patch. */
+/** One edge of a patch: coefficients of both components of tractions. */
 struct PatchEdge
 {
+  unsigned int index; ///< of the edge
   const StressEdge *edge;
-  /** Coefficients of both components: given, or to be found. */
-  std::array<std::vector<double>, 2> traction;
+  const std::array<std::vector<double>, 2> *known; ///< at the boundary: the components given there
+  std::array<std::vector<double>, 2> *sum;         ///< the traction is added
 };
 
 /**
  * Tractions on the edges of a patch such that `sum_K h_K^2 r_K' G_K r_K` is least subject to
- * `N_K' r_K = 0` in each cell, where r_K are the data of @p cells and the tractions. Those of components that are
- * unknown are found. Returns the largest |N'r| that is left.
+ * `N_K' r_K = 0` in each cell, where r_K are the data of @p cells and the tractions; given ones, and unknown ones
+ * once found, are added to the sums of @p edges, which ascend. Returns the largest |N'r| that is left.
  */
-double solve_patch(const std::vector<PatchCell> &cells, std::map<unsigned int, PatchEdge> &edges,
+double solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
                    EquilibrationCache &cache);
 } // namespace hpvi
 

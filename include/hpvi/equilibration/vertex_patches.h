@@ -76,9 +76,6 @@ public:
   /** Cells of each patch: index and number of the hat in it; by vertex. */
   const std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> &patches() const;
 
-  /** psi_a at vertex @p v. */
-  double hat(unsigned int a, unsigned int v) const;
-
 private:
   void collect_edges(const Solution<2> &solution);
   void set_components(const Scene<2> &scene, StressEdge &edge) const;

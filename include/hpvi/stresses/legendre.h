@@ -19,8 +19,14 @@ namespace legendre
 /** L_0 to L_{n-1} at @p x. */
 std::vector<double> values(unsigned int n, double x);
 
+constexpr unsigned int n_roots = 128;
+extern const std::array<double, n_roots> roots;
+
 /** (2i + 1)^{1/2} */
-double root(unsigned int i);
+inline double root(const unsigned int i)
+{
+  return roots[i];
+}
 
 /** `L_i' = sum_j derivative(i, j) L_j`; not zero for j = i-1, i-3, ... alone. */
 inline double derivative(const unsigned int i, const unsigned int j)

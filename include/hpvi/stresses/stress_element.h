@@ -17,23 +17,21 @@ namespace hpvi
 template <unsigned int n_components>
 struct Modes
 {
-  explicit Modes(const unsigned int n = 0) : n(n)
+  explicit Modes(const unsigned int n = 0) : n(n), coefficients(n_components * n * n)
   {
-    for (auto &c : components)
-      c.assign(n * n, 0.);
   }
 
   double &operator()(const unsigned int k, const unsigned int i, const unsigned int j)
   {
-    return components[k][i * n + j];
+    return coefficients[(k * n + i) * n + j];
   }
   double operator()(const unsigned int k, const unsigned int i, const unsigned int j) const
   {
-    return components[k][i * n + j];
+    return coefficients[(k * n + i) * n + j];
   }
 
   unsigned int n;
-  std::array<std::vector<double>, n_components> components;
+  std::vector<double> coefficients; ///< of one component after the other, j fastest
 };
 
 /**
@@ -120,7 +118,10 @@ private:
   void factorise();
   std::vector<double> corner_amplitudes(const Modes<3> &stress, const Modes<3> &q) const;
   Modes<3> nearest(const Modes<3> &stress, std::vector<double> &amplitudes) const;
+  void subtract_data(const Modes<3> &q, double *r) const;
   Modes<3> inverse_compliance(const Modes<3> &moments) const;
+  void set_nearest(unsigned int i, unsigned int j, const std::array<double, 3> &moments,
+                   Modes<3> &result) const;
   Modes<3> moments(const Modes<3> &stress) const;
 
   /** The additional stress of a marked corner. */
