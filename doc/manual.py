@@ -114,8 +114,9 @@ def program_pages(order):
                 other, name = order[k + step]
                 around.append(arrow.format(f"[{name}](@ref program_{other.split('/')[1]})"))
         pages[f"program_{noun.split('/')[1]}"] = "\n".join([
-            f"# {k + 1}. {title} {{#program_{noun.split('/')[1]}}}", "",
-            f"The file `source/{noun}.cc`; its declarations are in `include/hpvi/{noun}.h`.", "",
+            f"# {title} {{#program_{noun.split('/')[1]}}}", "",
+            f"Part {k + 1} of {len(order)} of [the commented program](@ref program): "
+            f"`source/{noun}.cc`, declared in `include/hpvi/{noun}.h`.", "",
             commented_source(ROOT / "source" / f"{noun}.cc"), "", ", ".join(around), ""])
     links = [f"{k}. [{title}](@ref program_{noun.split('/')[1]}), `{noun}`"
              for k, (noun, title) in enumerate(order, 1)]
