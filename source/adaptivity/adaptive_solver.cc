@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Solve, estimate, mark, refine: this file is the loop, and all other files are what it calls. Each
+// pass is one <i>step</i>: a mesh with degrees goes in, a solution with an estimate of its error
+// comes out, and so does the next mesh. What steps share is little: the scene, tables of shape
+// functions, element matrices that come again, and the multiplier of the step before, from which
+// the next one starts.
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
@@ -28,6 +34,13 @@ double ratio(const double part, const double whole)
 }
 } // namespace
 
+// @sect3{What the stages share}
+//
+// The members are in three groups: what stays for the whole run (scene, tables, element matrices,
+// closed forms to compare with); what belongs to the current step (mesh, degrees, discretisation);
+// and what goes from step to step (the multiplier as a function on the contact boundary, so that it
+// can be read on another mesh, and a few numbers of each step). The mesh is a shared pointer to a
+// constant: a solution that a user keeps also keeps the mesh it lives on.
 template <int dim>
 struct AdaptiveSolver<dim>::Stages
 {
@@ -77,6 +90,10 @@ struct AdaptiveSolver<dim>::Stages
   void resume(const RunState &state);
 };
 
+// @sect3{Discretise}
+//
+// Every stage announces itself before it begins, since a run should never be silent for long; the
+// library itself prints nothing.
 template <int dim>
 void AdaptiveSolver<dim>::Stages::begin(const std::string &stage, const std::string &note) const
 {
@@ -91,6 +108,10 @@ std::string AdaptiveSolver<dim>::Stages::dense_note() const
       .note();
 }
 
+// Two objects make a step: the spaces, without any integral, and the discretisation, which has
+// assembled $A$ and $f$. The old discretisation dies only when the new one stands, for they share
+// element matrices: away from the refined cells most cells are congruent to cells that were there
+// before.
 template <int dim>
 void AdaptiveSolver<dim>::Stages::discretise()
 {
@@ -106,6 +127,14 @@ void AdaptiveSolver<dim>::Stages::discretise()
   discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
 }
 
+// @sect3{Solve}
+//
+// The sparse factorisation reduces the elastic body to its contact boundary, equations (5.6) and
+// (5.7). What remains is a quadratic program for friction and pressure, or Coulomb's cones, whose
+// solution gives the displacement back. The starting value is the multiplier of the step before:
+// stick and slip change little from mesh to mesh, and most programs then end after a few
+// factorisations. <code>IterativeRefinement</code> wraps the whole, because on deep meshes the
+// round-off of one solution is larger than the discretisation error of a well-resolved field.
 template <int dim>
 Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
 {
@@ -149,6 +178,12 @@ void AdaptiveSolver<dim>::Stages::keep_start(const Vector<double> &z, const Vect
   motion = moved;
 }
 
+// @sect3{Estimate}
+//
+// Two answers to two questions. The residual indicator $\eta_K$ (4.50) says where the error is,
+// costs next to nothing and exists for every scene. The guaranteed bound says how large the error
+// is at most. Where there is no bound its reason is kept, since "none" without a reason is no
+// answer.
 template <int dim>
 ErrorEstimate AdaptiveSolver<dim>::Stages::estimate(const Solution<dim> &solution)
 {
@@ -172,6 +207,13 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
   return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }
 
+// @sect3{Mark}
+//
+// The strategy sees numbers only: degrees, indicators, and on demand the decay rate of a cell,
+// which costs a transformation of its coefficients and is asked for marked cells alone. Three
+// things override it, because no indicator can see them: a jump of the friction bound inside an
+// edge, contact that the points of the multiplier have missed, and a bound that varies between
+// these points. Their cells are bisected until it is resolved.
 template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
                                              const ErrorEstimate &estimate,
@@ -196,6 +238,10 @@ Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
   return refinement;
 }
 
+// @sect3{Refine}
+//
+// The mesh is copied, and the copy refined. That costs less than a hundredth of a step, and leaves
+// every solution its own mesh.
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
@@ -209,6 +255,11 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
   refinements.push_back(refinement);
 }
 
+// @sect3{Going on where a run has ended}
+//
+// A run state holds the marks that led to the last mesh, its displacement and its multiplier. The
+// meshes are made again from the coarse one, mark by mark: the only way to get the same numbering,
+// the same element matrices, and so the same last bit.
 /** Marking is not kept in a state, because it follows from the solution. */
 template <int dim>
 void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
@@ -244,6 +295,10 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
   times = {};
 }
 
+// @sect3{Report}
+//
+// What a step has to say, as one value. Numbers that double precision does not support any more end
+// the run here, with one line, before anybody reads them.
 template <int dim>
 StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solution,
                                                     const ErrorEstimate &estimate,
@@ -359,6 +414,11 @@ RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const
           stages->history};
 }
 
+// @sect3{The loop}
+//
+// After so much preparation it reads as it is told. The report goes out before refinement, so that
+// whoever listens may write files, stop, or change nothing; and a step whose mesh would not change
+// again is the last one.
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const std::function<void(const Progress &)> &about_to)

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The strategies of Chapter 5, and one of our own. All get the degrees, an indicator for each cell,
+// and a function that gives the decay rate of a cell; all give a list of cells to bisect and a list
+// of new degrees. A strategy is a case of a <code>switch</code>: none is longer than a few lines.
 #include <hpvi/adaptivity/marking.h>
 
 #include <algorithm>
@@ -7,6 +11,10 @@
 
 namespace hpvi
 {
+// @sect3{Helpers}
+//
+// Symmetric problems have equal indicators. Ties are broken by the index of the cell, so that a run
+// gives the same meshes on every machine.
 namespace
 {
 /** Cell indices by falling indicator, ties by index. */
@@ -25,6 +33,7 @@ unsigned int share_of(const double fraction, const unsigned int n_cells)
   return std::min<unsigned int>(n_cells, std::ceil(fraction * n_cells - 1e-9));
 }
 
+// No degree exceeds the scene's limit; where $p$ would, the cell is bisected.
 void raise_or_bisect(Refinement &refinement, const unsigned int cell, const unsigned int maximum)
 {
   if (refinement.degrees[cell] < maximum)
@@ -51,6 +60,10 @@ std::vector<unsigned int> above_share_of_maximum(const std::vector<double> &eta,
   return marked;
 }
 
+// @sect3{The hp decision}
+//
+// Where the solution is smooth raising $p$ gains most for an unknown; where it is not, bisection
+// isolates the place.
 /** The decision of Section 4.3 on each marked cell. */
 void raise_where_smooth(Refinement &refinement, const std::vector<unsigned int> &marked,
                         const std::function<double(unsigned int)> &decay_rate, const double smooth,
@@ -64,6 +77,14 @@ void raise_where_smooth(Refinement &refinement, const std::vector<unsigned int> 
 }
 } // namespace
 
+// @sect3{The strategies}
+//
+// hup and pu refine everything, by bisection or by degree. hap bisects cells above half of the mean
+// indicator. hpa1 sorts cells, bisects the first tenth and raises the degree of the next, without a
+// look at smoothness. hpa2 decides by smoothness on the fifth of the cells with the largest
+// indicators. hpa3 does so on all cells above a share of the largest one: early, when few cells
+// have nearly all of the error, it refines few of them, and late, when the error is spread evenly,
+// many, which saves unknowns at the beginning and steps at the end.
 Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
                 const std::vector<double> &eta,
                 const std::function<double(unsigned int)> &decay_rate)
@@ -112,6 +133,9 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
   return result;
 }
 
+// @sect3{When nothing is marked}
+//
+// The entry that a user may want to change then.
 std::string nothing_marked(const Adaptivity &adaptivity)
 {
   switch (adaptivity.method)

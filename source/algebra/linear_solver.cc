@@ -1,4 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// One sparse Cholesky factorisation per step, by CHOLMOD, is most of the work of a run. It does two
+// things at once: it solves with $A$, and it reduces $A$ to the contact. If the contact unknowns
+// come last in the order of elimination, then
+//
+// $$A = \begin{pmatrix} A_{11} & A_{12} \\ A_{21} & A_{22}\end{pmatrix}, \qquad L = \begin{pmatrix} L_{11} & \\ L_{21} & C \end{pmatrix}, \qquad CC^T = A_{22} - A_{21} A_{11}^{-1} A_{12}:$$
+//
+// the trailing block $C$ of the factor <i>is</i> the factor of the Schur complement on them. No
+// solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.
 #include <cholmod.h>
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/memory.h>
@@ -65,6 +74,12 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 }
 } // namespace
 
+// @sect3{Analysis and factorisation}
+//
+// CAMD is a minimum degree ordering under constraints: group by group, here all unknowns but those
+// kept, then these. Dense blocks of columns, supernodes, make the factorisation one of dense
+// algebra. Its size is known after the symbolic analysis, and is compared with what memory is left
+// before anything is allocated.
 void LinearSolver::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_kept,
                                    const double more_bytes)
 {
@@ -88,6 +103,10 @@ void LinearSolver::Factor::compute(cholmod_sparse *matrix, const std::vector<int
   check();
 }
 
+// @sect3{When it fails}
+//
+// A factorisation fails in few ways, each with its own remedy. A pivot that is not positive says
+// that the body can move without strain.
 /** Throws NumericalFailure unless CHOLMOD's last work succeeded. */
 void LinearSolver::Factor::check() const
 {
@@ -112,6 +131,10 @@ void LinearSolver::Factor::check() const
                            std::to_string(common.status));
 }
 
+// @sect3{The trailing block}
+//
+// Supernodes are stored densely, column by column. Those that reach into the trailing block give it
+// up entry by entry.
 LAPACKFullMatrix<double> LinearSolver::Factor::trailing_block(const unsigned int n_trailing) const
 {
   LAPACKFullMatrix<double> block(n_trailing, n_trailing);
@@ -171,6 +194,12 @@ Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double
   return Vector<double>(values, values + right_hand_side.size());
 }
 
+// @sect3{Bodies that can move}
+//
+// If contact alone holds the body, $A$ is singular along its free motions. $A + c\,PP^T$ is not,
+// with $P^Tu$ the mean displacement along a motion, and where the balance of forces is asked for as
+// a constraint the term changes no solution. $P$ has entries on the contact alone, so that little
+// is filled in.
 namespace
 {
 /** P P', the upper triangle of n x n. */
@@ -214,6 +243,10 @@ struct SparseMatrix
 };
 } // namespace
 
+// @sect3{The constructor}
+//
+// The solver is complete when it stands: ordering, factor, trailing block, and the order in which
+// the kept unknowns have come out.
 LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
                            const double more_bytes, const std::vector<Stabilisation> &stabilisation)
     : factor(std::make_unique<Factor>())
@@ -252,6 +285,10 @@ LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned 
 LinearSolver::LinearSolver(LinearSolver &&) = default;
 LinearSolver::~LinearSolver() = default;
 
+// @sect3{Halves of a solution}
+//
+// Forward substitution $Ly = f$ once; its last part holds $BA^{-1}f$ in disguise. Backward
+// substitution $L^Tx = y$ once per multiplier that is tried, which is once.
 Vector<double> LinearSolver::forward(const Vector<double> &f) const
 {
   if (f.size() == 0)

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// With moments as unknowns and the contact last, the quadratic program (5.7) is read off the
+// factor. $B$ has entries on the kept unknowns only, so with $Y = C^{-1}B^T$ and the forward
+// solution $y = L^{-1}f$
+//
+// $$S = BA^{-1}B^T = Y^TY, \qquad d = BA^{-1}f = Y^T y_{\text{last}}.$$
+//
+// As a product of a matrix with its transpose $S$ is symmetric, and positive semidefinite up to the
+// rounding of one product.
 #include <hpvi/algebra/schur_complement.h>
 
 namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{S and d}
+//
+// One triangular solution with a dense matrix of the size of the contact, and one product. Both are
+// done by BLAS.
 SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double> &f,
                                  const ConditionRows &rows)
     : solver(solver), y(solver.forward(f)), schur_matrix(rows.n_rows()),
@@ -36,6 +49,10 @@ const Vector<double> &SchurComplement::d() const
   return reduced_load;
 }
 
+// @sect3{The displacement}
+//
+// From (5.3), $x = A^{-1}(f - B^Tz) = L^{-T}(y - (0, Yz))$: the multiplier changes the last part of
+// the forward solution, and one backward substitution is all that the displacement costs.
 Vector<double> SchurComplement::displacement(const Vector<double> &z) const
 {
   Vector<double> rest(y);

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The space $V_N$ of (3.57): on each cell tensor products of polynomials of the cell's own degree,
+// continuous across edges, and subject to the supports. It is made in two halves. The numbering
+// gives every cell its nodes, and neighbours share those that coincide; the constraints say of all
+// nodes that are not free how they follow from others.
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/supports.h>
@@ -7,6 +12,12 @@ namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{All constraints in one place}
+//
+// deal.II's <code>AffineConstraints</code> holds them: $u_i = \sum_j c_{ij} u_j + h_i$. Hanging
+// nodes come first and supports second, in chains where both meet: <code>close()</code> resolves
+// them, so that every constraint ends in free unknowns. A space that could exist without its
+// constraints would be used without them one day; so both are made in the constructor.
 namespace
 {
 template <int dim>
@@ -31,6 +42,10 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
 {
 }
 
+// @sect3{What is asked of it}
+//
+// <code>n_free_dofs()</code> is the $N$ of all rates and charts, as in the thesis: displacements
+// after all constraints, without multipliers.
 template <int dim>
 const DofNumbering<dim> &DisplacementSpace<dim>::numbering() const
 {

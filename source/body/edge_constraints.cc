@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// In an hp space two things break continuity. Neighbours of different degree have different
+// polynomials on their common edge; and where one cell has been bisected and its neighbour has not,
+// two short edges face a long one, whose polynomial does not have a node at their middle. The
+// remedy is the <i>minimum rule</i>: along such an edge, the trace is one polynomial of the lowest
+// degree that any cell at the edge has, and all else follows.
+//
+// deal.II has constraints for this. They describe the same space, but when the larger cell has the
+// higher degree they extrapolate from the halves to the whole, with weights that reach thousands at
+// $p = 14$ and lift round-off accordingly. Here the master is the whole edge, which leaves weights
+// near one.
 #include <hpvi/body/edge_constraints.h>
 
 #include <algorithm>
@@ -12,6 +23,11 @@ namespace
 {
 using Unknowns = std::vector<types::global_dof_index>;
 
+// @sect3{One edge after the other}
+//
+// Three cases. The neighbour is refined: a hanging edge, seen from the larger cell. The neighbour
+// is of the same size and of a lower degree: it is the master, and this cell follows. Else nothing
+// is to be done here: the edge conforms, or is looked at from the other side.
 /** Adds the constraints of one edge after the other. */
 template <int dim>
 class EdgeConstraints
@@ -110,6 +126,10 @@ private:
 };
 } // namespace
 
+// @sect3{All edges}
+//
+// Nothing depends on the order in which cells are visited, except which of several equivalent
+// unknowns is called the free one.
 template <int dim>
 void constrain_hanging_nodes(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
                              AffineConstraints<double> &constraints)

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// A support prescribes a displacement, or a component of it; bilateral contact prescribes $u_n =
+// 0$. At most nodes that is one condition or two. At corners, conditions from two edges meet: two
+// normals that are not at right angles, a clamped edge next to a sliding one, or the same condition
+// twice. Applying them one after the other would overwrite some and over-constrain others. So all
+// conditions of a node are collected first, and solved together.
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -15,6 +21,11 @@ namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{Conditions of a node}
+//
+// Each condition is $d \cdot u = h$ with a unit direction $d$. Conditions that depend on others are
+// dropped by Gram and Schmidt's process; whether they agree with them has been checked when the
+// scene was read.
 namespace
 {
 /** Directions that differ by less say the same, as in the check of the scene. */
@@ -57,6 +68,10 @@ std::vector<NodeCondition<dim>> independent(const std::vector<NodeCondition<dim>
 }
 } // namespace
 
+// @sect3{Collecting them}
+//
+// Along boundary edges with a support, node by node. A node gets the conditions of a boundary once,
+// whichever of its cells comes first; at a corner of the body it gets those of both edges.
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                                                 const DofNumbering<dim> &numbering,
@@ -98,6 +113,11 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
   return result;
 }
 
+// @sect3{From conditions to constraints}
+//
+// <code>AffineConstraints</code> wants each constrained component expressed by free ones. Gauss and
+// Jordan's elimination, with the largest component as pivot, does so for a direction askew as well
+// as for an axis.
 template <int dim>
 void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
                         AffineConstraints<double> &constraints)
@@ -138,6 +158,11 @@ void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
   }
 }
 
+// @sect3{Which support carries what}
+//
+// In equilibrium the reaction of a node is a sum of forces along its conditions. Where there are
+// more conditions than dimensions, that of least norm is taken: each boundary gets its share, and
+// shares add up to the reaction.
 /** With the orthonormal basis Q of the directions d_k: `mu = C' (C C')^{-1} Q force`, C_jk = q_j . d_k. */
 template <int dim>
 std::vector<double> SupportedNode<dim>::split(const Tensor<1, dim> &force) const

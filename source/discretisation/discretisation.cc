@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// One step is a chain of objects, each complete from its constructor and constant from then on. The
+// order of members is the order of computation, and what an object needs is in its argument list.
+// To see what depends on what, read the initialiser lists.
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/discretisation/discretisation.h>
@@ -7,6 +11,11 @@ namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{Spaces}
+//
+// Before any integral: the displacement space (3.57) with all of its constraints, the contact faces
+// with the unknowns of friction and pressure (3.58), and the operator $b(v,z)$ between both. They
+// are shared with the solution, which outlives the step.
 template <int dim>
 Spaces<dim>::Spaces(const Scene<dim> &scene,
                     std::shared_ptr<const Triangulation<dim>> triangulation, const Degrees &degrees,
@@ -18,6 +27,12 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
 {
 }
 
+// @sect3{Discretisation}
+//
+// If supports leave the body a motion without strain, $A$ is singular and $S = BA^{-1}B^T$ does not
+// exist. Friction or unilateral contact may still hold the body; then the balance of forces along
+// each free motion becomes an equality constraint of the quadratic program. A body that is held has
+// none of this.
 namespace
 {
 template <int dim>
@@ -33,6 +48,10 @@ motions_of(const Scene<dim> &scene, const Spaces<dim> &spaces, const Unknowns<di
 }
 } // namespace
 
+// The second half of the chain: <code>unknowns</code> counts what the linear system is solved for,
+// with moments in the place of contact nodes; <code>contact_rows</code> is $B$ in these unknowns;
+// <code>condensation</code> takes the interior of each cell away, as no other cell sees it; and
+// <code>system</code> is $A$ and $f$.
 template <int dim>
 Discretisation<dim>::Discretisation(const Scene<dim> &scene,
                                     std::shared_ptr<const Spaces<dim>> all_spaces,
@@ -45,6 +64,8 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
 {
 }
 
+// The way back: from the unknowns $x$ to displacements on the boundaries of cells, and from there
+// into their interior.
 template <int dim>
 Vector<double> Discretisation<dim>::displacement(const Vector<double> &x) const
 {
@@ -55,6 +76,8 @@ Vector<double> Discretisation<dim>::displacement(const Vector<double> &x) const
   return u;
 }
 
+// The unknowns of contact are to be eliminated last. Dense matrices of their size follow; whether
+// memory suffices for both is asked before either begins.
 template <int dim>
 LinearSolver Discretisation<dim>::factor() const
 {

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The system $A$ and $f$ of (5.1) and (5.2), in unknowns that are all free. deal.II's way is to add
+// local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
+// unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
+// same way share the product, and of a mesh that has been bisected again and again many are.
 #include <hpvi/body/load_points.h>
 #include <hpvi/discretisation/elastic_system.h>
 
@@ -10,6 +15,10 @@ namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{Assembly}
+//
+// Loads first, then cells. What a body force does inside a cell is condensed to its boundary
+// together with the stiffness.
 template <int dim>
 ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                   const Unknowns<dim> &unknowns,
@@ -34,6 +43,11 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
   elements.forget_unused();
 }
 
+// @sect3{One cell}
+//
+// Each row of $T$ says how a displacement on the boundary of the cell follows from unknowns:
+// itself, for most; the nodes of a longer edge at a hanging one; moments at the contact. Where $T$
+// is the identity the condensed matrix is used as it is.
 /**
  * `T' K T` of one cell, where T expresses the displacements on its boundary by unknowns. Adds to f
  * what prescribed displacements h leave on the right, -T' K h.
@@ -90,6 +104,11 @@ unsigned int ElasticSystem<dim>::Contribution::add_target(const unsigned int unk
   return target;
 }
 
+// @sect3{The sum}
+//
+// The factorisation wants the upper triangle by compressed columns. It is made directly: for each
+// column all cells that know it are visited, and an array remembers where each row of the column
+// has gone. There is no sparsity pattern, no search in rows, and no entry that is zero.
 /** Column by column, so that one marker array finds equal entries of neighbouring cells. */
 template <int dim>
 void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
@@ -145,6 +164,11 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
   A.resize(end);
 }
 
+// @sect3{Loads}
+//
+// Tractions and body forces are expressions of a user, and may be anything. The number of Gauss
+// points follows from the expression, up to where its integral does not change any more: an error
+// of quadrature would be a load that the bound of the error does not know.
 namespace
 {
 /** Evaluate the components of an expression; null means zero. */

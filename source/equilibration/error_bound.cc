@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The guaranteed bound puts together what other files of this folder make. It rests on the theorem
+// of Prager and Synge, extended to friction: with a stress $s$ in equilibrium with the loads and
+// with an admissible friction $-g\lambda^*$, $|\lambda^*| \le 1$ everywhere,
+//
+// $$|u - u_N|_a^2 \le |s - \sigma(u_N)|^2 + 2\,\mathrm{gap}(u_N - w) + |w|_a^2, \qquad \mathrm{gap}(v) = \int_{\Gamma_C} g\,(|v_t| - \lambda^* v_t)\,ds,$$
+//
+// for any displacement $w$ that vanishes where $u$ is prescribed. The first term is the distance of
+// two stresses, the second what the discrete friction misses of the law, and the third pays for
+// $w$, which takes the oscillation of $u_N$ around zero away where the body sticks. The proof, and
+// the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
@@ -29,6 +40,10 @@ double norm(const SlipCorrection<2> &correction)
   return std::sqrt(std::max(0., sum(correction.energy()))); // round-off
 }
 
+// @sect3{By cell}
+//
+// A bound is one number, but its square is a sum over cells: a second indicator to mark by, without
+// unknown constants, and as fine at high degrees as at low ones.
 void set_squares(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
                  const SlipCorrection<2> &correction, const DataError &data)
 {
@@ -41,6 +56,10 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
         2 * std::max(0., correction.gap()[face]);
 }
 
+// @sect3{In the energy norm}
+//
+// The general form, with $O$ for the oscillation of loads and $d$ for displacements outside the
+// space: $O + (\eta^2 + 2\,\mathrm{gap} + (|w|_a + |d|_a + O)^2)^{1/2}$.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                const SlipCorrection<2> &correction, const DataError &data)
 {
@@ -76,6 +95,10 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
   result.energy_below = result.energy + unknown - centre;
 }
 
+// @sect3{When there is none}
+//
+// Each assumption of the theorem is checked on the way. If one fails there is no bound, and a
+// sentence that says why: a number that is nearly guaranteed is not guaranteed.
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
                  const EquilibratedStress &stress, const SlipCorrection<2> &correction,
                  const DataError &data)
@@ -127,6 +150,11 @@ std::vector<double> ErrorBound::indicators() const
   return result;
 }
 
+// @sect3{The order of things}
+//
+// Tractions along the contact that keep their bounds everywhere; a stress in equilibrium with them
+// and with the loads; a correction $w$ for what $u_N$ does where it should stick; and what data
+// leave. A friction bound that varies between the points of the multiplier moves $u_N$ first.
 ErrorBound ErrorBounds::compute(const Solution<2> &discrete,
                                 const Discretisation<2> &discretisation)
 {

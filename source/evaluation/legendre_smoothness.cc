@@ -1,4 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Bisect or raise $p$? If $u$ is analytic in a cell its Legendre coefficients decay like (4.81),
+//
+// $$|u_{ij}| \le C\exp(-b(i+j)),$$
+//
+// the faster, the further away its singularities are in units of the cell: $b = \ln(1 + \sigma/h)$.
+// Around a singularity they decay only algebraically, and a fitted $b$ is small. So $b$ of the
+// discrete solution tells in which of both cases a cell is; the strategies compare it with a
+// number, 1 in the thesis.
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_tools.h>
@@ -12,6 +21,10 @@ namespace hpvi
 {
 using namespace dealii;
 
+// @sect3{A line through logarithms}
+//
+// $\ln|u_{ij}| = \ln C - b(i+j)$ is a straight line. Points are coefficients; those that are zero
+// by symmetry, or round-off, are left out, and a fit may have too few points to exist.
 namespace
 {
 /** Least-squares line through the points that were added. */
@@ -51,6 +64,11 @@ std::array<unsigned int, dim> orders(unsigned int mode, const unsigned int degre
 }
 } // namespace
 
+// @sect3{Coefficients from nodal values}
+//
+// The polynomial is known by its values at tensor products of Gauss-Lobatto points. One small
+// matrix, applied in one direction after the other, makes Legendre coefficients of them: $(p+1)^3$
+// operations in place of $(p+1)^4$.
 template <int dim>
 LegendreSmoothness<dim>::LegendreSmoothness(const SmoothnessReading reading) : reading(reading)
 {
@@ -108,6 +126,13 @@ std::vector<double> LegendreSmoothness<dim>::legendre_coefficients(const double 
   return current;
 }
 
+// @sect3{The decay rate}
+//
+// The thesis does not say what is fitted when a displacement has two components, and its tables can
+// be followed longest, if not to the end, with the <i>joint</i> reading: one fit of the Euclidean
+// norm over components, scaled to the $L^2$ norms of the polynomials. The <i>plain</i> reading fits
+// each component and takes the smaller rate, so that a singularity of either is seen. The constant
+// is not fitted: it says how large $u$ is.
 template <int dim>
 double LegendreSmoothness<dim>::decay_rate(const std::vector<double> &coefficients,
                                            const unsigned int degree) const

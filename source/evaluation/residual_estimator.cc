@@ -1,4 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The residual indicator (4.44) to (4.51): how far $u_N$ and $\lambda_N$ are from satisfying the
+// differential equation and the conditions at the boundary, cell by cell and edge by edge, each
+// part in the $L^2$ norm and weighted so that the sum measures the error in energy:
+//
+// $$\eta_K^2 = \frac{h_K^2}{p_K^2} \|r_K\|^2 + \frac{h_K}{p_K} \sum_{E \subset \partial K} \|R_E\|^2.$$
+//
+// The print of (4.51) sums $\eta_K$ for $\eta_K^2$. Two parts of the weights are theory, one is
+// practice: where $p$ is high the indicator overestimates, by a factor that grows with $p$.
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/evaluation/residual_estimator.h>
@@ -38,6 +47,9 @@ double ErrorEstimate::total() const
   return std::sqrt(sum);
 }
 
+// @sect3{One pass over the cells}
+//
+// The parts are kept apart: which one dominates says what is missing.
 namespace
 {
 /** One pass over the cells of a solution. */
@@ -105,6 +117,11 @@ double Residuals<dim>::weight(const unsigned int cell) const
   return sizes[cell] / degrees[cell];
 }
 
+// @sect3{Inside a cell}
+//
+// $r_K = -\mathrm{div}\,\sigma(u_N) - F$ (4.44) needs second derivatives of $u_N$. On a
+// parallelogram they are those on the reference cell, transformed twice; on other quadrilaterals
+// the second derivatives of the map come in.
 /** d u_c / d x_j from reference derivatives of point q in @p derivatives (see evaluate()). */
 template <int dim>
 Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
@@ -188,6 +205,10 @@ typename Residuals<dim>::FacePoints Residuals<dim>::face_points(const Cell &cell
   return result;
 }
 
+// @sect3{Tractions}
+//
+// All residuals on edges are differences of tractions, $\sigma(u_N)\nu$ on one side against
+// something on the other.
 /** sigma n at the points of @p table. */
 template <int dim>
 std::vector<Tensor<1, dim>>
@@ -210,6 +231,10 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
   return result;
 }
 
+// @sect3{Between cells}
+//
+// Against the neighbour's traction: half the jump (4.45), and both cells get it with their own
+// weights. At a hanging node each half of the long edge counts as an edge.
 /** Half the jump of the traction over an interior edge, seen from its finer or first side. */
 template <int dim>
 void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
@@ -237,6 +262,10 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   result.jumps[other] += weight(other) * sum;
 }
 
+// @sect3{Under loads}
+//
+// Against the load. A component that a support prescribes has no residual: whatever traction it
+// needs is its reaction.
 /** sigma n - G in the components that no support prescribes. */
 template <int dim>
 void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
@@ -259,6 +288,12 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   result.neumann[index] += weight(index) * sum;
 }
 
+// @sect3{Along the contact}
+//
+// Against the multiplier: $\sigma_t + g\lambda_N$ (4.45). For unilateral contact the normal
+// traction is compared with the pressure, and what the discrete conditions leave between their
+// points is added: penetration, pressures below zero, friction beyond its cone. Penetration is a
+// displacement and not a traction, so it is weighted the other way round, with $\mu^2 p_K/h_K$.
 /**
  * What the body's traction sigma n - G misses of that of the contact: along the tangent z_N, along the
  * normal the pressure of unilateral contact, or nothing where only friction acts.
@@ -360,6 +395,11 @@ ErrorEstimate estimate_error(const Solution<dim> &solution)
   return Residuals<dim>(solution).compute();
 }
 
+// @sect3{What round-off makes of it}
+//
+// Second derivatives amplify the last bits of $u_N$ by $(p^2/h)^2$. On deep meshes the indicator is
+// some day that of round-off, and stops falling whatever is refined. How large that is, is measured
+// and not estimated: by the indicator of a random displacement as large as the last bits are.
 template <int dim>
 double round_off_of_estimate(const Solution<dim> &solution)
 {

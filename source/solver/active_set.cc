@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The default solver of the quadratic program. The primal-dual active set strategy
+// (Hinterm&uuml;ller, Ito and Kunisch 2002) predicts from a point and its gradient which walls
+// hold, solves for the other components by one Cholesky factorisation, and looks again. It is
+// Newton's method for $z = P(z - \alpha(Sz - d))$, and inherits its speed: a few factorisations,
+// and fewer still from the step before, whatever the condition of $S$. It is not bound to converge.
+// If a prediction comes again, it cycles, and MPRGP takes over from the point that was reached.
 #include <hpvi/solver/active_set.h>
 #include <hpvi/solver/newton_system.h>
 
@@ -17,6 +24,11 @@ namespace
 /** Newton's method ends after a dozen steps or not at all. */
 constexpr unsigned int maximum_steps = 50;
 
+// @sect3{One run}
+//
+// All predictions are remembered. A new one is followed. One that is known ends the run: it is the
+// last one if it is right, and the beginning of a cycle if it is not. Which of both is said by the
+// same projected gradient that MPRGP uses, so that both solvers mean the same by their tolerance.
 /** One run of the method. */
 class Newton
 {
@@ -74,6 +86,9 @@ private:
   QpReport report;
 };
 
+// @sect3{One step}
+//
+// Components at walls are put there, exactly; the rest solves a smaller linear system.
 bool Newton::follow(const FeasibleSet::Linearisation &prediction)
 {
   z = prediction.base;
@@ -102,6 +117,9 @@ double Newton::norm(Vector<double> x) const
   return x.l2_norm();
 }
 
+// @sect3{The measure}
+//
+// The iterate of a wrong prediction may lie outside the set. Measured is the nearest point inside.
 /** `|nu|` as Mprgp reports it, at the point of the box nearest to z. */
 double Newton::projected_gradient()
 {
@@ -117,6 +135,9 @@ double Newton::projected_gradient()
 }
 } // namespace
 
+// @sect3{With MPRGP behind it}
+//
+// Speed from the one, safety from the other.
 ActiveSet::ActiveSet(const Mprgp::Settings &settings) : settings(settings)
 {
 }

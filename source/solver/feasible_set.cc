@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The unknowns of friction and pressure are bounded: an interval $[-g, g]$ for friction in the
+// plane, a half line for a pressure, a disc $|z| \le g$ for friction in space. All solvers work
+// with any product of such sets, and this is the only file that knows their shape. Another law of
+// friction is another shape: what is asked of it is below.
 #include <deal.II/base/exceptions.h>
 #include <hpvi/solver/feasible_set.h>
 
@@ -67,6 +72,9 @@ unsigned int FeasibleSet::size() const
   return lower.size();
 }
 
+// @sect3{Projection}
+//
+// The nearest point of the set, component by component, disc by disc. Every iterate ends here.
 void FeasibleSet::project(Vector<double> &z) const
 {
   AssertDimension(z.size(), size());
@@ -85,6 +93,10 @@ void FeasibleSet::project(Vector<double> &z) const
   }
 }
 
+// @sect3{The farthest point}
+//
+// What friction and pressure can resist at most, along a motion of the body: the maximum of a
+// linear function over the set. It decides whether there can be equilibrium.
 bool FeasibleSet::farthest(const Vector<double> &direction, Vector<double> &z) const
 {
   AssertDimension(direction.size(), size());
@@ -107,6 +119,10 @@ bool FeasibleSet::farthest(const Vector<double> &direction, Vector<double> &z) c
   return false;
 }
 
+// @sect3{The way to the next wall}
+//
+// How far a step along $-p$ may go. For a disc that is the root of a quadratic equation, written so
+// that nothing cancels near the rim.
 double FeasibleSet::distance_to_wall(const Vector<double> &z, const Vector<double> &p) const
 {
   AssertDimension(z.size(), size());
@@ -136,6 +152,11 @@ double FeasibleSet::distance_to_wall(const Vector<double> &z, const Vector<doubl
   return alpha;
 }
 
+// @sect3{Free and chopped gradient}
+//
+// (5.8) and (5.9): $\varphi$ is the gradient on free components, $\beta$ that part of it which
+// would pull components off their walls. Both vanish at the minimum and nowhere else. On the rim of
+// a disc the gradient along the rim counts as chopped, as no straight line follows a rim.
 void FeasibleSet::split_gradient(const Vector<double> &z, const Vector<double> &r,
                                  Vector<double> &phi, Vector<double> &beta) const
 {
@@ -170,6 +191,12 @@ void FeasibleSet::split_gradient(const Vector<double> &z, const Vector<double> &
   }
 }
 
+// @sect3{Linearisation}
+//
+// For Newton's method. At the minimum $z = P(z - \alpha r)$, a fixed point of projected gradient
+// steps; where such a step leaves the set tells which walls hold. The components at walls get the
+// wall's value, the others are free. On a rim the point may still move along the tangent, with a
+// curvature that comes from the pressure against it.
 FeasibleSet::Linearisation FeasibleSet::linearise(const Vector<double> &z, const Vector<double> &r,
                                                   const Vector<double> &step) const
 {
@@ -223,6 +250,10 @@ FeasibleSet::Linearisation FeasibleSet::linearise(const Vector<double> &z, const
   return result;
 }
 
+// @sect3{Scaling}
+//
+// Scaling by the diagonal of $S$ turns intervals into intervals. A disc stays a disc only if its
+// two components are scaled alike.
 void FeasibleSet::make_isotropic(Vector<double> &scale) const
 {
   for (const Disc &disc : discs)

@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
+// <i>Modified proportioning with reduced gradient projections</i>, the thesis's solver (Section
+// 5.1, Algorithm 1) for
+//
+// $$q(y) = \tfrac12 y^TSy - d^Ty \to \min, \qquad \ell \le y \le u.$$
+//
+// If one knew which components of the minimum are at walls, conjugate gradients on the others would
+// find it. MPRGP finds out on the way, by three kinds of steps. A <i>CG step</i> minimises on the
+// present face. An <i>expansion step</i> hits walls and takes in as many as a projected gradient
+// meets. A <i>proportioning step</i> leaves walls that have turned out wrong. Each lowers $q$, so
+// that the algorithm cannot cycle, and each costs one or two products with $S$.
 #include <hpvi/solver/mprgp.h>
 
 #include <algorithm>
@@ -45,6 +56,10 @@ double norm_bound(const LAPACKFullMatrix<double> &S)
   return std::min(std::sqrt(squares), row_sums.linfty_norm());
 }
 
+// @sect3{The state of the iteration}
+//
+// Beside the point $y$, its gradient $r = Sy - d$ with its two parts $\varphi$ and $\beta$, and the
+// direction of conjugate gradients. Steps go along the negative directions.
 /**
  * One run of the algorithm in the variables in which it iterates, from a feasible y. The QP value
  * `q(y) = 1/2 y'Sy - d'y` falls in every step.
@@ -99,6 +114,10 @@ Iteration::Iteration(const QuadraticProgram &qp, const Mprgp::Settings &settings
   p = phi;
 }
 
+// @sect3{The iteration}
+//
+// Three lines, as in Algorithm 1: until the projected gradient $\nu = \varphi + \beta$ (5.10) is
+// small, choose between the face and its walls.
 QpReport Iteration::run()
 {
   while (!finished())
@@ -114,6 +133,12 @@ void Iteration::measure()
   report.projected_gradient = nu == 0. ? 0. : nu / reference;
 }
 
+// @sect3{When to end}
+//
+// Two traps are avoided. CG updates the gradient by recurrence, which drifts from the true one and
+// goes on to fall when that has come to rest: so the end is confirmed by a product. And a tolerance
+// may ask for more than double precision has; an iteration that makes no progress at the level of
+// round-off stops, and says so.
 bool Iteration::finished()
 {
   measure();
@@ -148,6 +173,11 @@ bool Iteration::is_at_rest(const bool recurrence_ended)
   return !halved;
 }
 
+// @sect3{Proportionality}
+//
+// The choice. $\tilde\varphi$ and $\tilde\beta$ are what the walls leave of the gradients (5.11)
+// after a step of fixed length. While the free part is the larger one, there is more to be gained
+// on the face.
 /**
  * `beta . beta~ <= Gamma^2 phi . phi~`: the free part of the gradient dominates, so it pays to go
  * on minimising on the face before walls are given up.
@@ -169,6 +199,9 @@ double Iteration::reduced_product(const Vector<double> &gradient_part)
   return (trial * gradient_part) / fixed_length;
 }
 
+// @sect3{On the face}
+//
+// One step of conjugate gradients, if it does not cross a wall.
 /**
  * A CG step if it stays in the box, else an expansion step. False if q is unbounded below or not a
  * number.
@@ -196,6 +229,12 @@ bool Iteration::minimise_on_face()
   return true;
 }
 
+// @sect3{Expansion}
+//
+// Algorithm 1 goes to the first wall, then along the projected gradient with a fixed length. That
+// length must be below $2/\|S\|$ and is short when $S$ is ill conditioned. Projecting the whole CG
+// step instead takes in far more walls at once, but may raise $q$; it is tried first and kept only
+// if it gains more than the part of the step up to the first wall would have.
 /**
  * The minimum along p lies outside: take in many walls at once by projecting it, P(y - alpha_cg p).
  * That is not bound to lower q. It is kept if it beats the part of the step up to the first wall,
@@ -240,6 +279,10 @@ bool Iteration::expand_by_projected_cg(const double cg_length, const double requ
   return true;
 }
 
+// @sect3{Proportioning}
+//
+// The thesis's extension to two-sided bounds: the minimum along $\beta$ may lie beyond the opposite
+// wall, where the step ends then.
 /**
  * Leave walls along the chopped gradient; with two-sided bounds the minimum on that line may lie
  * beyond the opposite wall. Along the rim of a disc no straight line goes: there a projected gradient
@@ -302,6 +345,11 @@ void Iteration::split_gradient()
 
 } // namespace
 
+// @sect3{Scaling}
+//
+// $S$ has entries that differ by powers of ten: edges differ in length, and $w_i$ in size. In $y_i
+// = z_i S_{ii}^{1/2}$ the diagonal is one. On the thesis's example this takes the condition number
+// from $10^8$ to $10^3$, and the solver iterates in these variables.
 Mprgp::Mprgp(const Settings &settings) : settings(settings)
 {
 }

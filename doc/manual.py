@@ -1,0 +1,252 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Write the manual: pages of doc/manual, the commented sources, and what the program says of itself.
+
+manual.py --program build/hpvi --output build/doc
+
+Doxygen makes HTML of them, with MathJax from Debian beside it: no network is needed to read it. Whatever
+Doxygen warns of ends the run.
+"""
+import argparse
+import html
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGES = ROOT / "doc/manual"
+MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
+# Entries that no scene of prm/ sets: what one could write.
+EXAMPLES = {
+    ("Adaptivity", "hap threshold"): "0.7", ("Adaptivity", "hpa1 bisected fraction"): "0.05",
+    ("Adaptivity", "hpa1 raised fraction"): "0.2", ("Adaptivity", "Maximum seconds"): "60",
+    ("Solver", "Path"): "reduced", ("Solver", "Linear"): "direct",
+    ("Solver", "Primal tolerance"): "1e-8", ("Solver", "QP solver"): "mprgp",
+    ("Solver", "QP warm start"): "false", ("Solver", "QP tolerance"): "1e-10",
+    ("Solver", "QP maximum multiplications"): "1000", ("Solver", "Diagonal scaling"): "false",
+    ("Solver", "Coulomb solver"): "fixed point", ("Solver", "Multiplier degree offset"): "-3",
+    ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
+    ("Output", "Mesh picture"): "false", ("Output", "Contact tables"): "false",
+    ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
+
+
+def run(*command, **options):
+    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, **options)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}")
+    return done.stdout
+
+
+# Prose
+
+def doxygen_math(text):
+    """Dollars are TeX as in deal.II's comments, except in code."""
+    def formulas(prose):
+        return re.sub(r"\$(.+?)\$", lambda m: rf"\f${m[1]}\f$",
+                      re.sub(r"\$\$(.+?)\$\$", display, prose, flags=re.S), flags=re.S)
+
+    def display(match):
+        """MathJax 2 places the numbers of equations wrongly in narrow columns: here they are a column."""
+        formula = match[1].replace("align*", "aligned")
+        gap = "&&" if "aligned" in formula else r"\quad"
+        return r"\f[" + re.sub(r"\\tag\{(.*?)\}", lambda m: rf"{gap} \text{{({m[1]})}}", formula) \
+            + r"\f]"
+
+    parts = re.split(r"(^```.*?^```$|`[^`\n]*`)", text, flags=re.S | re.M)
+    return "".join(part if k % 2 else formulas(part) for k, part in enumerate(parts))
+
+
+def code_block(lines, language="cpp"):
+    while lines and not lines[0].strip():
+        lines = lines[1:]
+    while lines and not lines[-1].strip():
+        lines = lines[:-1]
+    return [f"```{{.{language}}}", *lines, "```", ""] if lines else []
+
+
+def commented_source(path):
+    """Comments that begin a line are prose, @sect3{...} in them are headings; the rest is code."""
+    result, code, prose = [], [], []
+
+    def flush_code():
+        result.extend(code_block(code))
+        code.clear()
+
+    def flush_prose():
+        if prose:
+            text = "\n".join(prose)
+            result.extend([re.sub(r"@sect3\{(.*?)\}", r"## \1\n", text), ""])
+        prose.clear()
+
+    for line in path.read_text().splitlines():
+        if line.startswith("// SPDX"):
+            continue
+        if line.startswith("//"):
+            flush_code()
+            prose.append(line[3:])
+        else:
+            flush_prose()
+            code.append(line)
+    flush_prose()
+    flush_code()
+    return doxygen_math("\n".join(result))
+
+
+# Pages
+
+def reading_order():
+    """Title and noun of each commented source, from the table of doc/plan.md."""
+    table = (ROOT / "doc/plan.md").read_text().split("## Reading order\n")[1].split("\n## ")[0]
+    return re.findall(r"^\| \d+ \| `(\w+/\w+)` \| (.*?) \|$", table, re.M)
+
+
+def program_pages(order):
+    pages = {}
+    for k, (noun, title) in enumerate(order):
+        around = []
+        for step, arrow in ((-1, "back: {}"), (1, "next: {}")):
+            if 0 <= k + step < len(order):
+                other, name = order[k + step]
+                around.append(arrow.format(f"[{name}](@ref program_{other.split('/')[1]})"))
+        pages[f"program_{noun.split('/')[1]}"] = "\n".join([
+            f"# {title} {{#program_{noun.split('/')[1]}}}", "",
+            f"Part {k + 1} of {len(order)} of [the commented program](@ref program): "
+            f"`source/{noun}.cc`, declared in `include/hpvi/{noun}.h`.", "",
+            commented_source(ROOT / "source" / f"{noun}.cc"), "", ", ".join(around), ""])
+    links = [f"{k}. [{title}](@ref program_{noun.split('/')[1]}), `{noun}`"
+             for k, (noun, title) in enumerate(order, 1)]
+    pages["program"] = (PAGES / "program.md").read_text().replace("@LIST@", "\n".join(links))
+    pages["program"] = doxygen_math(pages["program"])
+    return pages
+
+
+def assignments(text):
+    """(section, entry, value, comment above) of each `set` of a .prm."""
+    section, comment, found = "", [], []
+    for line in map(str.strip, text.splitlines()):
+        if line.startswith("#"):
+            comment.append(line.lstrip("# "))
+            continue
+        if line.startswith("subsection "):
+            section = re.sub(r"\s*#.*", "", line[len("subsection "):])
+        elif line == "end":
+            section = ""
+        elif line.startswith("set "):
+            name, value = line[4:].split("=", 1)
+            found.append((section, name.strip(), re.sub(r"\s*#.*", "", value).strip(),
+                          " ".join(comment)))
+        comment = []
+    return found
+
+
+def scene_examples():
+    """The first value that a scene gives each entry, and the scene's name."""
+    examples = {}
+    for scene in sorted((ROOT / "prm").glob("*.prm")):
+        for section, name, value, _ in assignments(scene.read_text()):
+            key = (re.sub("Boundary .*", "Boundary NAME", section), name)
+            if value:
+                examples.setdefault(key, (value, scene.name))
+    return examples
+
+
+def check_example(program, key, value):
+    if key == ("Error", "Reference solution"):
+        return  # names a file of another run
+    run(program, "--validate", "--set", f"{key[0]}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
+
+
+def escaped(text):
+    return html.escape(text, quote=False).replace("|", "&#124;").replace("_", "&#95;") \
+        .replace("*", "&#42;").replace("@", "&#64;").replace("`", "&#96;").replace("~", "&#126;")
+
+
+def code(text):
+    return f"<code>{escaped(text)}</code>" if text else ""
+
+
+def entries_page(program):
+    examples, lines, last = scene_examples(), [], None
+    for section, name, default, comment in assignments(run(program, "--print-parameters")):
+        if section.startswith("Boundary") and section != "Boundary left":
+            continue
+        key = (section.replace("Boundary left", "Boundary NAME"), name)
+        if key in examples:
+            value, where = examples[key]
+        elif key in EXAMPLES:
+            value, where = EXAMPLES[key], ""
+            check_example(program, key, value)
+        else:
+            sys.exit(f"manual.py: {key[0]}/{name} needs an example, in a scene or in EXAMPLES")
+        if key[0] != last:
+            anchor = re.sub(r"\W", "_", key[0].lower()) or "scene"
+            lines += ["", f"## {key[0] or 'The scene'} {{#entries_{anchor}}}", ""]
+            last = key[0]
+        units = re.findall(r"\[(length|stress|stress/length)\]", comment)
+        facts = [f"default {code(default) or 'empty'}"] + ([f"unit {units[0]}"] if units else [])
+        facts.append(f"example {code(value)}" + (f" in prm/{where}" if where else ""))
+        lines += [f"**{escaped(name)}**: {escaped(comment)}", "", "<span class=\"facts\">"
+                  + "; ".join(facts) + "</span>", ""]
+    text = (PAGES / "entries.md").read_text()
+    return text.replace("@ENTRIES@", "\n".join(lines))
+
+
+def results_page(program, output):
+    """The page's commands are run, and what they print is put behind them."""
+    def printed(match):
+        arguments = match[1].split()
+        words = run(program, "--output", output / "runs" / pathlib.Path(arguments[-1]).stem,
+                    *arguments, cwd=ROOT, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        return f"```\n$ ./run {match[1]}\n{words}```"
+    text = doxygen_math((PAGES / "results.md").read_text())
+    return re.sub(r"^@RUN (.*)@$", printed, text, flags=re.M)
+
+
+def images_of(text, sources):
+    """Copies the images that a page shows to where Doxygen looks for them."""
+    def copied(match):
+        shutil.copy(ROOT / "doc" / match[2], sources / pathlib.Path(match[2]).name)
+        return f"![{match[1]}]({pathlib.Path(match[2]).name})"
+    return re.sub(r"!\[([^\]]*)\]\(\.\./([^)]*)\)", copied, text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser.add_argument("--output", required=True, type=pathlib.Path)
+    options = parser.parse_args()
+    program, output = options.program.resolve(), options.output.resolve()
+    sources = output / "pages"
+    shutil.rmtree(output, ignore_errors=True)
+    sources.mkdir(parents=True)
+
+    pages = program_pages(reading_order())
+    pages["entries"] = entries_page(program)
+    pages["results"] = results_page(program, output)
+    for name in ("index", "introduction", "extensions", "columns", "contributing"):
+        pages[name] = doxygen_math((PAGES / f"{name}.md").read_text())
+    pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
+        doxygen_math((PAGES / "tutorial.md").read_text()) + \
+        commented_source(ROOT / "doc/tutorial/tresca_friction.cc")
+    for name, text in pages.items():
+        text = re.sub(r"<!-- SPDX.*?-->\n", "", text)
+        (sources / f"{name}.md").write_text(images_of(text, sources))
+
+    settings = (PAGES / "Doxyfile").read_text()
+    settings += f'INPUT = "{sources}"\nIMAGE_PATH = "{sources}"\nOUTPUT_DIRECTORY = "{output}"\n'
+    settings += f'HTML_HEADER = "{PAGES}/header.html"\nHTML_FOOTER = "{PAGES}/footer.html"\n'
+    settings += f'MATHJAX_CODEFILE = "{PAGES}/mathjax.js"\n'
+    settings += f'HTML_EXTRA_STYLESHEET = "{PAGES}/style.css"\n'
+    (output / "Doxyfile").write_text(settings)
+    run("doxygen", output / "Doxyfile", cwd=output)
+    (output / "html/mathjax").symlink_to(MATHJAX)
+    print(f"the manual is {os.path.relpath(output / 'html/index.html')}")
+
+
+if __name__ == "__main__":
+    main()
