@@ -2,7 +2,7 @@
 #ifndef hpvi_moment_newton_h
 #define hpvi_moment_newton_h
 
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/moments/moment_matrix.h>
 
 #include <functional>
 #include <vector>

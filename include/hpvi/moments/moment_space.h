@@ -2,8 +2,8 @@
 #ifndef hpvi_moment_space_h
 #define hpvi_moment_space_h
 
-#include <hpvi/primal/box_tables.h>
-#include <hpvi/primal/processes.h>
+#include <hpvi/moments/box_tables.h>
+#include <hpvi/moments/processes.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/base/index_set.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/moments/moment_matrix.h>
 
 #include <deal.II/base/timer.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>

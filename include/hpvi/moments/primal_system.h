@@ -2,7 +2,7 @@
 #ifndef hpvi_primal_system_h
 #define hpvi_primal_system_h
 
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 

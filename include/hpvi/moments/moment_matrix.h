@@ -2,7 +2,7 @@
 #ifndef hpvi_moment_matrix_h
 #define hpvi_moment_matrix_h
 
-#include <hpvi/primal/primal_system.h>
+#include <hpvi/moments/primal_system.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/trilinos_precondition.h>
