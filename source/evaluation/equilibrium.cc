@@ -12,70 +12,110 @@ using namespace dealii;
 
 namespace
 {
-/** Adds up nodal forces by boundary, and their absolute values. */
-template <int dim>
-class Resultants
+double moment_of(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
 {
-  static_assert(dim == 2, "a moment is a number");
+  return arm[0] * force[1] - arm[1] * force[0];
+}
 
-public:
-  explicit Resultants(const Solution<dim> &solution) : scene(solution.scene)
+Tensor<1, 3> moment_of(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
+{
+  return cross_product_3d(arm, force);
+}
+
+double size_of(const double moment)
+{
+  return std::abs(moment);
+}
+
+double size_of(const Tensor<1, 3> &moment)
+{
+  return moment.norm();
+}
+
+/** The numbers of a vector, or the one that it is. */
+template <class Numbers>
+void replace_all(Numbers &numbers, const std::function<double(double)> &total)
+{
+  if constexpr (std::is_same_v<Numbers, double>)
+    numbers = total(numbers);
+  else
+    for (unsigned int d = 0; d < Numbers::dimension; ++d)
+      numbers[d] = total(numbers[d]);
+}
+} // namespace
+
+template <int dim>
+Resultants<dim>::Resultants(const Scene<dim> &scene, const Point<dim> &centre) : scene(scene)
+{
+  result.centre = centre;
+  result.loads.boundary = "loads";
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    result.reactions.push_back({boundary.name, {}, {}});
+}
+
+template <int dim>
+void Resultants<dim>::add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
+{
+  const Tensor<1, dim> arm = x - result.centre;
+  sum.force += force;
+  sum.moment += moment_of(arm, force);
+  absolute_force += force.norm();
+  absolute_moment += arm.norm() * force.norm();
+}
+
+template <int dim>
+void Resultants<dim>::add_load(const unsigned int component, const double value,
+                               const Point<dim> &x)
+{
+  Tensor<1, dim> force;
+  force[component] = value;
+  add(result.loads, force, x);
+}
+
+template <int dim>
+void Resultants<dim>::add_reaction(const types::boundary_id boundary, const Tensor<1, dim> &force,
+                                   const Point<dim> &x)
+{
+  add(result.reactions[boundary], force, x);
+}
+
+template <int dim>
+void Resultants<dim>::replace(const std::function<double(double)> &total)
+{
+  std::vector<BoundaryForce<dim> *> sums{&result.loads};
+  for (BoundaryForce<dim> &reaction : result.reactions)
+    sums.push_back(&reaction);
+  for (BoundaryForce<dim> *const sum : sums)
   {
-    result.centre = centre_of(scene.geometry);
-    result.loads.boundary = "loads";
-    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-      result.reactions.push_back({boundary.name, {}, 0});
+    replace_all(sum->force, total);
+    replace_all(sum->moment, total);
   }
+  absolute_force = total(absolute_force);
+  absolute_moment = total(absolute_moment);
+}
 
-  void add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
+template <int dim>
+Equilibrium<dim> Resultants<dim>::finish()
+{
+  Tensor<1, dim> force = result.loads.force;
+  Moment<dim> moment = result.loads.moment;
+  std::vector<BoundaryForce<dim>> supporting;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
-    const Tensor<1, dim> arm = x - result.centre;
-    sum.force += force;
-    sum.moment += arm[0] * force[1] - arm[1] * force[0];
-    absolute_force += force.norm();
-    absolute_moment += arm.norm() * force.norm();
+    const BoundaryForce<dim> &reaction = result.reactions[boundary.id];
+    force += reaction.force;
+    moment += reaction.moment;
+    if (boundary.has_displacement() || boundary.has_contact())
+      supporting.push_back(reaction);
   }
+  result.reactions = supporting;
+  result.force_imbalance = absolute_force > 0 ? force.norm() / absolute_force : 0.;
+  result.moment_imbalance = absolute_moment > 0 ? size_of(moment) / absolute_moment : 0.;
+  return result;
+}
 
-  /** One component of a load at one node. */
-  void add_load(const unsigned int component, const double value, const Point<dim> &x)
-  {
-    Tensor<1, dim> force;
-    force[component] = value;
-    add(result.loads, force, x);
-  }
-
-  void add_reaction(const types::boundary_id boundary, const Tensor<1, dim> &force,
-                    const Point<dim> &x)
-  {
-    add(result.reactions[boundary], force, x);
-  }
-
-  /** Without the boundaries that carry nothing. */
-  Equilibrium<dim> finish()
-  {
-    Tensor<1, dim> force = result.loads.force;
-    double moment = result.loads.moment;
-    std::vector<BoundaryForce<dim>> supporting;
-    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    {
-      const BoundaryForce<dim> &reaction = result.reactions[boundary.id];
-      force += reaction.force;
-      moment += reaction.moment;
-      if (boundary.has_displacement() || boundary.has_contact())
-        supporting.push_back(reaction);
-    }
-    result.reactions = supporting;
-    result.force_imbalance = absolute_force > 0 ? force.norm() / absolute_force : 0.;
-    result.moment_imbalance = absolute_moment > 0 ? std::abs(moment) / absolute_moment : 0.;
-    return result;
-  }
-
-private:
-  const Scene<dim> &scene;
-  Equilibrium<dim> result;
-  double absolute_force = 0, absolute_moment = 0;
-};
-
+namespace
+{
 /** Where every displacement unknown has its node, and which component it is. */
 template <int dim>
 struct Nodes
@@ -158,7 +198,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ShapeTables<dim> &tables = solution.tables;
   const Nodes<dim> nodes(space);
-  Resultants<dim> resultants(solution);
+  Resultants<dim> resultants(solution.scene, centre_of(solution.scene.geometry));
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (system.loads()[dof] != 0.)
       resultants.add_load(nodes.component[dof], system.loads()[dof], nodes.x[dof]);
@@ -191,7 +231,8 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
   return resultants.finish();
 }
 
-template struct Equilibrium<2>;
+template class Resultants<2>;
+template class Resultants<3>;
 template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &);
 template double work_of_supports(const Solution<2> &, const ElasticSystem<2> &,
                                  const Vector<double> &);

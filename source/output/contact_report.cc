@@ -181,7 +181,42 @@ std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState
   return "{" + list + (list.empty() ? "}" : "\n  }");
 }
 
+namespace
+{
+std::string json_moment(const double moment)
+{
+  return text(moment);
+}
+
+std::string json_moment(const Tensor<1, 3> &moment)
+{
+  return json_point<3>(moment);
+}
+
+template <int dim>
+std::string json_force(const BoundaryForce<dim> &force)
+{
+  return json_string(force.boundary) + ": {\"force\": " + json_point<dim>(force.force) +
+         ", \"moment\": " + json_moment(force.moment) + "}";
+}
+} // namespace
+
+template <int dim>
+std::string equilibrium_json(const Equilibrium<dim> &equilibrium)
+{
+  std::string forces = "\n    " + json_force(equilibrium.loads);
+  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
+    forces += ",\n    " + json_force(reaction);
+  return "  \"forces\": {" + forces +
+         "\n  },\n  \"balance\": {\n    \"force\": " + text(equilibrium.force_imbalance) +
+         ",\n    \"moment\": " + text(equilibrium.moment_imbalance) +
+         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
+}
+
 template std::string json_point(const Tensor<1, 2> &);
+template std::string json_point(const Tensor<1, 3> &);
+template std::string equilibrium_json(const Equilibrium<2> &);
+template std::string equilibrium_json(const Equilibrium<3> &);
 template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const Point<2> &,
                                                 const ContactState<2> &, double);
 template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/base/version.h>
+#include <hpvi/output/contact_report.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/primal_output.h>
+#include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/scene/parameters.h>
@@ -30,14 +31,41 @@ std::string known(const double value)
   return std::isfinite(value) ? text(value) : "";
 }
 
-/** The items of an array, each on a line of its own. */
-template <class Lines>
-std::string json_lines(const Lines &lines)
+/** A member of summary.json: force, pressure and zones of each contact boundary. */
+template <int dim>
+std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points)
 {
   std::string list;
-  for (const std::string &line : lines)
-    list += (list.empty() ? "\n    " : ",\n    ") + json_string(line);
-  return list.empty() ? "" : list + "\n  ";
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    if (!boundary.has_contact())
+      continue;
+    double normal = 0, area = 0, slipping = 0, pressure = 0;
+    Tensor<1, dim> friction;
+    Point<dim> at;
+    for (const MomentPoint<dim> &point : points)
+    {
+      if (point.boundary != boundary.id)
+        continue;
+      normal += point.area * point.normal_traction;
+      friction -= point.area * point.bound * point.lambda;
+      area += point.area;
+      slipping += point.slips ? point.area : 0.;
+      if (-point.normal_traction > pressure)
+      {
+        pressure = -point.normal_traction;
+        at = point.x;
+      }
+    }
+    list += (list.empty() ? "\n    " : ",\n    ") + json_string(boundary.name) +
+            ": {\n      \"normal_resultant\": " + text(normal) +
+            ",\n      \"friction_resultant\": " + json_point<dim>(friction) +
+            ",\n      \"largest_pressure\": " + text(pressure) +
+            ",\n      \"largest_pressure_at\": " + (pressure > 0 ? json_point<dim>(at) : "null") +
+            ",\n      \"area\": " + text(area) + ",\n      \"slipping_area\": " + text(slipping) +
+            "\n    }";
+  }
+  return "  \"contact\": {" + list + (list.empty() ? "" : "\n  ") + "},\n";
 }
 
 /** int T_n and, by component, int T_t of the one contact boundary; empty where there are more. */
@@ -108,7 +136,9 @@ Record convergence_record(const PrimalReport<dim> &step)
                 {"newton_line_searches", text(step.newton.line_searches)},
                 {"newton_residual", text(step.newton.residual)},
                 {"newton_error", text(step.newton.error)},
+                {"augmented_steps", text(step.newton.augmented_steps)},
                 {"slipping", text(step.newton.n_slipping)},
+                {"peak_memory", text(step.peak_memory)},
                 {"processes", text(Utilities::MPI::n_mpi_processes(step.space.communicator()))}};
   for (const auto &field : resultants(step.contact))
     record.push_back(field);
@@ -222,6 +252,8 @@ void PrimalOutput<dim>::write_tables(const PrimalReport<dim> &step)
   times += step.times;
   stopped_by = step.stopped_by;
   warnings = step.warnings;
+  if (!stopped_by.empty())
+    forces = equilibrium_json(step.equilibrium) + json_contact(scene, step.contact);
   write("summary.json", summary());
 }
 
@@ -262,23 +294,11 @@ void PrimalOutput<dim>::give_up(const std::string &new_status, const std::string
 template <int dim>
 std::string PrimalOutput<dim>::summary() const
 {
-  std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
-  if (!stopped_by.empty())
-    json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
-  if (!message.empty())
-    json += "  \"message\": " + json_string(message) + ",\n";
-  return json + "  \"scene\": " + json_string(scene.name) +
-         ",\n  \"title\": " + json_string(scene.title) +
-         ",\n  \"program\": " + json_string("hpvi " + version()) +
-         ",\n  \"build\": " + json_string(build_type()) +
-         ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
-         ",\n  \"processes\": " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
-         ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
-         ",\n    \"stress\": " + json_string(scene.stress_unit) +
-         "\n  },\n  \"steps\": " + std::to_string(rows.size()) +
-         ",\n  \"final\": " + (rows.empty() ? "null" : json_object(rows.back())) +
-         ",\n  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
-         json_lines(warnings) + "],\n  \"files\": [" + json_lines(directory->files()) + "]\n}\n";
+  return json_head(scene, status, stopped_by, message) +
+         "  \"processes\": " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
+         ",\n  \"steps\": " + std::to_string(rows.size()) +
+         ",\n  \"final\": " + (rows.empty() ? "null" : json_object(rows.back())) + ",\n" + forces +
+         json_tail(times, warnings, directory->files());
 }
 
 template class PrimalOutput<2>;

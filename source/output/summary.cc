@@ -11,26 +11,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-std::string json_force(const BoundaryForce<dim> &force)
-{
-  return json_string(force.boundary) + ": {\"force\": " + json_point<dim>(force.force) +
-         ", \"moment\": " + text(force.moment) + "}";
-}
-
-/** Two members of summary.json: forces by boundary, and how well they balance. */
-template <int dim>
-std::string json_equilibrium(const Equilibrium<dim> &equilibrium)
-{
-  std::string forces = "\n    " + json_force(equilibrium.loads);
-  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
-    forces += ",\n    " + json_force(reaction);
-  return "  \"forces\": {" + forces +
-         "\n  },\n  \"balance\": {\n    \"force\": " + text(equilibrium.force_imbalance) +
-         ",\n    \"moment\": " + text(equilibrium.moment_imbalance) +
-         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
-}
-
 /** A member of summary.json: what became of a history of loads; nothing without one. */
 std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
 {
@@ -41,16 +21,6 @@ std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
          ",\n    \"dissipated_energy\": " + text(load.dissipated) +
          ",\n    \"work\": " + text(load.work) + ",\n    \"stored_energy\": " + text(load.stored) +
          "\n  },\n";
-}
-
-/** The items of an array, each on a line of its own. */
-template <class Lines>
-std::string json_lines(const Lines &lines)
-{
-  std::string list;
-  for (const std::string &line : lines)
-    list += (list.empty() ? "\n    " : ",\n    ") + json_string(line);
-  return list.empty() ? "" : list + "\n  ";
 }
 } // namespace
 
@@ -87,6 +57,19 @@ std::string Summary<dim>::json_bound() const
 template <int dim>
 std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::string> &files) const
 {
+  return json_head(scene, status, stopped_by, message) + "  \"steps\": " + std::to_string(steps) +
+         ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
+         json_loading(load, scene.loading.steps) +
+         (stopped_by.empty() ? ""
+                             : json_bound() + equilibrium_json(equilibrium) + "  \"contact\": " +
+                                   contact_json(scene, contact, equilibrium) + ",\n") +
+         json_tail(times, warnings, files);
+}
+
+template <int dim>
+std::string json_head(const Scene<dim> &scene, const std::string &status,
+                      const std::string &stopped_by, const std::string &message)
+{
   std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
   if (!stopped_by.empty())
     json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
@@ -98,16 +81,20 @@ std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::stri
          ",\n  \"build\": " + json_string(build_type()) +
          ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
          ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
-         ",\n    \"stress\": " + json_string(scene.stress_unit) +
-         "\n  },\n  \"steps\": " + std::to_string(steps) +
-         ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
-         json_loading(load, scene.loading.steps) +
-         (stopped_by.empty() ? ""
-                             : json_bound() + json_equilibrium(equilibrium) + "  \"contact\": " +
-                                   contact_json(scene, contact, equilibrium) + ",\n") +
-         "  \"seconds\": " + json_object(stage_record(times)) + ",\n  \"warnings\": [" +
-         json_lines(warnings) + "],\n  \"files\": [" + json_lines(files) + "]\n}\n";
+         ",\n    \"stress\": " + json_string(scene.stress_unit) + "\n  },\n";
 }
 
+std::string json_tail(const StageTimes &times, const std::vector<std::string> &warnings,
+                      const std::set<std::string> &files)
+{
+  return "  \"seconds\": " + json_object(stage_record(times)) +
+         ",\n  \"warnings\": " + json_lines(warnings) + ",\n  \"files\": " + json_lines(files) +
+         "\n}\n";
+}
+
+template std::string json_head(const Scene<2> &, const std::string &, const std::string &,
+                               const std::string &);
+template std::string json_head(const Scene<3> &, const std::string &, const std::string &,
+                               const std::string &);
 template struct Summary<2>;
 } // namespace hpvi

@@ -49,16 +49,6 @@ std::array<bool, dim> sides(const Cell &whole, const Cell &piece)
 }
 
 template <int dim>
-Point<dim> point_of(const typename MomentSpace<dim>::Cell &cell, const Point<dim> &unit)
-{
-  Point<dim> x = cell->vertex(0);
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
-  for (unsigned int d = 0; d < dim; ++d)
-    x[d] += unit[d] * size[d];
-  return x;
-}
-
-template <int dim>
 double longest_edge(const Tensor<1, dim> &size)
 {
   return *std::max_element(size.begin_raw(), size.end_raw());
@@ -97,7 +87,8 @@ double BoxResiduals<dim>::volume(const Cell &cell, const CellField<dim> &field) 
     Tensor<1, dim> residual = law.divergence_of_stress(second);
     for (unsigned int c = 0; c < dim; ++c)
       if (space.scene.body_force[c])
-        residual[c] += space.scene.body_force[c]->value(point_of<dim>(cell, table.points[q]));
+        residual[c] +=
+            space.scene.body_force[c]->value(MomentSpace<dim>::point_of(cell, table.points[q]));
     sum += table.weights[q] * residual.norm_square();
   }
   return cell->measure() * sum;
@@ -184,7 +175,8 @@ void BoxResiduals<dim>::add_boundary(const Cell &cell, const unsigned int face,
     for (unsigned int c = 0; c < dim; ++c)
     {
       if (condition.traction[c])
-        residual[c] -= condition.traction[c]->value(point_of<dim>(cell, table.points[q]));
+        residual[c] -=
+            condition.traction[c]->value(MomentSpace<dim>::point_of(cell, table.points[q]));
       const bool is_held = condition.displacement[c] || (condition.holds_normal() && c == face / 2);
       squares[c] += is_held ? 0. : table.weights[q] * residual[c] * residual[c];
     }

@@ -12,16 +12,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-Point<dim> point_of(const typename MomentSpace<dim>::Cell &cell, const Point<dim> &unit)
-{
-  Point<dim> x = cell->vertex(0);
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
-  for (unsigned int d = 0; d < dim; ++d)
-    x[d] += unit[d] * size[d];
-  return x;
-}
-
 /** All but the multiplier at Gauss point @p k of a face. */
 template <int dim>
 MomentPoint<dim> point_on(const MomentSpace<dim> &space,
@@ -31,7 +21,7 @@ MomentPoint<dim> point_on(const MomentSpace<dim> &space,
   const BoxTable<dim> &table = space.tables.moment_points[face];
   const BoundaryCondition<dim> &condition = space.condition(cell, face);
   MomentPoint<dim> point;
-  point.x = point_of<dim>(cell, table.points[k]);
+  point.x = MomentSpace<dim>::point_of(cell, table.points[k]);
   point.boundary = condition.id;
   point.area = table.weights[k] * cell->face(face)->measure();
   point.displacement = value(table, k, field);
@@ -112,7 +102,7 @@ double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
       Tensor<1, dim> slip = value(table, q, field);
       slip[face.face / 2] = 0;
       sum += table.weights[q] * face.cell->face(face.face)->measure() *
-             g->value(point_of<dim>(face.cell, table.points[q])) * slip.norm();
+             g->value(MomentSpace<dim>::point_of(face.cell, table.points[q])) * slip.norm();
     }
   }
   return Utilities::MPI::sum(sum, space.communicator());

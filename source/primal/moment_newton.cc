@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace hpvi
 {
@@ -12,24 +13,38 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int maximum_steps = 50;
+constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 
-template <int rank>
-Tensor<1, rank> projected(const Tensor<1, rank> &z)
-{
-  return z / std::max(1., z.norm());
-}
+/**
+ * From all discs sticking a front of slip advances by a few of them in each step of Newton's method: more than
+ * these start with the augmented Lagrangian, whose number of steps does not depend on the mesh.
+ */
+constexpr unsigned int many_discs = 100;
 
 [[noreturn]] void give_up(const NewtonReport &report)
 {
   std::ostringstream line;
-  line << "Newton's method finds no equilibrium of stick and slip: after " << report.steps
-       << " steps the residual is " << report.residual
+  line << "neither Newton's method nor the augmented Lagrangian finds an equilibrium of stick and "
+          "slip: after "
+       << report.steps << " and " << report.augmented_steps << " steps the residual is "
+       << report.residual
        << " of the loads; raise Solver/Primal tolerance, smooth jumps of Friction bound or start "
           "on a coarser mesh";
   throw NumericalFailure(line.str());
 }
 } // namespace
+
+NewtonReport &NewtonReport::operator+=(const NewtonReport &next)
+{
+  const NewtonReport before = std::exchange(*this, next);
+  steps += before.steps;
+  cg_steps += before.cg_steps;
+  setups += before.setups;
+  line_searches += before.line_searches;
+  augmented_steps += before.augmented_steps;
+  is_cut_off = is_cut_off || before.is_cut_off;
+  return *this;
+}
 
 template <int dim>
 MomentNewton<dim>::MomentNewton(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
@@ -40,15 +55,6 @@ MomentNewton<dim>::MomentNewton(const MomentSpace<dim> &space, const PrimalSyste
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k)) // a tenth of the stiffness that a moment meets; its size hardly matters
       c[k] = 0.1 * trace(matrix.block(k)) / (dim - 1) / space.discs[k].radius;
-}
-
-template <int dim>
-Tangential<dim> MomentNewton<dim>::at(const DistributedVector &x, const unsigned int disc) const
-{
-  Tangential<dim> result;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    result[s] = x.local_element(space.discs[disc].unknowns[s]);
-  return result;
 }
 
 template <int dim>
@@ -83,7 +89,7 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const Distribut
     if (!acts(k))
       continue;
     const double G = space.discs[k].radius;
-    const Tangential<dim> m = at(v, k), force = at(r, k);
+    const Tangential<dim> m = space.moment(v, k), force = space.moment(r, k);
     if (keep_lambda)
       on_discs += (force - G * lambda[k]).norm_square();
     else
@@ -139,7 +145,7 @@ double MomentNewton<dim>::friction(const DistributedVector &v, const Distributed
 {
   double sum = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
-    sum += space.discs[k].radius * (at(v, k) + length * at(step, k)).norm();
+    sum += space.discs[k].radius * (space.moment(v, k) + length * space.moment(step, k)).norm();
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
@@ -171,17 +177,18 @@ bool MomentNewton<dim>::shorten(DistributedVector &v, const DistributedVector &o
   return true;
 }
 
-/** Residual and gap as multigrid sees them: the square is `r'(A + H)^-1 r` plus the gap. */
 template <int dim>
 double MomentNewton<dim>::error(const double gap)
 {
   DistributedVector rest = r, correction = r;
   for (unsigned int k = 0; k < c.size(); ++k)
-    for (unsigned int s = 0; acts(k) && s < dim - 1; ++s)
-      rest.local_element(space.discs[k].unknowns[s]) -=
-          space.discs[k].radius * projected(lambda[k])[s];
+    if (acts(k))
+      space.add_moment(rest, k, -space.discs[k].radius * projected(lambda[k]));
   matrix.precondition(correction, rest);
-  return std::sqrt(std::max(0., rest * correction) + gap);
+  for (unsigned int k = 0; k < c.size(); ++k) // a disc that stuck until now is none of its unknowns
+    if (acts(k) && space.moment(correction, k).norm() == 0)
+      space.add_moment(correction, k, space.moment(rest, k) * ((dim - 1) / trace(matrix.block(k))));
+  return std::sqrt(std::max(0., rest * correction) + 2 * gap);
 }
 
 template <int dim>
@@ -193,9 +200,33 @@ unsigned int MomentNewton<dim>::n_slipping(const std::vector<DiscState<dim>> &st
   return Utilities::MPI::sum(n, space.communicator());
 }
 
+/** Can the iteration end? Brings the estimated error up to date where it is asked for. */
+template <int dim>
+bool MomentNewton<dim>::is_exact(const NewtonSettings &settings, const Residual &now,
+                                 NewtonReport &report)
+{
+  const double load = system.f.l2_norm();
+  report.residual = load > 0 ? now.norm / load : 0;
+  const bool is_small = now.norm <= settings.residual * load;
+  const bool knows_error = matrix.n_setups > 0 && (is_small || settings.error > 0);
+  report.error = knows_error ? error(now.gap) : 0;
+  return is_small || (knows_error && report.error <= settings.error);
+}
+
+/** In the place of a Newton step. */
+template <int dim>
+typename MomentNewton<dim>::Residual MomentNewton<dim>::augment(DistributedVector &v,
+                                                                NewtonReport &report)
+{
+  if (!fallback)
+    fallback = std::make_unique<AugmentedLagrangian<dim>>(space, system, matrix, lambda);
+  report.augmented_steps += fallback->update(v);
+  return residual(v, false);
+}
+
 template <int dim>
 NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<Tangential<dim>> &start,
-                                      const double tolerance,
+                                      const NewtonSettings &settings,
                                       const std::function<void(const NewtonReport &)> &heard)
 {
   const bool warm =
@@ -206,40 +237,52 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<Tangenti
     for (const unsigned int unknown : space.discs[k].unknowns)
       if (acts(k) && lambda[k].norm() < 1 - 1e-3)
         v.local_element(unknown) = 0;
-  const double load = system.f.l2_norm();
   const unsigned int cg_before = matrix.n_steps, setups_before = matrix.n_setups;
   NewtonReport report;
-  for (double previous = 0;; ++report.steps)
+  Residual now = residual(v, warm);
+  for (unsigned int updates = 0; !is_exact(settings, now, report);)
   {
-    const Residual now = residual(v, warm && report.steps == 0);
     const bool all_stick = !warm && report.steps == 0;
     const auto disc_states = states(all_stick);
-    report.residual = load > 0 ? now.norm / load : 0;
     report.n_slipping = n_slipping(disc_states);
     report.cg_steps = matrix.n_steps - cg_before;
     report.setups = matrix.n_setups - setups_before;
-    report.fell_back = matrix.fell_back;
     heard(report);
-    if (now.norm <= tolerance * load)
+    report.is_cut_off = report.steps >= settings.maximum_steps;
+    if (report.is_cut_off || (!warm && space.n_discs > many_discs))
     {
-      report.error = matrix.n_setups > 0 ? error(now.gap) : 0;
-      break;
+      if (updates++ == maximum_updates)
+        give_up(report);
+      now = augment(v, report);
+      continue;
     }
-    if (report.steps == maximum_steps)
-      give_up(report);
-    const double eta =
-        report.steps == 0 ? 0.1 : std::clamp(0.9 * std::pow(now.norm / previous, 2), 1e-3, 0.1);
-    previous = now.norm;
     matrix.linearise(disc_states);
     const DistributedVector old = v;
-    matrix.solve(v, right_hand_side(disc_states), std::max(eta * now.norm, 0.3 * tolerance * load));
+    matrix.solve(v, right_hand_side(disc_states),
+                 linear_tolerance(settings, now.norm, report.steps));
     if (report.steps > 0 && shorten(v, old))
       ++report.line_searches;
+    previous = now.norm;
+    ++report.steps;
+    now = residual(v, false);
   }
+  report.n_slipping = n_slipping(states(false));
+  report.cg_steps = matrix.n_steps - cg_before;
+  report.setups = matrix.n_setups - setups_before;
+  report.fell_back = matrix.fell_back;
   start.resize(c.size());
   for (unsigned int k = 0; k < c.size(); ++k) // feasible: |lambda| = 1 where a disc slips
     start[k] = acts(k) ? projected(z[k]) : Tangential<dim>();
   return report;
+}
+
+/** Eisenstat and Walker's rule (1996): the better the last step, the more exact the next. */
+template <int dim>
+double MomentNewton<dim>::linear_tolerance(const NewtonSettings &settings, const double now,
+                                           const unsigned int step) const
+{
+  const double eta = step == 0 ? 0.1 : std::clamp(0.9 * std::pow(now / previous, 2), 1e-3, 0.1);
+  return std::max(eta * now, 0.3 * settings.residual * system.f.l2_norm());
 }
 
 template class MomentNewton<2>;

@@ -22,6 +22,9 @@ namespace
 /** What Newton's method leaves, as a part of the estimated error. */
 constexpr double algebraic_part = 1e-2;
 
+/** Of the residual relative to the load vector: Newton's method has no less to reach. */
+constexpr double round_off = 1e-11;
+
 /** Of a process: matrix, its pattern, the levels of multigrid; measured to a quarter. */
 template <int dim>
 double expected_bytes(const MomentSpace<dim> &space)
@@ -41,6 +44,10 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
   if (adaptivity.tolerance > 0 && adaptivity.tolerance_on == Indicator::bound)
     result.push_back("the primal path has no guaranteed bound of the error: Adaptivity/Tolerance "
                      "was held against the indicator, which is a measure and no bound");
+  if (step.newton.is_cut_off)
+    result.push_back("Newton's method did not find stick and slip in " +
+                     to_string(step.newton.steps) +
+                     " steps, and the augmented Lagrangian took its place");
   if (step.newton.fell_back)
     result.push_back("multigrid broke down, and a sparse factorisation took its place; "
                      "Solver/Linear = direct begins with it");
@@ -100,14 +107,21 @@ struct PrimalSolver<dim>::Stages
 
   void begin(const std::string &stage) const;
   NewtonReport solve();
-  NewtonReport iterate(MomentNewton<dim> &newton, DistributedVector &v, double tolerance);
+  NewtonReport iterate(MomentNewton<dim> &newton, DistributedVector &v,
+                       const NewtonSettings &settings);
+  NewtonSettings first_settings() const;
+  bool is_exact(const NewtonReport &newton, NewtonSettings &settings) const;
+  void estimate_error();
   Energies energies(const PrimalSystem<dim> &system, const DistributedVector &v) const;
-  PrimalReport<dim> report(const NewtonReport &newton, const ErrorEstimate &estimate);
-  std::vector<bool> mark(const ErrorEstimate &estimate) const;
+  PrimalReport<dim> report(const NewtonReport &newton);
+  std::vector<bool> mark() const;
+  double total_estimate() const;
   std::string limit() const;
   void refine(const std::vector<bool> &marked);
 
+  ErrorEstimate estimate; ///< of the current step, as the next
   Energies step_energies;
+  Equilibrium<dim> balance;
 };
 
 template <int dim>
@@ -118,15 +132,52 @@ void PrimalSolver<dim>::Stages::begin(const std::string &stage) const
 
 template <int dim>
 NewtonReport PrimalSolver<dim>::Stages::iterate(MomentNewton<dim> &newton, DistributedVector &v,
-                                                const double tolerance)
+                                                const NewtonSettings &settings)
 {
-  return newton.solve(v, lambda, tolerance,
+  return newton.solve(v, lambda, settings,
                       [this](const NewtonReport &sofar)
                       {
-                        begin("finding stick and slip: Newton step " +
-                              std::to_string(sofar.steps + 1) + ", " +
+                        begin("finding stick and slip: " +
+                              std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
+                                                                    : "Newton step ") +
+                              std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", " +
                               std::to_string(sofar.cg_steps) + " steps of conjugate gradients");
                       });
+}
+
+/** Before the error of this mesh is estimated: as if it were half of that before. */
+template <int dim>
+NewtonSettings PrimalSolver<dim>::Stages::first_settings() const
+{
+  NewtonSettings settings;
+  if (scene.solver.primal_tolerance > 0)
+    settings.residual = scene.solver.primal_tolerance;
+  else if (!history.empty())
+  {
+    settings.residual = round_off;
+    settings.error = 0.5 * algebraic_part * history.back().estimate / std::sqrt(scene.coercivity());
+  }
+  return settings;
+}
+
+/** Is the algebraic error small enough beside the estimated one? If not, what Newton's method is to reach. */
+template <int dim>
+bool PrimalSolver<dim>::Stages::is_exact(const NewtonReport &newton, NewtonSettings &settings) const
+{
+  const double error = algebraic_part * total_estimate() / std::sqrt(scene.coercivity());
+  if (scene.solver.primal_tolerance > 0 || newton.residual <= round_off || newton.error <= error)
+    return true;
+  settings.residual = round_off;
+  settings.error = 0.5 * error;
+  return false;
+}
+
+template <int dim>
+void PrimalSolver<dim>::Stages::estimate_error()
+{
+  begin("estimating the error");
+  StageTimer timer(times.estimate);
+  together(space->communicator(), [&]() { estimate = hpvi::estimate_error(*space, u, lambda); });
 }
 
 template <int dim>
@@ -139,16 +190,25 @@ NewtonReport PrimalSolver<dim>::Stages::solve()
     StageTimer timer(times.assemble);
     system = std::make_unique<PrimalSystem<dim>>(*space);
   }
-  const Timer timer;
+  Timer timer;
   MomentMatrix<dim> matrix(*space, *system);
   MomentNewton<dim> newton(*space, *system, matrix);
   DistributedVector v = history.empty() ? space->owned_vector() : space->moments(u);
-  const NewtonReport report = iterate(newton, v, scene.solver.primal_tolerance);
+  NewtonSettings settings = first_settings();
+  NewtonReport report;
+  do
+  {
+    timer.restart();
+    report += iterate(newton, v, settings);
+    times.qp += timer.wall_time();
+    u = space->displacement(v);
+    estimate_error();
+  } while (!is_exact(report, settings));
   times.factor += matrix.setup_seconds;
-  times.qp += timer.wall_time() - matrix.setup_seconds;
+  times.qp -= matrix.setup_seconds;
   StageTimer recovery(times.recover);
-  u = space->displacement(v);
   step_energies = energies(*system, v);
+  balance = equilibrium(*space, *system, u, lambda);
   return report;
 }
 
@@ -169,25 +229,38 @@ Energies PrimalSolver<dim>::Stages::energies(const PrimalSystem<dim> &system,
           friction - coupling};
 }
 
-template <int dim>
-PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton,
-                                                    const ErrorEstimate &estimate)
+/** The root of the sum over all processes. */
+double root_of_sum(const std::vector<double> &squares, MPI_Comm communicator)
 {
-  const auto root_of_sum = [&](const std::vector<double> &squares)
-  {
-    return std::sqrt(Utilities::MPI::sum(std::accumulate(squares.begin(), squares.end(), 0.),
-                                         space->communicator()));
-  };
+  return std::sqrt(
+      Utilities::MPI::sum(std::accumulate(squares.begin(), squares.end(), 0.), communicator));
+}
+
+template <int dim>
+double PrimalSolver<dim>::Stages::total_estimate() const
+{
+  double sum = 0;
+  for (const auto *part : {&estimate.volume, &estimate.jumps, &estimate.neumann, &estimate.contact})
+    sum += std::accumulate(part->begin(), part->end(), 0.);
+  return std::sqrt(Utilities::MPI::sum(sum, space->communicator()));
+}
+
+template <int dim>
+PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton)
+{
   PrimalReport<dim> step{static_cast<unsigned int>(history.size()) + 1, *space, u, estimate};
   step.n_cells = mesh.n_global_active_cells();
-  step.estimate_volume = root_of_sum(estimate.volume);
-  step.estimate_jumps = root_of_sum(estimate.jumps);
-  step.estimate_neumann = root_of_sum(estimate.neumann);
-  step.estimate_contact = root_of_sum(estimate.contact);
-  step.total_estimate = std::hypot(std::hypot(step.estimate_volume, step.estimate_jumps),
-                                   std::hypot(step.estimate_neumann, step.estimate_contact));
+  step.estimate_volume = root_of_sum(estimate.volume, space->communicator());
+  step.estimate_jumps = root_of_sum(estimate.jumps, space->communicator());
+  step.estimate_neumann = root_of_sum(estimate.neumann, space->communicator());
+  step.estimate_contact = root_of_sum(estimate.contact, space->communicator());
+  step.total_estimate = total_estimate();
   check_finite("the error indicator", step.total_estimate);
   step.energies = step_energies;
+  step.equilibrium = balance;
+  Utilities::System::MemoryStats memory;
+  Utilities::System::get_memory_stats(memory);
+  step.peak_memory = Utilities::MPI::sum(1024. * memory.VmHWM, space->communicator());
   step.scaled_estimate = step.total_estimate / std::sqrt(scene.coercivity());
   step.relative_estimate =
       step.scaled_estimate == 0 ? 0. : step.scaled_estimate / step.energies.norm;
@@ -205,7 +278,7 @@ PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton,
 }
 
 template <int dim>
-std::vector<bool> PrimalSolver<dim>::Stages::mark(const ErrorEstimate &estimate) const
+std::vector<bool> PrimalSolver<dim>::Stages::mark() const
 {
   const Adaptivity &adaptivity = scene.adaptivity;
   const bool uniform = adaptivity.method <= Method::hup4;
@@ -292,16 +365,8 @@ void PrimalSolver<dim>::run(const std::function<void(const PrimalReport<dim> &)>
   }
   for (bool finished = false; !finished;)
   {
-    const NewtonReport newton = stages->solve();
-    ErrorEstimate estimate;
-    {
-      stages->begin("estimating the error");
-      StageTimer timer(stages->times.estimate);
-      together(stages->space->communicator(),
-               [&]() { estimate = estimate_error(*stages->space, stages->u, stages->lambda); });
-    }
-    const std::vector<bool> marked = stages->mark(estimate);
-    PrimalReport<dim> step = stages->report(newton, estimate);
+    PrimalReport<dim> step = stages->report(stages->solve());
+    const std::vector<bool> marked = stages->mark();
     step.stopped_by = stages->limit();
     finished = !step.stopped_by.empty();
     if (finished)

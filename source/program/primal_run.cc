@@ -42,7 +42,8 @@ void print_row(const PrimalReport<dim> &step)
             << step.space.tables.degree << std::scientific << std::setprecision(3) << std::setw(12)
             << step.total_estimate << std::setprecision(1) << std::setw(10)
             << step.relative_estimate << std::setprecision(3) << std::setw(12)
-            << step.energies.slack << std::setw(8) << step.newton.steps << std::setw(10)
+            << step.energies.slack << std::setw(8)
+            << step.newton.steps + step.newton.augmented_steps << std::setw(10)
             << step.newton.cg_steps << std::fixed << std::setprecision(2) << std::setw(10)
             << step.seconds << std::endl;
 }
@@ -69,6 +70,7 @@ struct Ending
   StageTimes times;
   std::string stopped_by;
   std::vector<std::string> warnings;
+  std::string balance;
 };
 
 template <int dim>
@@ -83,6 +85,9 @@ void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, Ending &end
         ending.times += step.times;
         ending.stopped_by = step.stopped_by;
         ending.warnings = step.warnings;
+        ending.balance = "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
+                         ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
+                         " of their absolute sums\n";
         output.write_step(step);
       },
       [&](const Progress &stage)
@@ -142,6 +147,7 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   }
   output.finish();
   print_stages(ending.times);
+  std::cout << ending.balance;
   for (const std::string &warning : ending.warnings)
     std::cout << "\nwarning: " << warning;
   std::cout << (ending.warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/"

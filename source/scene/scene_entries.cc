@@ -218,10 +218,11 @@ void add_program_entries(std::vector<Entry> &entries)
         "all cells (hup, hap), bilateral or tangential contact with Tresca friction. auto: reduced "
         "in the plane on one process, else primal."},
        {"Solver", "Linear", "amg", one_of(linear_names), "amg or direct",
-        "primal: conjugate gradients with algebraic multigrid, or a sparse factorisation."},
-       {"Solver", "Primal tolerance", "1e-6",
-        matching(Patterns::Double(std::numeric_limits<double>::min(), 1)), "a number in (0, 1]",
-        "primal: Newton's method stops where its residual is below this part of the load vector."},
+        "primal in space: conjugate gradients with algebraic multigrid, or a sparse factorisation, "
+        "which the plane always has."},
+       {"Solver", "Primal tolerance", "0", matching(Patterns::Double(0, 1)), "a number in [0, 1]",
+        "primal: Newton's method stops where its residual is below this part of the load vector; "
+        "0: where what it leaves is below a hundredth of the estimated error."},
        {"Solver", "QP solver", "active set", one_of(qp_solver_names), "mprgp or active set",
         "mprgp: conjugate gradients on faces, the thesis's; active set: Newton's method with dense "
         "Cholesky factorisations, and mprgp where that cycles. Both end at the same tolerance."},

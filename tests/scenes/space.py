@@ -49,9 +49,12 @@ with tempfile.TemporaryDirectory() as scratch:
         assert len(table) == len(other), name
         for row, twin in zip(table, other):
             for column in row:
-                if "seconds" not in column and not column.startswith(("newton", "processes")):
+                if "seconds" not in column and not column.startswith(("newton", "processes", "peak_memory")):
                     near(row[column], twin[column], (name, column))
     assert rows(two / "convergence.csv")[0]["processes"] == "2"
+    for directory in (one, two):
+        peaks = [float(row["peak_memory"]) for row in rows(directory / "convergence.csv")]
+        assert 1e7 < peaks[0] <= peaks[1] < 4e9, peaks  # bytes
 
     # Contact: |T_t| <= g, slip against friction, one file sorted by place, forces that add up.
     points = tables["contact-02.csv"]
@@ -70,6 +73,18 @@ with tempfile.TemporaryDirectory() as scratch:
         summary = json.loads((directory / "summary.json").read_text())
         assert summary["status"] == "done" and summary["processes"] == n
         assert sorted(summary["files"]) == sorted(p.name for p in directory.iterdir()), summary["files"]
+        # The loads are int 1.5 (5 - y), -0.75, 0.5 over 4 x 2; supports and contact carry them, moments too.
+        forces = {name: entry["force"] + entry["moment"] for name, entry in summary["forces"].items()}
+        for got, expected in zip(forces["loads"], (36, -6, 4, 0, 8, 28)):
+            assert abs(got - expected) < 1e-9, forces["loads"]
+        assert sorted(forces) == ["bottom", "loads", "right"]
+        for component in range(6):
+            assert abs(sum(force[component] for force in forces.values())) < 1e-7, forces
+        assert summary["balance"]["force"] < 1e-9 and summary["balance"]["moment"] < 1e-9
+        contact = summary["contact"]["bottom"]
+        for axis in (0, 2):
+            assert abs(forces["bottom"][axis] - contact["friction_resultant"][axis]) < 1e-9
+        assert abs(contact["area"] - 8) < 1e-12 and 0 < contact["slipping_area"] < 8
         index = (directory / "solution-02.pvtu").read_text()
         for rank in range(n):
             assert f"solution-02.{rank}.vtu" in index

@@ -5,18 +5,24 @@
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/solution.h>
 
+#include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace hpvi
 {
+/** Of a force about a point [stress length^dim]: a number in the plane. */
+template <int dim>
+using Moment = std::conditional_t<dim == 2, double, dealii::Tensor<1, dim>>;
+
 /** What one boundary exerts on the body through its supports and its contact, without loads. */
 template <int dim>
 struct BoundaryForce
 {
   std::string boundary;         ///< its name
   dealii::Tensor<1, dim> force; ///< [stress length^(dim-1)]
-  double moment = 0;            ///< about Equilibrium::centre [stress length^dim]
+  Moment<dim> moment{};         ///< about Equilibrium::centre
 };
 
 /**
@@ -33,6 +39,35 @@ struct Equilibrium
   BoundaryForce<dim> loads;                  ///< of all tractions and the body force together
   double force_imbalance = 0;  ///< |sum of forces| over the sum of absolute nodal forces
   double moment_imbalance = 0; ///< the same of moments
+};
+
+/** Adds up nodal forces by boundary, and their absolute values. */
+template <int dim>
+class Resultants
+{
+public:
+  /** Moments are those about @p centre. */
+  Resultants(const Scene<dim> &scene, const dealii::Point<dim> &centre);
+
+  /** One component of a load at one node. */
+  void add_load(unsigned int component, double value, const dealii::Point<dim> &x);
+
+  void add_reaction(dealii::types::boundary_id boundary, const dealii::Tensor<1, dim> &force,
+                    const dealii::Point<dim> &x);
+
+  /** Each of its numbers gives way to @p total of it: to sums over processes. */
+  void replace(const std::function<double(double)> &total);
+
+  /** Without the boundaries that carry nothing. */
+  Equilibrium<dim> finish();
+
+private:
+  void add(BoundaryForce<dim> &sum, const dealii::Tensor<1, dim> &force,
+           const dealii::Point<dim> &x);
+
+  const Scene<dim> &scene;
+  Equilibrium<dim> result;
+  double absolute_force = 0, absolute_moment = 0;
 };
 
 /** The forces of @p solution, whose loads and friction @p system holds. */

@@ -31,6 +31,10 @@ template <int dim>
 std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
                          const Equilibrium<dim> &equilibrium);
 
+/** Two members of summary.json: forces by boundary, and how well they balance. */
+template <int dim>
+std::string equilibrium_json(const Equilibrium<dim> &equilibrium);
+
 /** A point or vector as an array of JSON. */
 template <int dim>
 std::string json_point(const dealii::Tensor<1, dim> &x);

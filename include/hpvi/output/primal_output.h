@@ -57,6 +57,7 @@ private:
   StageTimes times;                                      ///< sums over the steps
   std::string status = "running", message, stopped_by;
   std::vector<std::string> warnings; ///< of the last step
+  std::string forces;                ///< of the last step, where a limit ended the run
 };
 } // namespace hpvi
 

@@ -41,6 +41,15 @@ struct Summary
 private:
   std::string json_bound() const;
 };
+
+/** What summary.json begins with on each path: how the run stands, what it solves and with which program. */
+template <int dim>
+std::string json_head(const Scene<dim> &scene, const std::string &status,
+                      const std::string &stopped_by, const std::string &message);
+
+/** What it ends with. */
+std::string json_tail(const StageTimes &times, const std::vector<std::string> &warnings,
+                      const std::set<std::string> &files);
 } // namespace hpvi
 
 #endif

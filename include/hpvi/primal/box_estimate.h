@@ -3,7 +3,7 @@
 #define hpvi_box_estimate_h
 
 #include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <vector>
 

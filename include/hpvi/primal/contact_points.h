@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_points_h
 #define hpvi_contact_points_h
 
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <vector>
 

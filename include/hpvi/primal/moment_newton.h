@@ -2,7 +2,7 @@
 #ifndef hpvi_moment_newton_h
 #define hpvi_moment_newton_h
 
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/primal/augmented_lagrangian.h>
 
 #include <functional>
 #include <vector>
@@ -13,13 +13,26 @@ namespace hpvi
 struct NewtonReport
 {
   unsigned int steps = 0;
-  unsigned int cg_steps = 0;      ///< of conjugate gradients in all of them
-  unsigned int setups = 0;        ///< of multigrid
-  bool fell_back = false;         ///< multigrid broke down, and a factorisation took its place
-  unsigned int line_searches = 0; ///< steps that had to be shortened
-  unsigned int n_slipping = 0;    ///< discs, of all processes
-  double residual = 0;            ///< relative to the load vector
-  double error = 0;               ///< estimated, in the energy norm
+  unsigned int cg_steps = 0;        ///< of conjugate gradients in all of them
+  unsigned int setups = 0;          ///< of multigrid
+  bool fell_back = false;           ///< multigrid broke down, and a factorisation took its place
+  unsigned int line_searches = 0;   ///< steps that had to be shortened
+  unsigned int augmented_steps = 0; ///< of the augmented Lagrangian
+  bool is_cut_off = false;          ///< Newton's method was, and that took its place
+  unsigned int n_slipping = 0;      ///< discs, of all processes
+  double residual = 0;              ///< relative to the load vector
+  double error = 0;                 ///< estimated, in the energy norm
+
+  /** Goes on where this one ended: counts add up. */
+  NewtonReport &operator+=(const NewtonReport &next);
+};
+
+/** Where Newton's method may stop, and where it has to give way. */
+struct NewtonSettings
+{
+  double residual = 1e-6;          ///< relative to the load vector
+  double error = 0;                ///< or: estimated, in the energy norm [(stress length^dim)^1/2]
+  unsigned int maximum_steps = 12; ///< then the augmented Lagrangian takes over
 };
 
 /**
@@ -33,6 +46,8 @@ struct NewtonReport
  * symmetric and positive. A step that raises the energy is shortened to its minimum along the step.
  * Hueber, Stadler and Wohlmuth (2008) have the same function of lambda and u with multipliers as unknowns;
  * here they are gone, because moments make the matrix of contact diagonal.
+ *
+ * Where that takes too many steps, and where many discs have no start, AugmentedLagrangian takes over.
  */
 template <int dim>
 class MomentNewton
@@ -42,12 +57,14 @@ public:
                MomentMatrix<dim> &matrix);
 
   /**
-   * Starts where v and lambda are, or where @p lambda is empty with all discs sticking, and stops where the residual
-   * is below @p tolerance times the load vector; @p heard is told the steps so far. Collective. Throws
-   * NumericalFailure after fifty steps.
+   * Starts where v and lambda are, or where @p lambda is empty with all discs sticking, and stops where
+   * @p settings are met; @p heard is told the steps so far. The error is estimated from the residual
+   * rho of all equations under `lambda = P(z)` and the gap of friction, as of strongly convex functions:
+   * `|v - u_N|_a^2 <= rho' A^-1 rho + 2 sum_k (G_k |m_k| - lambda_k m_k)`, with the preconditioner for A^-1.
+   * Collective. Throws NumericalFailure where the augmented Lagrangian gives up as well.
    */
   NewtonReport solve(
-      DistributedVector &v, std::vector<Tangential<dim>> &lambda, double tolerance,
+      DistributedVector &v, std::vector<Tangential<dim>> &lambda, const NewtonSettings &settings,
       const std::function<void(const NewtonReport &)> &heard = [](const NewtonReport &) {});
 
 private:
@@ -56,7 +73,6 @@ private:
     double norm = 0, energy = 0, gap = 0;
   };
 
-  Tangential<dim> at(const DistributedVector &x, unsigned int disc) const;
   bool acts(unsigned int disc) const; ///< no friction acts where g = 0
   Residual residual(const DistributedVector &v, bool keep_lambda);
   DistributedVector off_discs() const;
@@ -65,6 +81,9 @@ private:
   double friction(const DistributedVector &v, const DistributedVector &step, double length) const;
   bool shorten(DistributedVector &v, const DistributedVector &old) const;
   double error(double gap);
+  double linear_tolerance(const NewtonSettings &settings, double now, unsigned int step) const;
+  bool is_exact(const NewtonSettings &settings, const Residual &now, NewtonReport &report);
+  Residual augment(DistributedVector &v, NewtonReport &report);
   unsigned int n_slipping(const std::vector<DiscState<dim>> &states) const;
 
   const MomentSpace<dim> &space;
@@ -72,7 +91,9 @@ private:
   MomentMatrix<dim> &matrix;
   std::vector<double> c; ///< of each disc [1/length]
   std::vector<Tangential<dim>> lambda, z;
-  DistributedVector r; ///< f - A v of the last residual()
+  double previous = 0;                                ///< norm of the residual before the last step
+  DistributedVector r;                                ///< f - A v of the last residual()
+  std::unique_ptr<AugmentedLagrangian<dim>> fallback; ///< where it is needed
 };
 } // namespace hpvi
 

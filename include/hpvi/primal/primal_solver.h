@@ -6,6 +6,7 @@
 #include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/stage_times.h>
 #include <hpvi/evaluation/energies.h>
+#include <hpvi/primal/box_equilibrium.h>
 #include <hpvi/primal/box_estimate.h>
 #include <hpvi/primal/contact_points.h>
 #include <hpvi/primal/moment_newton.h>
@@ -34,6 +35,8 @@ struct PrimalReport
   double scaled_estimate = 0; ///< as StepReport has it, like the next
   double relative_estimate = 0;
   Energies energies{};
+  Equilibrium<dim> equilibrium{};
+  double peak_memory = 0; ///< that the processes have had so far, their sum [bytes]
   std::vector<MomentPoint<dim>> contact{}; ///< on the first process alone
   NewtonReport newton{};
   StageTimes times{};                  ///< of the first process

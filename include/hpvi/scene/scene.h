@@ -177,7 +177,7 @@ struct SolverSettings
 {
   SolutionPath path = SolutionPath::automatic;
   LinearMethod linear = LinearMethod::amg;
-  double primal_tolerance = 1e-6; ///< of Newton's residual, relative to the load vector
+  double primal_tolerance = 0; ///< of Newton's residual, relative to the load vector; 0: see entry
   QpSolver qp_solver = QpSolver::active_set;
   bool qp_warm_start = true;                        ///< from the multiplier of the previous step
   double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)

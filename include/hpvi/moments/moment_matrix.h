@@ -2,7 +2,8 @@
 #ifndef hpvi_moment_matrix_h
 #define hpvi_moment_matrix_h
 
-#include <hpvi/primal/primal_system.h>
+#include <hpvi/algebra/linear_solver.h>
+#include <hpvi/moments/primal_system.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -27,8 +28,8 @@ struct DiscState
  * multigrid of ML. Multigrid sees A + H with 1e4-fold diagonals where discs stick, and rigid body
  * motions that vanish there. It is set up anew only where more than a fiftieth of the discs has changed
  * its state; until then what sticks is masked, and what slips now gets its own block as a
- * correction. Where the scene wants that, or where multigrid breaks down, a factorisation by MUMPS, anew for each
- * linearisation, stands in its place. Behind this interface the matrix could as well be free of entries.
+ * correction. In the plane, where the scene wants that, or where multigrid breaks down, a factorisation
+ * anew for each linearisation stands in its place: LinearSolver's on one process, MUMPS's on several. Behind this interface the matrix could as well be free of entries.
  */
 template <int dim>
 class MomentMatrix
@@ -45,8 +46,8 @@ public:
   /** Of A at the moments of a disc. */
   const Block &block(unsigned int disc) const;
 
-  /** From here on solve() knows @p states. Collective. */
-  void linearise(const std::vector<DiscState<dim>> &states);
+  /** From here on solve() knows @p states; @p anew: multigrid too. Collective. */
+  void linearise(const std::vector<DiscState<dim>> &states, bool anew = false);
 
   /**
    * Improves @p v until the residual is below @p tolerance, and sets what sticks to zero. Collective. Where
@@ -64,11 +65,11 @@ public:
   bool fell_back = false;    ///< has multigrid broken down?
 
 private:
-  Tangential<dim> at(const DistributedVector &x, unsigned int disc) const;
-  void add(DistributedVector &x, unsigned int disc, const Tangential<dim> &value) const;
   void mask(DistributedVector &x) const;
   void set_up();
   void factor();
+  void factor_alone();
+  void factor_together();
   bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance);
   std::vector<double> rigid_motions() const;
   void set_block(unsigned int disc, const Block &block);
@@ -84,7 +85,8 @@ private:
   dealii::SolverControl control;
   dealii::TrilinosWrappers::SparseMatrix
       factored; ///< A + H with rows of the unit matrix where discs stick
-  std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
+  std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors; ///< of several processes
+  std::unique_ptr<LinearSolver> own_factors;                       ///< of one
 };
 } // namespace hpvi
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_moment_space_h
 #define hpvi_moment_space_h
 
-#include <hpvi/primal/box_tables.h>
-#include <hpvi/primal/processes.h>
+#include <hpvi/moments/box_tables.h>
+#include <hpvi/moments/processes.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/base/index_set.h>
@@ -66,12 +66,19 @@ public:
   DistributedVector displacement(const DistributedVector &v) const; ///< u of v
   DistributedVector moments(const DistributedVector &u) const;      ///< v of u
 
+  Tangential<dim> moment(const DistributedVector &v, unsigned int disc) const; ///< of v at a disc
+  void add_moment(DistributedVector &v, unsigned int disc, const Tangential<dim> &value) const;
+
   /** u on @p cell, of this process or beside it. */
   CellField<dim> field(const Cell &cell, const DistributedVector &u) const;
 
   /** Lengths of the edges of @p cell. */
   static dealii::Tensor<1, dim>
   extent(const typename dealii::Triangulation<dim>::cell_iterator &cell);
+
+  /** Where the point @p unit of the unit cell lies in @p cell. */
+  static dealii::Point<dim> point_of(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                                     const dealii::Point<dim> &unit);
 
   const BoundaryCondition<dim> &condition(const Cell &cell, unsigned int face) const;
 

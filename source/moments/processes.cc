@@ -2,7 +2,7 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
-#include <hpvi/primal/processes.h>
+#include <hpvi/moments/processes.h>
 
 #include <deal.II/base/mpi.h>
 

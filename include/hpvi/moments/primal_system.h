@@ -2,7 +2,7 @@
 #ifndef hpvi_primal_system_h
 #define hpvi_primal_system_h
 
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -22,8 +22,14 @@ public:
   double energy_product(const DistributedVector &u) const; ///< a(u, u), collective
   double work(const DistributedVector &u) const;           ///< L(u), collective
 
-  /** Sums of the loads by the side they act on, body forces last; collective. */
-  std::vector<dealii::Tensor<1, dim>> load_resultants() const;
+  /** Nodal forces in the basis of nodal values, before constraints. */
+  struct NodalForces
+  {
+    DistributedVector internal, loads; ///< a(u, v_i) and L(v_i)
+  };
+
+  /** Of all nodes of this process and beside it. Collective. */
+  NodalForces nodal_forces(const DistributedVector &u) const;
 
   dealii::TrilinosWrappers::SparseMatrix A;
   DistributedVector f;

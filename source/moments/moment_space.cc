@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/primal/moment_space.h>
+#include <hpvi/moments/moment_space.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
@@ -119,8 +119,7 @@ void MomentSpace<dim>::find_discs()
         {
           ContactDisc<dim> disc;
           disc.radius = table.weights[k];
-          for (unsigned int d = 0; d < dim; ++d)
-            disc.x[d] = cell->vertex(0)[d] + table.points[k][d] * size[d];
+          disc.x = point_of(cell, table.points[k]);
           for (unsigned int s = 0; s < dim - 1; ++s)
           {
             const unsigned int axis = tangents<dim>(face)[s];
@@ -219,6 +218,23 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
 }
 
 template <int dim>
+Tangential<dim> MomentSpace<dim>::moment(const DistributedVector &v, const unsigned int disc) const
+{
+  Tangential<dim> result;
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    result[s] = v.local_element(discs[disc].unknowns[s]);
+  return result;
+}
+
+template <int dim>
+void MomentSpace<dim>::add_moment(DistributedVector &v, const unsigned int disc,
+                                  const Tangential<dim> &value) const
+{
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    v.local_element(discs[disc].unknowns[s]) += value[s];
+}
+
+template <int dim>
 CellField<dim> MomentSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
@@ -234,6 +250,17 @@ template <int dim>
 Tensor<1, dim> MomentSpace<dim>::extent(const typename Triangulation<dim>::cell_iterator &cell)
 {
   return cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1) - cell->vertex(0);
+}
+
+template <int dim>
+Point<dim> MomentSpace<dim>::point_of(const typename Triangulation<dim>::cell_iterator &cell,
+                                      const Point<dim> &unit)
+{
+  Point<dim> x = cell->vertex(0);
+  const Tensor<1, dim> size = extent(cell);
+  for (unsigned int d = 0; d < dim; ++d)
+    x[d] += unit[d] * size[d];
+  return x;
 }
 
 template <int dim>

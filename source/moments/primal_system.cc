@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/primal/primal_system.h>
+#include <hpvi/moments/primal_system.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -164,24 +164,35 @@ double PrimalSystem<dim>::work(const DistributedVector &u) const
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
-/** Shape functions sum to one. */
 template <int dim>
-std::vector<Tensor<1, dim>> PrimalSystem<dim>::load_resultants() const
+typename PrimalSystem<dim>::NodalForces
+PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
 {
-  std::vector<Tensor<1, dim>> result(space.scene.boundaries.size() + 1);
+  NodalForces forces{space.ghosted_vector(), space.ghosted_vector()};
+  const FESystem<dim> &fe = space.tables.fe;
+  const std::vector<bool> none(GeometryInfo<dim>::faces_per_cell, false);
+  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      for (const Tensor<1, dim> &force : body_load(cell))
-        result.back() += force;
-      for (const unsigned int face : cell->face_indices())
-        if (cell->at_boundary(face))
-          for (const Tensor<1, dim> &force : side_load(cell, face))
-            result[cell->face(face)->boundary_id()] += force;
+      cell->get_dof_indices(dofs);
+      cell->get_dof_values(u, local);
+      stiffness(cell, none).vmult(internal, local);
+      const CellField<dim> loads = load(cell);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const auto [component, shape] = fe.system_to_component_index(i);
+        forces.internal(dofs[i]) += internal[i];
+        forces.loads(dofs[i]) += loads[shape][component];
+      }
     }
-  for (Tensor<1, dim> &force : result)
-    force = Utilities::MPI::sum(force, space.communicator());
-  return result;
+  for (DistributedVector *const vector : {&forces.internal, &forces.loads})
+  {
+    vector->compress(VectorOperation::add);
+    vector->update_ghost_values();
+  }
+  return forces;
 }
 
 template class PrimalSystem<2>;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/moments/moment_matrix.h>
 
 #include <deal.II/base/timer.h>
 
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hpvi
@@ -62,7 +63,8 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
 template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
     : space(space), system(system), blocks(space.discs.size()), inserted(space.discs.size()),
-      states(space.discs.size()), is_direct(space.scene.solver.linear == LinearMethod::direct)
+      states(space.discs.size()),
+      is_direct(dim == 2 || space.scene.solver.linear == LinearMethod::direct)
 {
   for (unsigned int k = 0; k < space.discs.size(); ++k)
     for (unsigned int s = 0; s < dim - 1; ++s)
@@ -76,23 +78,6 @@ template <int dim>
 const typename MomentMatrix<dim>::Block &MomentMatrix<dim>::block(const unsigned int disc) const
 {
   return blocks[disc];
-}
-
-template <int dim>
-Tangential<dim> MomentMatrix<dim>::at(const DistributedVector &x, const unsigned int disc) const
-{
-  Tangential<dim> result;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    result[s] = x.local_element(space.discs[disc].unknowns[s]);
-  return result;
-}
-
-template <int dim>
-void MomentMatrix<dim>::add(DistributedVector &x, const unsigned int disc,
-                            const Tangential<dim> &value) const
-{
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    x.local_element(space.discs[disc].unknowns[s]) += value[s];
 }
 
 /** What sticks is no unknown. */
@@ -110,7 +95,7 @@ void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &
 {
   system.A.vmult(y, x);
   for (unsigned int k = 0; k < inserted.size(); ++k)
-    add(y, k, -(inserted[k] * at(x, k)));
+    space.add_moment(y, k, -(inserted[k] * space.moment(x, k)));
 }
 
 template <int dim>
@@ -118,7 +103,7 @@ void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const Distribu
 {
   system.A.vmult(y, x);
   for (unsigned int k = 0; k < states.size(); ++k)
-    add(y, k, (states[k].stiffness - inserted[k]) * at(x, k));
+    space.add_moment(y, k, (states[k].stiffness - inserted[k]) * space.moment(x, k));
   mask(y);
 }
 
@@ -196,34 +181,76 @@ void MomentMatrix<dim>::set_up()
   setup_seconds += timer.wall_time();
 }
 
+/** By CHOLMOD, without what sticks. */
 template <int dim>
-void MomentMatrix<dim>::factor()
+void MomentMatrix<dim>::factor_alone()
 {
-  const Timer timer;
-  amg.reset();
-  factors.reset();
+  std::vector<char> is_stuck(space.owned.n_elements(), 0);
+  for (unsigned int k = 0; k < states.size(); ++k)
+    for (const unsigned int unknown : space.discs[k].unknowns)
+      is_stuck[unknown] = states[k].sticks;
+  SymmetricMatrix upper; // its column j is what row j has up to the diagonal
+  upper.resize((system.A.n_nonzero_elements() + is_stuck.size()) / 2);
+  int n_entries = 0;
+  for (unsigned int j = 0; j < is_stuck.size(); ++j)
+  {
+    int n = 0, *columns = nullptr;
+    double *values = nullptr;
+    system.A.trilinos_matrix().ExtractMyRowView(j, n, values, columns);
+    for (int e = 0; e < n; ++e)
+    {
+      const unsigned int i = columns[e]; // numbered alike on one process
+      if (i > j || (i < j && (values[e] == 0 || is_stuck[i] || is_stuck[j])))
+        continue;
+      upper.row[n_entries] = i;
+      upper.value[n_entries++] = i == j && is_stuck[j] ? 1. : values[e];
+    }
+    upper.column_start.push_back(n_entries);
+  }
+  upper.resize(n_entries);
+  own_factors = std::make_unique<LinearSolver>(upper, std::vector<unsigned int>());
+}
+
+/** By MUMPS. */
+template <int dim>
+void MomentMatrix<dim>::factor_together()
+{
   std::vector<types::global_dof_index> stuck;
   for (unsigned int k = 0; k < states.size(); ++k)
-  {
-    inserted[k] = states[k].stiffness;
-    set_block(k, blocks[k] + inserted[k]);
     for (const unsigned int unknown : space.discs[k].unknowns)
       if (states[k].sticks)
         stuck.push_back(space.owned.nth_index_in_set(unknown));
-  }
-  system.A.compress(VectorOperation::insert);
   factored.reinit(system.A);
   factored.copy_from(system.A);
   factored.clear_rows(stuck, 1.);
   using Factors = TrilinosWrappers::SolverDirect;
   factors = std::make_unique<Factors>(control, Factors::AdditionalData(false, "Amesos_Mumps"));
   factors->initialize(factored);
+}
+
+template <int dim>
+void MomentMatrix<dim>::factor()
+{
+  const Timer timer;
+  amg.reset();
+  factors.reset();
+  own_factors.reset();
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    inserted[k] = states[k].stiffness;
+    set_block(k, blocks[k] + inserted[k]);
+  }
+  system.A.compress(VectorOperation::insert);
+  if (Utilities::MPI::n_mpi_processes(space.communicator()) == 1)
+    factor_alone();
+  else
+    factor_together();
   ++n_setups;
   setup_seconds += timer.wall_time();
 }
 
 template <int dim>
-void MomentMatrix<dim>::linearise(const std::vector<DiscState<dim>> &new_states)
+void MomentMatrix<dim>::linearise(const std::vector<DiscState<dim>> &new_states, const bool anew)
 {
   types::global_dof_index changed = 0;
   for (unsigned int k = 0; k < states.size(); ++k)
@@ -231,22 +258,30 @@ void MomentMatrix<dim>::linearise(const std::vector<DiscState<dim>> &new_states)
   states = new_states;
   if (is_direct)
     factor();
-  else if (!amg || 50 * Utilities::MPI::sum(changed, space.communicator()) > space.n_discs)
+  else if (anew || !amg || 50 * Utilities::MPI::sum(changed, space.communicator()) > space.n_discs)
     set_up();
 }
 
 template <int dim>
 void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVector &r) const
 {
-  if (is_direct)
+  if (own_factors)
+  {
+    const Vector<double> solution = own_factors->solve(Vector<double>(r.begin(), r.end()));
+    std::copy(solution.begin(), solution.end(), z.begin());
+    mask(z);
+    return;
+  }
+  if (factors)
   {
     factors->solve(z, r);
+    mask(z);
     return;
   }
   amg->vmult(z, r);
   for (unsigned int k = 0; k < states.size(); ++k)
     if (!states[k].sticks && known[k].sticks)
-      add(z, k, invert(blocks[k] + states[k].stiffness) * at(r, k));
+      space.add_moment(z, k, invert(blocks[k] + states[k].stiffness) * space.moment(r, k));
   mask(z);
 }
 
@@ -287,7 +322,7 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
   const DistributedVector start = v;
   if (iterate(v, b, tolerance))
     return;
-  fell_back = !is_direct;
+  fell_back = fell_back || !is_direct;
   is_direct = true;
   factor();
   v = start;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/primal/augmented_lagrangian.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int maximum_steps = 60; ///< of one minimisation
+} // namespace
+
+template <int dim>
+AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
+                                              const PrimalSystem<dim> &system,
+                                              MomentMatrix<dim> &matrix,
+                                              const std::vector<Tangential<dim>> &start)
+    : space(space), system(system), matrix(matrix), lambda(start)
+{
+  const Corners<dim> &corners = space.scene.geometry.corners;
+  growth = space.scene.materials[0].young / corners.back().distance(corners.front());
+  for (Tangential<dim> &value : lambda)
+    value = projected(value);
+}
+
+/** `G_k c_k`: at first that of a body as thick as this one, in the end several times what a moment meets in A. */
+template <int dim>
+double AugmentedLagrangian<dim>::stiffness(const unsigned int disc) const
+{
+  return std::min(growth * space.discs[disc].radius / space.discs[disc].bound,
+                  20 * trace(matrix.block(disc)) / (dim - 1));
+}
+
+template <int dim>
+Tangential<dim> AugmentedLagrangian<dim>::argument(const DistributedVector &v,
+                                                   const unsigned int disc) const
+{
+  return lambda[disc] + stiffness(disc) / space.discs[disc].radius * space.moment(v, disc);
+}
+
+template <int dim>
+DistributedVector AugmentedLagrangian<dim>::gradient(const DistributedVector &v) const
+{
+  DistributedVector result = v;
+  matrix.multiply(result, v);
+  result -= system.f;
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    if (const double G = space.discs[k].radius; G > 0)
+      space.add_moment(result, k, G * projected(argument(v, k)));
+  return result;
+}
+
+/** How far the update of lambda would move forces. */
+template <int dim>
+double AugmentedLagrangian<dim>::change(const DistributedVector &v) const
+{
+  double sum = 0;
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    if (const double G = space.discs[k].radius; G > 0)
+      sum += (G * (projected(argument(v, k)) - lambda[k])).norm_square();
+  return std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
+}
+
+template <int dim>
+std::vector<DiscState<dim>> AugmentedLagrangian<dim>::states(const DistributedVector &v) const
+{
+  std::vector<DiscState<dim>> result(lambda.size());
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+  {
+    if (!(space.discs[k].radius > 0))
+      continue;
+    const Tangential<dim> z = argument(v, k);
+    const double size = z.norm();
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      for (unsigned int t = 0; t <= s; ++t)
+        result[k].stiffness[s][t] =
+            stiffness(k) * (size <= 1  ? (s == t ? 1. : 0.)
+                            : dim == 2 ? 0. // no direction is left
+                                       : ((s == t ? 1. : 0.) - z[s] * z[t] / (size * size)) / size);
+  }
+  return result;
+}
+
+/** The derivative of the terms of friction at `v + length step` along @p step. */
+template <int dim>
+double AugmentedLagrangian<dim>::work_of_friction(const DistributedVector &v,
+                                                  const DistributedVector &step,
+                                                  const double length) const
+{
+  double sum = 0;
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    if (const double G = space.discs[k].radius; G > 0)
+    {
+      const Tangential<dim> m = space.moment(step, k);
+      sum += G * projected(argument(v, k) + length * stiffness(k) / G * m) * m;
+    }
+  return Utilities::MPI::sum(sum, space.communicator());
+}
+
+/** One, or where the function rises again before that its minimum along @p step. */
+template <int dim>
+double AugmentedLagrangian<dim>::length_of(const DistributedVector &v,
+                                           const DistributedVector &step,
+                                           const DistributedVector &gradient) const
+{
+  DistributedVector product = v;
+  matrix.multiply(product, step);
+  const double curvature = step * product, slope = gradient * step,
+               linear = slope - work_of_friction(v, step, 0);
+  const auto derivative = [&](const double length)
+  { return linear + length * curvature + work_of_friction(v, step, length); };
+  if (!(derivative(1) > 0.5 * std::abs(slope)))
+    return 1;
+  double begin = 0, end = 1;
+  for (unsigned int i = 0; i < 30; ++i)
+    (derivative(0.5 * (begin + end)) < 0 ? begin : end) = 0.5 * (begin + end);
+  return 0.5 * (begin + end);
+}
+
+template <int dim>
+unsigned int AugmentedLagrangian<dim>::update(DistributedVector &v)
+{
+  unsigned int n_steps = 0;
+  DistributedVector b = gradient(v);
+  for (double size = b.l2_norm(), previous = size; size > 0.1 * change(v);
+       previous = size, size = b.l2_norm(), ++n_steps)
+  {
+    if (size <= 1e-14 * system.f.l2_norm())
+      break;
+    if (n_steps == maximum_steps)
+      throw NumericalFailure("the augmented Lagrangian does not converge");
+    matrix.linearise(states(v), n_steps == 0);
+    b *= -1;
+    DistributedVector step = space.owned_vector();
+    matrix.solve(step, b, std::clamp(size / previous, 1e-3, 0.1) * size);
+    b *= -1;
+    v.add(length_of(v, step, b), step);
+    b = gradient(v);
+  }
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    if (space.discs[k].radius > 0)
+      lambda[k] = projected(argument(v, k));
+  growth *= 10;
+  return n_steps;
+}
+
+template class AugmentedLagrangian<2>;
+template class AugmentedLagrangian<3>;
+} // namespace hpvi
