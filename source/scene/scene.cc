@@ -205,8 +205,8 @@ std::string Scene<dim>::no_error_bound() const
     return "Coulomb's law minimises no energy";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
-  if (!geometry.has_affine_cells())
-    return "cells are no parallelograms";
+  if (!geometry.has_affine_cells() && !bound_on_distorted_cells)
+    return "cells are no parallelograms, and Error/Bound on distorted cells is false";
   for (const BoundaryCondition<dim> &boundary : boundaries)
     if (boundary.friction.past)
       return "friction acts on increments after the first load step";

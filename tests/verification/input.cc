@@ -208,9 +208,10 @@ TEST(ZeroStrain, HasANorm)
 /** Stresses by @p factor, a power of 2: the same problem in another unit. */
 Overrides in_units(const double factor)
 {
-  return {{"Material/Young's modulus", text(15 * factor)},
-          {"Boundary left/Traction", text(1.5 * factor) + "*(5 - y); " + text(-0.75 * factor)},
-          {"Boundary bottom/Friction bound", text(4.5 * factor)},
+  return {{"Material/Young's modulus", verification::text(15 * factor)},
+          {"Boundary left/Traction",
+           verification::text(1.5 * factor) + "*(5 - y); " + verification::text(-0.75 * factor)},
+          {"Boundary bottom/Friction bound", verification::text(4.5 * factor)},
           {"Adaptivity/Maximum steps", "8"}};
 }
 

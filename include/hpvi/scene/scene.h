@@ -258,6 +258,7 @@ struct Scene
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
   bool error_bound = true; ///< compute ErrorBound where there is one
+  bool bound_on_distorted_cells = false; ///< too, where cells are no parallelograms
   SolverSettings solver;
   OutputSettings output;
   Loading<dim> loading;

@@ -55,6 +55,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
   visit("Error", "Bound", scene.error_bound);
+  visit("Error", "Bound on distorted cells", scene.bound_on_distorted_cells);
   auto &solver = scene.solver;
   visit("Solver", "Primal tolerance", solver.primal_tolerance);
   visit("Solver", "QP warm start", solver.qp_warm_start);
