@@ -363,7 +363,9 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
     step.warnings.push_back("Adaptivity/Tolerance was compared with the residual indicator, which "
                             "guarantees nothing: there is no bound of the error, because " +
                             no_bound);
-  for (const std::string &line : {several_solutions(step.coulomb), dense_note()})
+  for (const std::string &line :
+       {several_solutions(step.coulomb), dense_note(),
+        step.bound ? round_off_of_bound(step.relative_bound, step.bound->imbalance) : ""})
     if (!line.empty())
       step.warnings.push_back(line);
   step.equilibrium = equilibrium(step.solution, discretisation->system);

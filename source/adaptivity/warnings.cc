@@ -424,6 +424,16 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
   return result;
 }
 
+std::string round_off_of_bound(const double relative, const double imbalance)
+{
+  if (!(relative < 1e-9))
+    return {};
+  return line(
+      "the bound of the error is ", relative,
+      " of the solution, where round-off counts: it leaves patches of cells out of balance by ",
+      imbalance, " of their stresses");
+}
+
 std::string several_solutions(const CoulombReport &report)
 {
   if (!report.difference || *report.difference <= CoulombReport::same)

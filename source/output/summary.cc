@@ -50,8 +50,9 @@ std::string Summary<dim>::json_bound() const
     return "  \"error_bound\": null,\n  \"no_error_bound\": " + json_string(no_bound) + ",\n";
   return "  \"error_bound\": {\n    \"guaranteed\": true,\n    \"energy_norm\": " +
          text(bound->total) + ",\n    \"relative\": " + text(relative_bound) +
-         ",\n    \"energy\": [" + text(energy - bound->energy_below) + ", " +
-         text(energy + bound->energy_above) + "]\n  },\n";
+         ",\n    \"imbalance\": " + text(bound->imbalance) + ",\n    \"energy\": [" +
+         text(energy - bound->energy_below) + ", " + text(energy + bound->energy_above) +
+         "]\n  },\n";
 }
 
 template <int dim>
