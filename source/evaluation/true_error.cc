@@ -52,6 +52,14 @@ struct Values
 struct Squares
 {
   double energy = 0, l2 = 0, norm = 0;
+
+  Squares &operator+=(const Squares &other)
+  {
+    energy += other.energy;
+    l2 += other.l2;
+    norm += other.norm;
+    return *this;
+  }
 };
 
 /** A polynomial on one cell of a mesh. */
@@ -315,6 +323,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
   const ExactSolution<dim> &exact = *scene.exact_solution;
   const StoredSolution<dim> stored(solution);
   Squares sums;
+  errors.of_cells.resize(stored.triangulation().n_active_cells());
   for (const auto &cell : stored.triangulation().active_cell_iterators())
   {
     if (!cell->is_locally_owned())
@@ -329,6 +338,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
     add_graded_boxes<dim>(field.map, {}, exact.singularities(), levels, boxes);
     const QGauss<dim> gauss(field.degree + 5);
     const HookesLaw<dim> law(scene.material_of(cell));
+    Squares own;
     for (const Box<dim> &box : boxes)
     {
       const auto field_values = field.at(box, gauss);
@@ -339,9 +349,11 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
         add_squares(law, field_values[q], {exact.displacement(x), exact.gradient(x)},
                     gauss.weight(q) * std::pow(box.size, dim) *
                         std::abs(determinant(field.map.jacobian(reference_point))),
-                    sums);
+                    own);
       }
     }
+    errors.of_cells[index] = own.energy;
+    sums += own;
   }
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
@@ -359,7 +371,8 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
   double friction = 0, pressure = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
   {
-    friction += scene.has_friction() ? multiplier_square(solution, face, exact) : 0.;
+    errors.of_faces.push_back(scene.has_friction() ? multiplier_square(solution, face, exact) : 0.);
+    friction += errors.of_faces.back();
     pressure += face.condition->has_pressure() ? pressure_square(solution, face, exact) : 0.;
   }
   if (scene.has_friction())

@@ -6,6 +6,7 @@
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/admissible_pressure.h>
 #include <hpvi/equilibration/error_bound.h>
+#include <hpvi/equilibration/slip_correction.h>
 
 #include <algorithm>
 #include <limits>
@@ -322,6 +323,48 @@ INSTANTIATE_TEST_SUITE_P(
                             {"Adaptivity/Maximum steps", "5"}}},
                       Body{"strain", "plane-strain", {}}, Body{"smooth", "smooth", {}}),
     [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
+
+/** Nothing of a bound is missing and nothing counts twice, in the whole or in what the cells are marked by. */
+TEST(ErrorBoundParts, MakeTheWhole)
+{
+  const auto sum = [](const std::vector<double> &values)
+  { return std::accumulate(values.begin(), values.end(), 0.); };
+  unsigned int n_with_gap = 0, n_with_energy = 0;
+  for (const unsigned int seed : {1, 2, 3, 4})
+  {
+    // Loads are polynomials, supports hold at zero: stress and slip are all there is.
+    const Scene<2> scene = shipped_scene(seed % 2 ? "han-6-12" : "han-6-13");
+    const RandomMesh mesh(scene, seed, 1, 2, 5);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    const ErrorBound bound = ErrorBounds().compute(solution, lab.discretisation);
+    EquilibrationCache cache;
+    const EquilibratedStress stress = equilibrated(solution, cache);
+    const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution));
+    const double eta_square = sum(stress.squares), small = 1e-9 * eta_square;
+    n_with_gap += sum(slip.gap()) > 1e4 * small;
+    n_with_energy += sum(slip.energy()) > 1e4 * small;
+    ASSERT_LT(bound.oscillation, 1e-10 * bound.stress);
+    ASSERT_EQ(bound.data, 0.);
+    const double square = eta_square + slip.total();
+    EXPECT_NEAR(std::pow(bound.total, 2), square, small);
+    EXPECT_NEAR(std::pow(bound.slip, 2), slip.total(), small);
+    EXPECT_NEAR(bound.energy, eta_square / 2 + sum(slip.uncorrected_gap()), small);
+    std::vector<double> shares = stress.squares;
+    for (unsigned int cell = 0; cell < shares.size(); ++cell)
+      shares[cell] += slip.energy()[cell];
+    const auto &faces = solution.contact_space.faces();
+    for (unsigned int face = 0; face < faces.size(); ++face)
+      shares[faces[face].cell->active_cell_index()] += 2 * slip.gap()[face];
+    for (unsigned int cell = 0; cell < shares.size(); ++cell)
+    {
+      EXPECT_NEAR(bound.squares[cell], shares[cell], small) << cell;
+      EXPECT_NEAR(std::pow(bound.indicators()[cell], 2), shares[cell], small);
+    }
+  }
+  EXPECT_GE(n_with_gap, 2u);
+  EXPECT_GE(n_with_energy, 2u);
+}
 
 /** Where friction changes inside an edge, |l| <= 1 costs more until the edge is small. */
 TEST(ErrorBoundInsideAnEdge, IsAboveTheErrorAndNear)

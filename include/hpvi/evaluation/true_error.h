@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace hpvi
 {
@@ -23,6 +24,9 @@ struct TrueErrors
   double multiplier_l2 = unknown;    ///< |lambda - z_N/g|_{L2(Gamma_C)}, length^{(dim-1)/2}
   double pressure_l2 = unknown;      ///< |p - lambda_Nn|_{L2(Gamma_C)}, stress length^{(dim-1)/2}
   double transition = unknown;       ///< largest distance from a transition of u to u_N's, length
+  /** Against an exact solution alone: squares of energy and of multiplier_l2. */
+  std::vector<double> of_cells; ///< by active cell index
+  std::vector<double> of_faces; ///< by contact face
 };
 
 /**
