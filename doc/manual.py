@@ -31,6 +31,7 @@ EXAMPLES = {
     ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
     ("Output", "Mesh picture"): "false", ("Output", "Contact tables"): "false",
     ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
 
