@@ -31,6 +31,7 @@ EXAMPLES = {
     ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
     ("Output", "Mesh picture"): "false", ("Output", "Contact tables"): "false",
     ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
 
@@ -131,6 +132,8 @@ def assignments(text):
     for line in map(str.strip, text.splitlines()):
         if line.startswith("#"):
             comment.append(line.lstrip("# "))
+            if line.startswith("# ---"):
+                comment = []  # ends deal.II's headline
             continue
         if line.startswith("subsection "):
             section = re.sub(r"\s*#.*", "", line[len("subsection "):])
@@ -145,13 +148,13 @@ def assignments(text):
 
 
 def scene_examples():
-    """The first value that a scene gives each entry, and the scene's name."""
+    """The shortest value that a scene gives each entry, and the scene's name."""
     examples = {}
     for scene in sorted((ROOT / "prm").glob("*.prm")):
         for section, name, value, _ in assignments(scene.read_text()):
             key = (re.sub("Boundary .*", "Boundary NAME", section), name)
-            if value:
-                examples.setdefault(key, (value, scene.name))
+            if value and (key not in examples or len(value) < len(examples[key][0])):
+                examples[key] = (value, scene.name)
     return examples
 
 
@@ -162,12 +165,11 @@ def check_example(program, key, value):
 
 
 def escaped(text):
-    return html.escape(text, quote=False).replace("|", "&#124;").replace("_", "&#95;") \
-        .replace("*", "&#42;").replace("@", "&#64;").replace("`", "&#96;").replace("~", "&#126;")
+    return html.escape(text, quote=False)
 
 
 def code(text):
-    return f"<code>{escaped(text)}</code>" if text else ""
+    return f"`{text}`" if text else ""
 
 
 def entries_page(program):
@@ -198,10 +200,13 @@ def entries_page(program):
 
 def results_page(program, output):
     """The page's commands are run, and what they print is put behind them."""
+    directory = output / "runs"
+    directory.mkdir()
+
     def printed(match):
-        arguments = match[1].split()
-        words = run(program, "--output", output / "runs" / pathlib.Path(arguments[-1]).stem,
-                    *arguments, cwd=ROOT, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        *settings, scene = match[1].split()
+        words = run(program, *settings, ROOT / scene, cwd=directory,
+                    env={**os.environ, "OMP_NUM_THREADS": "1"})
         return f"```\n$ ./run {match[1]}\n{words}```"
     text = doxygen_math((PAGES / "results.md").read_text())
     return re.sub(r"^@RUN (.*)@$", printed, text, flags=re.M)

@@ -4,7 +4,11 @@
 // things at once: it solves with $A$, and it reduces $A$ to the contact. If the contact unknowns
 // come last in the order of elimination, then
 //
-// $$A = \begin{pmatrix} A_{11} & A_{12} \\ A_{21} & A_{22}\end{pmatrix}, \qquad L = \begin{pmatrix} L_{11} & \\ L_{21} & C \end{pmatrix}, \qquad CC^T = A_{22} - A_{21} A_{11}^{-1} A_{12}:$$
+// $$\begin{aligned}
+//   A &= \begin{pmatrix} A_{11} & A_{12} \\ A_{21} & A_{22}\end{pmatrix}, \;
+//   L = \begin{pmatrix} L_{11} & \\ L_{21} & C \end{pmatrix}, \\
+//   CC^T &= A_{22} - A_{21} A_{11}^{-1} A_{12}:
+// \end{aligned}$$
 //
 // the trailing block $C$ of the factor <i>is</i> the factor of the Schur complement on them. No
 // solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What README.md shows to a new user works: its first scene runs, in ten lines at most, all scenes of prm/ are in
+its gallery, and what it links to is there.
+
+readme.py HPVI ROOT
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HPVI, ROOT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+README = (ROOT / "README.md").read_text()
+
+
+def check_first_scene():
+    scene = re.search(r"`first\.prm`.*?```\n(.*?)```", README, re.S)
+    if not scene:
+        sys.exit("README.md: there is no first.prm")
+    n_lines = len(scene[1].splitlines())
+    if n_lines > 10:
+        sys.exit(f"README.md: first.prm has {n_lines} lines, more than 10")
+    with tempfile.TemporaryDirectory() as directory:
+        path = pathlib.Path(directory) / "first.prm"
+        path.write_text(scene[1])
+        done = subprocess.run([HPVI, path], cwd=directory, text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+        if done.returncode != 0:
+            sys.exit(done.stdout)
+        for state in ("open", "stick", "slip"):
+            if not re.search(rf"^  {state} from", done.stdout, re.M):
+                sys.exit(f"README.md: first.prm has nothing that is {state}\n{done.stdout}")
+
+
+def main():
+    missing = [f"README.md links to {target}, which is not there"
+               for target in re.findall(r"\]\(([^)#:]+)\)|(?:src|href)=\"([^\":#]+)\"", README)
+               for target in target if target and not (ROOT / target).exists()]
+    for scene in sorted((ROOT / "prm").glob("*.prm")):
+        for wanted in (f"prm/{scene.name}", f"doc/gallery/{scene.stem}.png"):
+            if wanted not in README:
+                missing.append(f"README.md does not show {wanted}")
+    if missing:
+        sys.exit("\n".join(missing))
+    check_first_scene()
+
+
+if __name__ == "__main__":
+    main()
