@@ -253,7 +253,10 @@ void PrimalOutput<dim>::write_tables(const PrimalReport<dim> &step)
   stopped_by = step.stopped_by;
   warnings = step.warnings;
   if (!stopped_by.empty())
-    forces = equilibrium_json(step.equilibrium) + json_contact(scene, step.contact);
+    forces = "  \"error_bound\": null,\n  \"no_error_bound\": \"the primal path has no guaranteed "
+             "bound of "
+             "the error\",\n" +
+             equilibrium_json(step.equilibrium) + json_contact(scene, step.contact);
   write("summary.json", summary());
 }
 

@@ -6,6 +6,9 @@
 #include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
 
+#include <hpvi/scene/space_checks.h>
+
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
@@ -46,6 +49,40 @@ void print_row(const PrimalReport<dim> &step)
             << step.newton.steps + step.newton.augmented_steps << std::setw(10)
             << step.newton.cg_steps << std::fixed << std::setprecision(2) << std::setw(10)
             << step.seconds << std::endl;
+}
+
+/** Does the primal path offer what the scene asks for, the bound of the error included where a limit needs it? */
+bool fits_primal_path(const Scene<2> &scene)
+{
+  if (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound)
+    return false;
+  try
+  {
+    check_primal_path(scene);
+  }
+  catch (const InputError &)
+  {
+    return false;
+  }
+  return true;
+}
+
+/**
+ * Would the dense algebra of the first mesh take longer than the twenty-odd factorisations of the primal path? Of one
+ * core: `3e-10 s m^3` for m multipliers, and for each factorisation of N unknowns
+ * `1e-6 s N + 3e-9 s N^3/2`. `./run space` measures all three, doc/space.md has the chart.
+ */
+bool primal_path_pays(const Scene<2> &scene)
+{
+  const double p = scene.adaptivity.start_degree;
+  const auto &cells = scene.geometry.subdivisions;
+  const double unknowns = 2 * (1 + p * cells[0]) * (1 + p * cells[1]);
+  double multipliers = 0;
+  for (const auto &boundary : scene.boundaries)
+    if (boundary.has_contact() && boundary.friction.bound)
+      multipliers += (p - 1) * cells[1 - boundary.id / 2];
+  return fits_primal_path(scene) &&
+         3e-10 * std::pow(multipliers, 3) > 22 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
 }
 
 /** A signal reaches processes at different times: they stop where the first one has noticed. */
@@ -115,6 +152,9 @@ bool takes_primal_path(const Scene<dim> &scene)
     throw InputError(
         printable(scene.origin(), 400) + ": Solver/Path = reduced: works on one process, and " +
         std::to_string(n_started_processes()) + " were started; start one or set Path = primal");
+  if constexpr (dim == 2)
+    if (scene.solver.path == SolutionPath::automatic && primal_path_pays(scene))
+      return true;
   return dim == 3 || scene.solver.path == SolutionPath::primal || n_started_processes() > 1;
 }
 

@@ -160,7 +160,7 @@ enum class CoulombMethod
 /** Which discrete problem is solved; doc/space.md sets them beside each other. */
 enum class SolutionPath
 {
-  automatic, ///< reduced in the plane on one process, primal else
+  automatic, ///< the faster one, see takes_primal_path(); primal in space and on several processes
   reduced,   ///< a quadratic program for the multipliers, its matrix dense
   primal     ///< a convex minimum in displacements and moments, its matrices sparse
 };
