@@ -257,7 +257,7 @@ struct Scene
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
-  bool error_bound = true; ///< compute ErrorBound where there is one
+  bool error_bound = true;               ///< compute ErrorBound where there is one
   bool bound_on_distorted_cells = false; ///< too, where cells are no parallelograms
   SolverSettings solver;
   OutputSettings output;
