@@ -47,9 +47,9 @@ using namespace dealii;
 // neither leave nor enter, $u_n = 0$, and friction resists sliding there with a traction of at most
 // $g$:
 // @f{align*}{
-//   |T_t| &\le g, \\
-//   |T_t| < g &\Rightarrow u_t = 0, \\
-//   |T_t| = g &\Rightarrow u_t = -\alpha\, T_t \text{ with some } \alpha \ge 0.
+//   |T_t| &\le g,
+//   \\ |T_t| < g &\Rightarrow u_t = 0,
+//   \\ |T_t| = g &\Rightarrow u_t = -\alpha\, T_t \text{ with some } \alpha \ge 0.
 // @f}
 // Numbers in stresses are kN/mm^2. With the flag @p colorize the box gives its edges the numbers
 // left 0, right 1, bottom 2, top 3.

@@ -6,8 +6,8 @@
 //
 // $$\begin{aligned}
 //   A &= \begin{pmatrix} A_{11} & A_{12} \\ A_{21} & A_{22}\end{pmatrix}, \;
-//   L = \begin{pmatrix} L_{11} & \\ L_{21} & C \end{pmatrix}, \\
-//   CC^T &= A_{22} - A_{21} A_{11}^{-1} A_{12}:
+//   L = \begin{pmatrix} L_{11} & \\ L_{21} & C \end{pmatrix},
+//   \\ CC^T &= A_{22} - A_{21} A_{11}^{-1} A_{12}:
 // \end{aligned}$$
 //
 // the trailing block $C$ of the factor <i>is</i> the factor of the Schur complement on them. No

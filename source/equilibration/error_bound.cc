@@ -5,8 +5,8 @@
 // with an admissible friction $-g\lambda^*$, $|\lambda^*| \le 1$ everywhere,
 //
 // $$\begin{aligned}
-//   |u - u_N|_a^2 &\le |s - \sigma(u_N)|^2 + 2\,\mathrm{gap}(u_N - w) + |w|_a^2, \\
-//   \mathrm{gap}(v) &= \int_{\Gamma_C} g\,(|v_t| - \lambda^* v_t)\,ds,
+//   |u - u_N|_a^2 &\le |s - \sigma(u_N)|^2 + 2\,\mathrm{gap}(u_N - w) + |w|_a^2,
+//   \\ \mathrm{gap}(v) &= \int_{\Gamma_C} g\,(|v_t| - \lambda^* v_t)\,ds,
 // \end{aligned}$$
 //
 // for any displacement $w$ that vanishes where $u$ is prescribed. The first term is the distance of
