@@ -2,15 +2,16 @@
 
 // The guaranteed bound puts together what other files of this folder make. It rests on the theorem
 // of Prager and Synge, extended to friction: with a stress $s$ in equilibrium with the loads and
-// with an admissible friction $-g\lambda^*$, $|\lambda^*| \le 1$ everywhere,
+// with an admissible friction $-g\lambda^*$, $|\lambda^*| \le 1$ everywhere, and a pressure
+// $\pi \ge 0$ where contact is unilateral,
 //
 // $$\begin{aligned}
 //   |u - u_N|_a^2 &\le |s - \sigma(u_N)|^2 + 2\,\mathrm{gap}(u_N - w) + |w|_a^2,
-//   \\ \mathrm{gap}(v) &= \int_{\Gamma_C} g\,(|v_t| - \lambda^* v_t)\,ds,
+//   \\ \mathrm{gap}(v) &= \int_{\Gamma_C} g\,(|v_t| - \lambda^* v_t) + \pi\,(u_0 - v_n)\,ds,
 // \end{aligned}$$
 //
-// for any displacement $w$ that vanishes where $u$ is prescribed. The first term is the distance of
-// two stresses, the second what the discrete friction misses of the law, and the third pays for
+// for any displacement $w$ that vanishes where $u$ is prescribed and for which $u_N - w$ does not
+// penetrate. The first term is the distance of two stresses, the second what the discrete friction misses of the law, and the third pays for
 // $w$, which takes the oscillation of $u_N$ around zero away where the body sticks. The proof, and
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
 #include <hpvi/equilibration/admissible_friction.h>
