@@ -340,7 +340,8 @@ TEST(ErrorBoundParts, MakeTheWhole)
     const ErrorBound bound = ErrorBounds().compute(solution, lab.discretisation);
     EquilibrationCache cache;
     const EquilibratedStress stress = equilibrated(solution, cache);
-    const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution));
+    const SlipCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                 AdmissiblePressure<2>(solution));
     const double eta_square = sum(stress.squares), small = 1e-9 * eta_square;
     n_with_gap += sum(slip.gap()) > 1e4 * small;
     n_with_energy += sum(slip.energy()) > 1e4 * small;
