@@ -27,7 +27,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
 /** Where a second start was asked for: that it led to another solution, or to none; else empty. */
 std::string several_solutions(const CoulombReport &report);
 
-/** That a bound of less than 1e-9 of the solution holds up to round-off, and how much that is; else empty. */
+/** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; else empty. */
 std::string round_off_of_bound(double relative, double imbalance);
 } // namespace hpvi
 
