@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How long until the answer is this accurate? Runs every method on three problems and draws it.
 
-Makes overkill reference solutions of Examples 5.2 and 5.3 by three refinement paths, compares them, measures every method against them (against the exact solution on the stick-slip scene), and
-writes charts and tables to doc/accuracy/ and into doc/accuracy.md, between its marker comments.
+Makes overkill reference solutions of Examples 5.2 and 5.3 by three refinement paths, compares them, measures every method against them (against the exact solution on the stick-slip scene), without
+the guaranteed bound, then some with it, and writes charts and tables to doc/accuracy/ and into doc/accuracy.md, between its marker comments.
 """
 import argparse
 import csv
@@ -25,6 +25,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent
 GALLERY = HERE / "accuracy"
 QUIET = ["Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false"]
+NO_BOUND, BOUND = ["Error/Bound=false"], ["Error/Bound=true"]
 STAGES = "setup assemble factor qp recover estimate decide refine".split()
 PROBLEMS = {"han-6-12": "Example 5.2", "han-6-13": "Example 5.3", "stick-slip": "Stick-slip, exact"}
 METHODS = {  # colour, marker, line
@@ -40,7 +41,7 @@ class Run:
 
     def __init__(self, program, scene, home, settings):
         command = [program, "--output", str(home), str(TOP / "prm" / f"{scene}.prm")]
-        for setting in QUIET + settings:
+        for setting in QUIET + NO_BOUND + settings:  # the last one counts
             command += ["--set", setting]
         home.mkdir(parents=True, exist_ok=True)
         with open(home / "log", "w") as log:
@@ -126,6 +127,68 @@ def measure(program, home, files):
                               "effectivity": row["effectivity"],
                               "energy_difference": row["energy_difference"]})
     return table
+
+
+def measure_bound(program, home, files):
+    """One run with the bound of some methods: its seconds with that stage and without."""
+    table = []
+    for scene in PROBLEMS:
+        for method in ("hap4", "hpa3"):
+            progress(f"{PROBLEMS[scene]}: {method} with the bound")
+            settings = [f"Adaptivity/Method={method}", "Adaptivity/Smoothness reading=plain",
+                        "Adaptivity/Maximum steps=60", "Adaptivity/Start degree=0",
+                        "Adaptivity/Maximum degree=14",
+                        f"Adaptivity/Maximum unknowns={30000 if method == 'hap4' else 70000}"]
+            if scene in files:
+                settings.append(f"Error/Reference solution={files[scene]}")
+            run = Run(program, scene, home / f"{scene}-{method}-bound", settings + BOUND)
+            seconds = sum(run.column("seconds_" + s) for s in STAGES).cumsum()
+            own = run.column("seconds_bound").cumsum()
+            for k, row in enumerate(run.rows):
+                table.append({"problem": scene, "method": method, "dofs_free": row["dofs_free"],
+                              "seconds": f"{seconds[k]:.5f}",
+                              "seconds_with_bound": f"{seconds[k] + own[k]:.5f}",
+                              **{c: row[c] for c in ("error_energy", "error_relative",
+                                                     "error_bound", "estimate_scaled")}})
+    return table
+
+
+def draw_bound(table):
+    """What a run knows of its error, and what is true, against its time with the bound."""
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.8), sharey=True, layout="constrained")
+    for axes, scene in zip(panels, ("han-6-12", "han-6-13")):
+        for method, colour in (("hap4", "#0072b2"), ("hpa3", "#d55e00")):
+            error = select(table, scene, method, "error_energy")
+            norm = error / select(table, scene, method, "error_relative")
+            seconds = select(table, scene, method, "seconds_with_bound")
+            for column, line, name in (("estimate_scaled", ":", "residual indicator"),
+                                       ("error_bound", "--", "guaranteed bound"),
+                                       ("error_energy", "-", "true error")):
+                axes.loglog(seconds, select(table, scene, method, column) / norm, line,
+                            color=colour, marker="o", markersize=3, linewidth=1.3,
+                            label=f"{method}: {name}")
+        axes.set_title(PROBLEMS[scene])
+        axes.set_xlabel("time, one thread, with the bound [s]")
+        axes.grid(alpha=0.3)
+    panels[0].set_ylabel("relative to $|u|_a$ [-]")
+    panels[-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    save(figure, "bound.png")
+
+
+def with_bound(table):
+    """First step below some errors: seconds without and with the bound."""
+    rows = []
+    for scene, title in PROBLEMS.items():
+        for method in ("hap4", "hpa3"):
+            row = {"problem": title, "method": method}
+            error = select(table, scene, method, "error_relative")
+            for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
+                below = np.nonzero(error <= tolerance)[0]
+                row[f"e <= {tolerance:.0e}"] = " / ".join(
+                    f"{select(table, scene, method, c)[below[0]]:.3f} s"
+                    for c in ("seconds", "seconds_with_bound")) if len(below) else "-"
+            rows.append(row)
+    return rows
 
 
 def select(table, scene, method, column):
@@ -321,6 +384,10 @@ def main():
     for scene in PROBLEMS:
         draw_chart(table, scene)
     draw_effectivity(table)
+    table_with_bound = measure_bound(program, home, files)
+    write_csv("bound.csv", table_with_bound)
+    draw_bound(table_with_bound)
+    put_table("with_bound", with_bound(table_with_bound))
     put_table("reached", reached(table))
     put_table("compared", compared(table))
     put_table("effectivity", effectivity_ranges(table))

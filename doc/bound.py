@@ -175,7 +175,7 @@ def shares(runs):
 def cost(lab):
     """Seconds of the bound beside those of all other stages, in the same run."""
     samples = {}
-    for repeat in range(7):  # all cases in turn, so that a busy moment meets each of them
+    for repeat in range(4):  # all cases in turn, so that a busy moment meets each of them
         progress(f"  cost, round {repeat + 1}")
         for problem in ("stick-slip", "han-6-12", "han-6-13"):
             for method, steps in METHODS.items():
