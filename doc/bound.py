@@ -82,13 +82,15 @@ def effectivities(runs):
                      "indicator/error": f"{plain(estimate.min(), 1)} to {plain(estimate.max(), 1)}"})
         if method == "hpa3" and indicator == "bound":
             for axes, values in zip(panels, (bound, estimate)):
-                axes.semilogx(run.column("dofs_free")[keep], values, "o-", markersize=4,
-                              label=PROBLEMS[problem][0])
+                k = list(PROBLEMS).index(problem)
+                axes.semilogx(run.column("dofs_free")[keep], values, "os^Dv"[k // 7 * 2] + "-",
+                              markersize=4, color=COLOURS[k % 7], label=PROBLEMS[problem][0])
     for axes, what in zip(panels, ("guaranteed bound / true error",
                                    "residual indicator / true error")):
         axes.set(xlabel=N_LABEL, ylabel=what, yscale="log")
         axes.axhline(1, color="black", linewidth=1)
-    panels[0].legend(fontsize=8)
+    figure.legend(*panels[0].get_legend_handles_labels(), fontsize=8, ncol=4,
+                  loc="outside lower center")
     save(figure, "effectivity.png", PAGE)
     put_table("effectivity", rows, page=PAGE)
 

@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Charts for doc/space.md: J against unknowns for uniform and adaptive meshes of degree 2, 3, 4, and
-conjugate gradients against unknowns, of prm/slab.prm. J of the finest adaptive mesh of degree 4 is the limit."""
+"""Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
+GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, and where the primal path
+overtakes the reduced one in the plane. Runs that are there already are not repeated; --without million leaves some out."""
 import argparse
 import csv
+import json
+import os
 import pathlib
+import resource
 import subprocess
+import time
 
 import matplotlib
 
@@ -15,51 +20,137 @@ import matplotlib.pyplot as plt
 parser = argparse.ArgumentParser()
 parser.add_argument("--program", default="build/hpvi")
 parser.add_argument("--output", default="output/space")
-parser.add_argument("--unknowns", type=int, default=60000, help="a run ends behind so many")
+parser.add_argument("--unknowns", type=int, default=20000, help="the accuracy chart ends behind a third of so many")
+parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy"])
 options = parser.parse_args()
-OUTPUT = pathlib.Path(options.output)
+OUTPUT, FIGURES = pathlib.Path(options.output), pathlib.Path(options.figures)
+FIGURES.mkdir(parents=True, exist_ok=True)
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1",
+                  OMPI_MCA_mpi_yield_when_idle="1")
 
 
-def run(name, method, unknowns):
-    """The rows of convergence.csv of a run that is made unless it is there."""
+def measured(command):
+    """Wall and user seconds of a command with its children."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return {"wall": time.monotonic() - start, "user": resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before}
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:  # an empty field, or counts by kind
+        return float("nan")
+
+
+def run(name, scene="prm/slab.prm", processes=1, **settings):
+    """Rows of convergence.csv, with the seconds of the whole run."""
     directory = OUTPUT / name
-    table = directory / "convergence.csv"
-    done = directory / "summary.json"
-    if not done.exists() or '"done"' not in done.read_text():
-        subprocess.run([options.program, "--output", str(directory), "prm/slab.prm",
-                        "--set", f"Adaptivity/Method={method}", "--set", "Output/VTU=false",
-                        "--set", "Output/Contact tables=false",
-                        "--set", f"Adaptivity/Maximum unknowns={unknowns}"],
-                       check=True, stdout=subprocess.DEVNULL)
-    with table.open(newline="") as file:
-        return [{key: float(value or "nan") for key, value in row.items()} for row in csv.DictReader(file)]
-
-
-runs = {label: run(label.replace(" ", "-"), method, options.unknowns)
-        for label, method in [("uniform Q2", "hup2"), ("adaptive Q2", "hap2"), ("adaptive Q3", "hap3"),
-                              ("adaptive Q4", "hap4")]}
-limit = run("limit", "hap4", 4 * options.unknowns)[-1]
-
-figure, (error, steps) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
-for marker, (label, rows) in zip("os^D", runs.items()):
-    n = [row["dofs_free"] for row in rows]
-    error.loglog(n, [abs(row["lagrangian"] / limit["lagrangian"] - 1) for row in rows], marker + "-", label=label)
-    steps.semilogx(n, [row["newton_cg"] for row in rows], marker + "-", label=label)
-error.set_xlabel("free unknowns")
-error.set_ylabel("relative error of J")
-error.grid(alpha=0.3)
-error.legend()
-steps.set_xlabel("free unknowns")
-steps.set_ylabel("conjugate-gradient steps of a whole Newton run")
-steps.set_ylim(bottom=0)
-steps.grid(alpha=0.3)
-pathlib.Path(options.figures).mkdir(exist_ok=True)
-figure.savefig(pathlib.Path(options.figures) / "convergence.png", dpi=110)
-
-print(f"limit J = {limit['lagrangian']:.6f} at {limit['dofs_free']:.0f} unknowns")
-for label, rows in runs.items():
-    print(label)
+    times = OUTPUT / f"{name}.json"
+    if not times.exists():
+        overrides = [word for key, value in {"Output/VTU": "false", **settings}.items()
+                     for word in ("--set", f"{key}={value}")]
+        start = [] if processes == 1 else ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(processes)]
+        cost = measured([*start, options.program, "--output", str(directory), scene, *overrides])
+        times.write_text(json.dumps(cost))
+    cost = json.loads(times.read_text())
+    with (directory / "convergence.csv").open(newline="") as file:
+        rows = [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
     for row in rows:
-        print("  {dofs_free:9.0f} {slipping:6.0f} {newton_steps:3.0f} {newton_cg:4.0f} {newton_setups:3.0f} "
-              "{lagrangian:12.7f} {seconds:8.2f}".format(**row))
+        row["run_wall"], row["run_cpu"] = cost["wall"], cost["user"]
+    return rows
+
+
+def write(name, head, rows):
+    with (FIGURES / name).open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
+
+
+def chart(name, x, y, curves, log_y=True):
+    figure, axes = plt.subplots(figsize=(6.6, 4.2), layout="constrained")
+    for marker, (label, points) in zip("os^Dvx", curves.items()):
+        axes.loglog(*zip(*points), marker + "-", label=label)
+    if not log_y:
+        axes.set_yscale("linear")
+        axes.set_ylim(bottom=0)
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.savefig(FIGURES / name, dpi=100)
+    plt.close(figure)
+
+
+def accuracy():
+    """The error of J(u_N), friction taken at all points, which is at least half the squared energy norm's. No
+    conforming u_N is below the minimum: the lowest value of all runs stands for it."""
+    limit = run("limit", **{"Adaptivity/Method": "hap4", "Adaptivity/Maximum unknowns": options.unknowns})[-1]
+    if "million" not in options.without:
+        limit = min(limit, run("million", "prm/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
+    J = limit["energy"]
+    methods = {"uniform Q2": "hup2", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
+    table, curves = [], {}
+    for label, method in methods.items():
+        for steps in range(1, 20):  # each a run of its own: CPU seconds of steps are not known, those of runs are
+            row = run(f"{method}-{steps}", **{"Adaptivity/Method": method, "Adaptivity/Maximum steps": steps})[-1]
+            table.append((label, int(row["dofs_free"]), row["energy"], abs(1 - row["energy"] / J), round(row["run_cpu"], 3)))
+            if row["dofs_free"] >= options.unknowns // 3:
+                break
+    if "peer" not in options.without:
+        result = OUTPUT / "getfem.json"
+        if not result.exists():
+            result.write_text(subprocess.run(["/usr/bin/python3", "doc/space_peer.py", "1", "2", "4"], check=True,
+                                             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout)
+        table += [("GetFEM, uniform Q2", n, energy, abs(1 - energy / J), round(cpu, 3))
+                  for n, energy, cpu in json.loads(result.read_text())]
+    for label, n, _, error, cpu in table:
+        curves.setdefault(label, []).append((cpu, error))
+    write("accuracy.csv", ["method", "dofs_free", "energy", "error", "cpu_seconds"], table)
+    chart("accuracy.png", "CPU time of a run [s]", "relative error of the energy", curves)
+    print(f"limit {J:.6f} at {limit['dofs_free']:.0f} unknowns")
+
+
+def million():
+    rows = run("million", "prm/slab-million.prm", 2)
+    columns = ["dofs_free", "multipliers", "newton_steps", "newton_cg", "newton_setups", "slipping", "lagrangian",
+               "peak_memory", "seconds"]
+    write("million.csv", columns, [[round(row[c], 6) for c in columns] for row in rows])
+    chart("million.png", "free unknowns", "conjugate-gradient steps of a mesh",
+          {"prm/slab-million.prm on 2 processes": [(r["dofs_free"], r["newton_cg"]) for r in rows]}, log_y=False)
+    print("million: wall {run_wall:.0f} s, CPU of both {run_cpu:.0f} s, {bytes:.2f} GB".format(
+        bytes=rows[-1]["peak_memory"] / 1e9, **rows[-1]))
+
+
+def speedup():
+    table = []
+    for n in (1, 2):
+        last = run(f"speedup-{n}", processes=n, **{"Adaptivity/Maximum unknowns": 100000})[-1]
+        table.append([n, int(last["dofs_free"]), round(last["run_wall"], 1), round(last["run_cpu"] / n, 1), last["lagrangian"]])
+    write("speedup.csv", ["processes", "dofs_free", "wall_seconds", "cpu_seconds_per_process", "lagrangian"], table)
+    print("speed-up: wall {:.2f}, CPU {:.2f}".format(table[0][2] / table[1][2], table[0][3] / table[1][3]))
+
+
+def crossover():
+    """Example 5.2 with one row of elements: CPU seconds of a run, best of some, reading the scene included; the wall seconds
+    of the primal path over those of its factorisations, in the run where that is least."""
+    table = []
+    for n in (250, 500, 1000, 2000):
+        runs = {path: [run(f"{path}-{n}-{k}", "prm/han-6-12.prm",
+                           **{"Geometry/Subdivisions": f"{n}, 1", "Adaptivity/Method": "hap2",
+                              "Adaptivity/Maximum steps": 1, "Solver/Path": path})[-1] for k in range(options.repeat)]
+                for path in ("reduced", "primal")}
+        cpu = {path: min(row["run_cpu"] for row in rows) for path, rows in runs.items()}
+        ratio = min(row["seconds"] / row["seconds_factor"] for row in runs["primal"])
+        table.append([n, round(cpu["reduced"], 3), round(cpu["primal"], 3), round(ratio, 2)])
+    write("crossover.csv", ["multipliers", "reduced_cpu_seconds", "primal_cpu_seconds", "step_over_factorisations"], table)
+    chart("crossover.png", "multipliers", "CPU time of a run [s]",
+          {"reduced path": [(r[0], r[1]) for r in table], "primal path": [(r[0], r[2]) for r in table]})
+    for row in table:
+        print(*row)
+
+
+for part in (million, accuracy, crossover, speedup):
+    if part.__name__ not in options.without:
+        part()

@@ -17,7 +17,7 @@ using namespace dealii;
 namespace
 {
 constexpr double stick_factor = 1e4;
-constexpr unsigned int maximum_steps = 1000;
+constexpr unsigned int maximum_steps = 300;
 
 template <int dim>
 constexpr unsigned int n_motions = dim *(dim + 1) / 2;

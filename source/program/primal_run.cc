@@ -68,8 +68,8 @@ bool fits_primal_path(const Scene<2> &scene)
 }
 
 /**
- * Would the dense algebra of the first mesh take longer than the twenty-odd factorisations of the primal path? Of one
- * core: `3e-10 s m^3` for m multipliers, and for each factorisation of N unknowns
+ * Would the dense algebra of the first mesh take longer than what the primal path takes? Of one
+ * core: `3e-10 s m^3` for m multipliers, and twelve times, for N unknowns,
  * `1e-6 s N + 3e-9 s N^3/2`. `./run space` measures all three, doc/space.md has the chart.
  */
 bool primal_path_pays(const Scene<2> &scene)
@@ -82,7 +82,7 @@ bool primal_path_pays(const Scene<2> &scene)
     if (boundary.has_contact() && boundary.friction.bound)
       multipliers += (p - 1) * cells[1 - boundary.id / 2];
   return fits_primal_path(scene) &&
-         3e-10 * std::pow(multipliers, 3) > 22 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
+         3e-10 * std::pow(multipliers, 3) > 12 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
 }
 
 /** A signal reaches processes at different times: they stop where the first one has noticed. */

@@ -217,7 +217,7 @@ void add_program_entries(std::vector<Entry> &entries)
         "method on displacements and moments of contact, sparse throughout; boxes, one degree for "
         "all cells (hup, hap), bilateral or tangential contact with Tresca friction. auto: primal "
         "in space, on several processes, and where it offers what the scene asks for and the first "
-        "mesh has so many multipliers that their dense algebra would take longer, from about 1200 "
+        "mesh has so many multipliers that their dense algebra would take longer, from about 800 "
         "on; else reduced."},
        {"Solver", "Linear", "amg", one_of(linear_names), "amg or direct",
         "primal in space: conjugate gradients with algebraic multigrid, or a sparse factorisation, "

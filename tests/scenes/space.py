@@ -4,7 +4,9 @@
 are complete and listed, and what it prints is printed once."""
 import csv
 import json
+import os
 import pathlib
+import pty
 import re
 import subprocess
 import sys
@@ -90,6 +92,32 @@ with tempfile.TemporaryDirectory() as scratch:
             assert f"solution-02.{rank}.vtu" in index
             assert (directory / f"solution-02.{rank}.vtu").stat().st_size > 1000
         assert "solution-02.pvtu" in (directory / "solution.pvd").read_text()
+
+    # In the plane the path follows the multipliers of the first mesh, but not where it lacks what a scene asks for.
+    for n, extra, primal in ((1500, [], True), (150, [], False), (1500, ["Solver/Path=reduced"], False)):
+        subprocess.run([HPVI, "--output", str(scratch / "plane"), "prm/han-6-12.prm", "--set", "Adaptivity/Method=hap2",
+                        "--set", f"Geometry/Subdivisions={n}, 1", "--set", "Adaptivity/Maximum steps=1",
+                        "--set", "Output/VTU=false", *(word for entry in extra for word in ("--set", entry))],
+                       check=True, capture_output=True)
+        summary = json.loads((scratch / "plane/summary.json").read_text())
+        assert ("newton_steps" in summary["final"]) == primal, (n, extra)
+        if primal:
+            assert summary["error_bound"] is None and "primal" in summary["no_error_bound"]
+
+    # A terminal hears of steps within a step.
+    controller, terminal = pty.openpty()
+    process = subprocess.Popen([HPVI, "--output", str(scratch / "shown"), *SCENE], stdout=terminal)
+    os.close(terminal)
+    shown = b""
+    try:
+        while part := os.read(controller, 4096):
+            shown += part
+    except OSError:  # how Linux says that the other side is closed
+        pass
+    os.close(controller)
+    assert process.wait() == 0
+    assert re.search(rb"step 2: finding stick and slip: Newton step 3, \d+ steps of conjugate gradients", shown), shown
+    assert b"finding stick" not in printed[1].encode()
 
     # The scene that a run leaves repeats it.
     again = subprocess.run([HPVI, "--validate", str(one / "scene.prm")], capture_output=True, text=True)

@@ -51,7 +51,7 @@ public:
 
   /**
    * Improves @p v until the residual is below @p tolerance, and sets what sticks to zero. Collective. Where
-   * multigrid takes more than a thousand steps a factorisation takes its place from here on. Throws
+   * multigrid takes more than three hundred steps a factorisation takes its place from here on. Throws
    * NumericalFailure where that does not help.
    */
   void solve(DistributedVector &v, const DistributedVector &b, double tolerance);

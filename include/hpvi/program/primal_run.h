@@ -15,7 +15,8 @@ unsigned int n_started_processes();
 bool is_first_process();
 
 /**
- * Does @p scene take the primal path: in space, on several processes, or because it says so? Throws InputError
+ * Does @p scene take the primal path: in space, on several processes, because it says so, or because its first mesh has
+ * so many multipliers that their dense algebra would take longer? Throws InputError
  * where it asks for the reduced path on several processes.
  */
 template <int dim>

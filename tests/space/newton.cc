@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What finds stick and slip: Newton's method, what takes its place, and where they stop.
+#include "runs.h"
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace space;
+
+/** Cut off after one step the augmented Lagrangian ends where Newton's method does. */
+template <int dim>
+void expect_fallback(const PrimalReport<dim> &step)
+{
+  PrimalSystem<dim> system(step.space);
+  MomentMatrix<dim> matrix(step.space, system);
+  MomentNewton<dim> newton(step.space, system, matrix);
+  DistributedVector v = step.space.owned_vector();
+  std::vector<Tangential<dim>> lambda;
+  NewtonSettings settings;
+  settings.residual = 1e-10;
+  settings.maximum_steps = 1;
+  const NewtonReport report = newton.solve(v, lambda, settings);
+  EXPECT_TRUE(report.is_cut_off);
+  EXPECT_EQ(report.steps, 1);
+  EXPECT_GT(report.augmented_steps, 3);
+  EXPECT_EQ(report.n_slipping, step.newton.n_slipping);
+  DistributedVector difference = step.space.displacement(v);
+  difference -= step.u;
+  EXPECT_LT(difference.l2_norm(), 1e-7 * step.u.l2_norm());
+}
+
+TEST(Newton, GivesWayToTheAugmentedLagrangian)
+{
+  steps_of<3>(slab({{"Adaptivity/Maximum steps", "2"}}), expect_fallback<3>);
+  Scene<2> plane = read_scene<2>(
+      "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "3"}});
+  plane.solver.primal_tolerance = 1e-11;
+  steps_of<2>(plane, expect_fallback<2>);
+}
+
+/** From all discs sticking Newton's method would take more steps the more there are. */
+TEST(Newton, StepsDoNotGrowWithTheDiscs)
+{
+  std::vector<unsigned int> steps;
+  for (const char *const subdivisions : {"150, 1", "600, 1"})
+  {
+    Scene<2> scene = read_scene<2>("prm/han-6-12.prm", {{"Adaptivity/Method", "hap2"},
+                                                        {"Geometry/Subdivisions", subdivisions},
+                                                        {"Adaptivity/Maximum steps", "1"}});
+    scene.solver.primal_tolerance = 1e-10;
+    double reduced = 0;
+    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
+                                 { reduced = step.energies.lagrangian; });
+    const auto primal =
+        steps_of<2>(scene,
+                    [&](const PrimalReport<2> &step)
+                    {
+                      EXPECT_FALSE(step.newton.is_cut_off);
+                      steps.push_back(step.newton.steps + step.newton.augmented_steps);
+                    });
+    EXPECT_NEAR(primal[0].lagrangian, reduced, 1e-9 * std::abs(reduced));
+  }
+  EXPECT_LE(steps[1], steps[0] + 10);
+  EXPECT_LE(steps[1], 50U);
+}
+
+/** Where no tolerance is named what Newton's method leaves is known, and small beside the indicator. */
+TEST(Newton, StopsWhereTheEstimatedErrorSaysSo)
+{
+  Scene<3> scene = slab({{"Adaptivity/Maximum steps", "3"}});
+  std::vector<unsigned int> exact_cg, cg;
+  const auto exact = steps_of<3>(scene, [&](const PrimalReport<3> &step)
+                                 { exact_cg.push_back(step.newton.cg_steps); });
+  scene.solver.primal_tolerance = 0;
+  unsigned int k = 0;
+  steps_of<3>(scene,
+              [&](const PrimalReport<3> &step)
+              {
+                EXPECT_LE(step.newton.error, 1e-2 * step.scaled_estimate);
+                const double rise = step.energies.lagrangian - exact[k].lagrangian;
+                EXPECT_LE(std::abs(rise), std::pow(step.newton.error, 2) + 1e-8);
+                cg.push_back(step.newton.cg_steps);
+                ++k;
+              });
+  EXPECT_LT(2 * cg.back(), exact_cg.back() + cg.back()); // it takes fewer
+}
+
+/** What supports, contact and loads do to the body adds up to nothing, and to the same on both paths. */
+TEST(Newton, ForcesAreThoseOfTheReducedPath)
+{
+  Scene<2> scene = read_scene<2>(
+      "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "3"}});
+  scene.solver.primal_tolerance = 1e-12;
+  std::vector<Equilibrium<2>> reduced, primal;
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
+                               { reduced.push_back(step.equilibrium); });
+  steps_of<2>(scene, [&](const PrimalReport<2> &step) { primal.push_back(step.equilibrium); });
+  const Equilibrium<2> &one = reduced.back(), &other = primal.back();
+  EXPECT_LT(other.force_imbalance, 1e-10);
+  EXPECT_LT(other.moment_imbalance, 1e-10);
+  ASSERT_EQ(one.reactions.size(), 2);
+  ASSERT_EQ(other.reactions.size(), 2);
+  for (unsigned int b = 0; b < 2; ++b)
+  {
+    EXPECT_EQ(one.reactions[b].boundary, other.reactions[b].boundary);
+    EXPECT_LT((one.reactions[b].force - other.reactions[b].force).norm(), 1e-8);
+    EXPECT_NEAR(one.reactions[b].moment, other.reactions[b].moment, 1e-8);
+  }
+}
+
+/** Multigrid does not see what hardly any change of volume asks for: a factorisation does, and the run says so. */
+TEST(Newton, MultigridThatBreaksDownGivesWayToAFactorisation)
+{
+  Scene<3> scene =
+      slab({{"Material/Poisson's ratio", "0.49999"}, {"Adaptivity/Maximum steps", "2"}});
+  scene.solver.primal_tolerance = 1e-8;
+  double multigrid = 0;
+  steps_of<3>(scene,
+              [&](const PrimalReport<3> &step)
+              {
+                multigrid = step.energies.lagrangian;
+                if (step.stopped_by.empty())
+                  return;
+                EXPECT_TRUE(step.newton.fell_back);
+                const auto is_named = [](const std::string &warning)
+                { return warning.find("multigrid broke down") != std::string::npos; };
+                EXPECT_TRUE(std::any_of(step.warnings.begin(), step.warnings.end(), is_named));
+              });
+  scene.solver.linear = LinearMethod::direct;
+  EXPECT_NEAR(multigrid, steps_of<3>(scene).back().lagrangian, 1e-7 * std::abs(multigrid));
+}
+} // namespace
