@@ -14,7 +14,7 @@ import statistics
 import numpy as np
 
 from stability import (COLOURS, ERROR_LABEL, N_LABEL, Laboratory, chart, number, plain, progress,
-                       put_table, save)
+                       put_table, save, style)
 
 HERE = pathlib.Path(__file__).resolve().parent
 GALLERY = HERE / "bound"
@@ -69,7 +69,7 @@ def measure(lab):
 def effectivities(runs):
     """Smallest and largest quotient of bound and indicator with the true error."""
     rows = []
-    figure, panels = chart(2, "Bound and indicator over the true error", width=11)
+    figure, panels = chart(2, "Bound and indicator over the true error", width=13)
     for (problem, method, indicator), run in runs.items():
         error = run.column("error_energy")
         keep = (run.column("error_relative") > FLOOR) & (run.column("error_bound") > 0)
@@ -83,14 +83,14 @@ def effectivities(runs):
         if method == "hpa3" and indicator == "bound":
             for axes, values in zip(panels, (bound, estimate)):
                 k = list(PROBLEMS).index(problem)
-                axes.semilogx(run.column("dofs_free")[keep], values, "os^Dv"[k // 7 * 2] + "-",
-                              markersize=4, color=COLOURS[k % 7], label=PROBLEMS[problem][0])
+                axes.semilogx(run.column("dofs_free")[keep], values, **style(k),
+                              linestyle="-" if k < len(COLOURS) else ":",
+                              label=PROBLEMS[problem][0])
     for axes, what in zip(panels, ("guaranteed bound / true error",
                                    "residual indicator / true error")):
         axes.set(xlabel=N_LABEL, ylabel=what, yscale="log")
         axes.axhline(1, color="black", linewidth=1)
-    figure.legend(*panels[0].get_legend_handles_labels(), fontsize=8, ncol=4,
-                  loc="outside lower center")
+    panels[1].legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1))
     save(figure, "effectivity.png", PAGE)
     put_table("effectivity", rows, page=PAGE)
 
