@@ -40,29 +40,18 @@ double hat(const unsigned int end, const double s)
   return end == 0 ? 1. - s : s;
 }
 
-/** Are there both points that stick and points that slip? */
-template <int dim>
-bool has_transition(const ContactFace<dim> &face, const Solution<dim> &solution)
-{
-  unsigned int n_slipping = 0;
-  for (unsigned int k = 0; k < face.n_multipliers; ++k)
-  {
-    const unsigned int i = face.first_multiplier + k;
-    n_slipping +=
-        std::abs(solution.z[i]) >= (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
-  }
-  return n_slipping > 0 && n_slipping < face.n_multipliers;
-}
-
 /** What a face adds to the patches of both its ends. */
 template <int dim>
 class FaceIntegrals
 {
 public:
   FaceIntegrals(const unsigned int number, const Solution<dim> &solution)
-      : number(number), face(solution.contact_space.faces()[number]), n(face.degree + 1),
+      : number(number), face(solution.contact_space.faces()[number]),
+        n(traction_degree(face, solution.z, solution.contact_space) + 1),
+        rule(traction_rule(face, n - 1, solution.tables)),
         weight(face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree)),
-        leans(has_transition(face, solution)), gauss(solution.tables.gauss(face.n_multipliers + 1)),
+        leans(has_transition(face, solution.z, solution.contact_space)),
+        gauss(solution.tables.gauss(face.n_multipliers + 1)),
         z(EdgePolynomial::through({solution.z.begin() + face.first_multiplier,
                                    solution.z.begin() + face.first_multiplier + face.n_multipliers},
                                   solution.tables.gauss(face.n_multipliers)))
@@ -78,6 +67,7 @@ private:
   const unsigned int number;
   const ContactFace<dim> &face;
   const unsigned int n;
+  const FrictionRule rule;
   const double weight;
   const bool leans;
   const QGauss<1> &gauss;
@@ -95,7 +85,6 @@ Side FaceIntegrals<dim>::side(const unsigned int end) const
     const double s = gauss.point(q)[0];
     result.work += face.length * gauss.weight(q) * hat(end, s) * z(s);
   }
-  const FrictionRule &rule = face.friction;
   const double largest = *std::max_element(rule.values.begin(), rule.values.end());
   for (unsigned int q = 0; q < rule.points.size(); ++q)
   {

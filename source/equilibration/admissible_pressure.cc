@@ -76,7 +76,7 @@ void set_moments(PressedFace &result, const ContactFace<dim> &face, const EdgePo
 {
   if (face.at_nodes)
   {
-    const QGaussLobatto<1> &rule = solution.tables.gauss_lobatto(result.n);
+    const QGaussLobatto<1> &rule = solution.tables.gauss_lobatto(face.degree + 1);
     for (unsigned int k = 0, i = 0; k < rule.size() && i < face.normal_points.size(); ++k)
       if (face.normal_points[i] == rule.point(k)[0])
         add_moments(result, rule.point(k)[0],
@@ -115,7 +115,7 @@ PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solu
 {
   const ContactFrame<dim> frame = face.frame(0.5);
   PressedFace result;
-  result.n = face.degree + 1;
+  result.n = traction_degree(face, solution.z, solution.contact_space) + 1;
   result.length = face.length;
   result.weight = face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree);
   const Tensor<2, dim> J = face.map.jacobian({0.5, 0.5});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/load_points.h>
+#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
 #include <algorithm>
@@ -160,7 +161,8 @@ void EquilibratedStress::set_known_tractions(const unsigned int index)
         add_load(index, end, gauss.point(q)[0], gauss.weight(q), load_on(edge, gauss.point(q)[0]));
     if (edge.contact_face != numbers::invalid_unsigned_int)
     {
-      const FrictionRule &rule = solution.contact_space.faces()[edge.contact_face].friction;
+      const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
+                                              edge.degree - 2, solution.tables);
       for (unsigned int q = 0; q < rule.points.size(); ++q)
         add_load(index, end, rule.points[q], rule.weights[q],
                  friction_on(edge, end, rule.points[q], rule.values[q]));

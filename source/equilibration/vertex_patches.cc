@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/equilibration/vertex_patches.h>
 
 #include <algorithm>
@@ -42,7 +43,11 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
         edge.boundary = cell->face(f)->boundary_id();
         const auto found = contact.find({index, f});
         if (found != contact.end())
+        {
           edge.contact_face = found->second;
+          edge.degree =
+              traction_degree(contact_faces[found->second], solution.z, solution.contact_space) + 2;
+        }
       }
       else if (cell->face(f)->has_children())
       {

@@ -15,7 +15,7 @@ namespace hpvi
  * the same work as z_N on the hat functions psi_a of the contact vertices: the datum of an equilibrated
  * stress, patch by patch. z_N itself overshoots g between its Gauss points.
  *
- * On each contact face and for each of its ends a there is a polynomial l_a of the degree of its cell,
+ * On each contact face and for each of its ends a there is a polynomial l_a of traction_degree(),
  * and `l* = sum_a psi_a l_a`. For each vertex a, over the one or two faces that lie on one straight
  * contact boundary there,
  *

@@ -16,7 +16,7 @@ namespace hpvi
  * and which is in balance patch by patch: the datum of an equilibrated stress. The discrete pressure is
  * not negative at its points, but can be between them.
  *
- * On each face of degree p, for each of its ends a, there is a polynomial t_a of degree p, psi_a included, with
+ * On each face, for each of its ends a, there is a polynomial t_a of traction_degree(), psi_a included, with
  *
  *     sum_f int t_a (alpha + beta s) = <z_n, psi_a (alpha + beta s)>_N   for all alpha and beta,
  *     pi = t_a + t_b >= 0,

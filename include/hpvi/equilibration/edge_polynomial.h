@@ -47,6 +47,24 @@ private:
 /** L_0 to L_{n-1} at s. */
 dealii::Vector<double> legendre_basis(unsigned int n, double s);
 
+/** Are there both points that stick and points that slip? */
+template <int dim>
+bool has_transition(const ContactFace<dim> &face, const dealii::Vector<double> &z,
+                    const ContactSpace<dim> &space);
+
+/**
+ * Degree of friction and pressure of an equilibrated stress on a contact face: p, and more where stick and slip, or
+ * contact and gap, share it, because no polynomial within its bounds is near what tractions do there.
+ */
+template <int dim>
+unsigned int traction_degree(const ContactFace<dim> &face, const dealii::Vector<double> &z,
+                             const ContactSpace<dim> &space);
+
+/** The rule of the face for integrals of g, with as many points as polynomials of that degree take. */
+template <int dim>
+FrictionRule traction_rule(const ContactFace<dim> &face, unsigned int degree,
+                           const ShapeTables<dim> &tables);
+
 /** v in one direction along a contact face, for displacement unknowns v of the space. */
 template <int dim>
 EdgePolynomial edge_trace(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
