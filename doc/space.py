@@ -88,7 +88,7 @@ def accuracy():
     conforming u_N is below the minimum: the lowest value of all runs stands for it."""
     limit = run("limit", **{"Adaptivity/Method": "hap4", "Adaptivity/Maximum unknowns": options.unknowns})[-1]
     if "million" not in options.without:
-        limit = min(limit, run("million", "prm/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
+        limit = min(limit, run("million", "doc/space/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
     J = limit["energy"]
     methods = {"uniform Q2": "hup2", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
     table, curves = [], {}
@@ -113,12 +113,12 @@ def accuracy():
 
 
 def million():
-    rows = run("million", "prm/slab-million.prm", 2)
+    rows = run("million", "doc/space/slab-million.prm", 2)
     columns = ["dofs_free", "multipliers", "newton_steps", "newton_cg", "newton_setups", "slipping", "lagrangian",
                "peak_memory", "seconds"]
     write("million.csv", columns, [[round(row[c], 6) for c in columns] for row in rows])
     chart("million.png", "free unknowns", "conjugate-gradient steps of a mesh",
-          {"prm/slab-million.prm on 2 processes": [(r["dofs_free"], r["newton_cg"]) for r in rows]}, log_y=False)
+          {"doc/space/slab-million.prm on 2 processes": [(r["dofs_free"], r["newton_cg"]) for r in rows]}, log_y=False)
     print("million: wall {run_wall:.0f} s, CPU of both {run_cpu:.0f} s, {bytes:.2f} GB".format(
         bytes=rows[-1]["peak_memory"] / 1e9, **rows[-1]))
 
