@@ -412,6 +412,7 @@ public:
   Candidate best(Candidate result) const;
 
 private:
+  void loosen_slanted_faces();
   std::vector<Role> roles() const;
   void add_normal_roles(std::vector<Role> &roles) const;
   Vector<double> fixed_displacement() const;
@@ -459,6 +460,25 @@ Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &di
       tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
     }
   }
+  loosen_slanted_faces();
+}
+
+/**
+ * Along a slanted boundary the vertices share unknowns between both directions: near a transition of slip a
+ * face that presses is not fixed, so that w_t stays free.
+ */
+template <int dim>
+void Search<dim>::loosen_slanted_faces()
+{
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k] && openings[k]->mode == Opening::closed)
+      for (unsigned int other = k < 2 ? 0 : k - 2;
+           other < std::min<std::size_t>(k + 3, faces.size()); ++other)
+        for (const unsigned int unknown : openings[k]->penetration.unknowns)
+          if (slips[other].mode == Slip::partly || slips[other].mode != slips[k].mode)
+            if (const auto &own = traces[k].unknowns;
+                std::find(own.begin(), own.end(), unknown) != own.end())
+              openings[k]->mode = Opening::partly;
 }
 
 /** The largest of u_Nn - w_n - u_0, and at each vertex that of its faces. */
@@ -481,7 +501,10 @@ double Search<dim>::penetration(const Vector<double> &w,
   return result;
 }
 
-/** w_n += a piecewise linear function that takes away what penetrates; false: supports are in the way. */
+/**
+ * w_n += a piecewise linear function that takes away what penetrates; false: supports are in the way of more
+ * than round-off.
+ */
 template <int dim>
 bool Search<dim>::lift(Vector<double> &w) const
 {
@@ -508,7 +531,7 @@ bool Search<dim>::lift(Vector<double> &w) const
         }
     }
   w += discretisation.unknowns.coordinates(u);
-  return penetration(w, heights) <= tolerance;
+  return penetration(w, heights) <= std::max(tolerance, 1e-13 * solution.u.linfty_norm());
 }
 
 template <int dim>

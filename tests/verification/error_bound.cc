@@ -294,6 +294,20 @@ TEST(ErrorBoundOfUnilateralContact, IsAboveTheErrorAndNear)
     }
 }
 
+/** Both directions share unknowns at the vertices there; w still is small beside the error. */
+TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
+{
+  AdaptiveSolver<2>(shipped_scene("han-6-12-unilateral", {{"Geometry/Shape", "quadrilateral"},
+                                                          {"Geometry/Corners", rotated},
+                                                          {"Adaptivity/Maximum steps", "12"}}))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            EXPECT_LT(step.bound->slip, step.bound->stress);
+          });
+}
+
 class Effectivity : public ::testing::TestWithParam<Body>
 {
 };
