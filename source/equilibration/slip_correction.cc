@@ -412,7 +412,6 @@ public:
   Candidate best(Candidate result) const;
 
 private:
-  void loosen_slanted_faces();
   std::vector<Role> roles() const;
   void add_normal_roles(std::vector<Role> &roles) const;
   Vector<double> fixed_displacement() const;
@@ -460,25 +459,6 @@ Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &di
       tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
     }
   }
-  loosen_slanted_faces();
-}
-
-/**
- * Along a slanted boundary the vertices share unknowns between both directions: near a transition of slip a
- * face that presses is not fixed, so that w_t stays free.
- */
-template <int dim>
-void Search<dim>::loosen_slanted_faces()
-{
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (openings[k] && openings[k]->mode == Opening::closed)
-      for (unsigned int other = k < 2 ? 0 : k - 2;
-           other < std::min<std::size_t>(k + 3, faces.size()); ++other)
-        for (const unsigned int unknown : openings[k]->penetration.unknowns)
-          if (slips[other].mode == Slip::partly || slips[other].mode != slips[k].mode)
-            if (const auto &own = traces[k].unknowns;
-                std::find(own.begin(), own.end(), unknown) != own.end())
-              openings[k]->mode = Opening::partly;
 }
 
 /** The largest of u_Nn - w_n - u_0, and at each vertex that of its faces. */

@@ -294,6 +294,20 @@ TEST(ErrorBoundOfUnilateralContact, IsAboveTheErrorAndNear)
     }
 }
 
+/** What a gap that is no polynomial has between the nodes counts as data. */
+TEST(ErrorBoundOfUnilateralContact, SeesTheGapBetweenNodes)
+{
+  AdaptiveSolver<2>(
+      shipped_scene("han-6-12-unilateral", {{"Boundary bottom/Gap", "0.01*(1 - cos(x))"},
+                                            {"Adaptivity/Maximum steps", "2"}}))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            EXPECT_GT(step.bound->data, 1e-7);
+          });
+}
+
 /** Both directions share unknowns at the vertices there; w still is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {
@@ -428,6 +442,7 @@ TEST(ErrorBoundOfEnergy, IntervalsHoldTheLeastEnergy)
             EXPECT_EQ(step.bound->energy_above, 0.);
             EXPECT_EQ(step.bound->energy_below, step.bound->energy);
           }
+          EXPECT_GE(step.bound->total * (1 + 1e-12), step.bound->oscillation + step.bound->stress);
           above = std::min(above, step.energies.energy + step.bound->energy_above);
           below = std::max(below, step.energies.energy - step.bound->energy_below);
           widest = std::max(widest, step.bound->energy);
