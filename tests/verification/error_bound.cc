@@ -442,7 +442,8 @@ TEST(ErrorBoundOfEnergy, IntervalsHoldTheLeastEnergy)
             EXPECT_EQ(step.bound->energy_above, 0.);
             EXPECT_EQ(step.bound->energy_below, step.bound->energy);
           }
-          EXPECT_GE(step.bound->total * (1 + 1e-12), step.bound->oscillation + step.bound->stress);
+          EXPECT_GE(step.bound->total * (1 + 1e-12),
+                    step.bound->oscillation + std::hypot(step.bound->stress, step.bound->slip));
           above = std::min(above, step.energies.energy + step.bound->energy_above);
           below = std::max(below, step.energies.energy - step.bound->energy_below);
           widest = std::max(widest, step.bound->energy);
