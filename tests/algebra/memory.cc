@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <random>
 #include <string>
 
 namespace
@@ -16,16 +17,16 @@ namespace
 using namespace algebra;
 using namespace hpvi;
 
-/** /proc and /sys of a machine that there is not. */
+/** /proc and /sys of a machine that there is not; each its own, because tests run side by side. */
 class Machine
 {
 public:
   const std::filesystem::path root =
-      std::filesystem::path(::testing::TempDir()) / "hpvi-memory-test";
+      std::filesystem::path(::testing::TempDir()) /
+      ("hpvi-memory-test-" + std::to_string(std::random_device()()));
 
   Machine()
   {
-    std::filesystem::remove_all(root);
     write("proc/meminfo", "MemTotal: 9000 kB\nMemAvailable: 3000 kB\nSwapFree: 1000 kB\n");
   }
   ~Machine()
