@@ -24,6 +24,7 @@ PROBLEMS = {"stick-slip": ("Stick-slip", []), "plane-strain": ("The same in plan
             "nearly-incompressible": ("The same, nu = 0.4999",
                                       ["Material/Poisson's ratio=0.4999"]),
             "incompressible": ("The same, nu = 0.499999", ["Material/Poisson's ratio=0.499999"]),
+            "inside": ("Stick-slip, transition inside an edge", ["Exact solution/Transition=0.1"]),
             "smooth": ("Smooth slip", []), "han-6-12": ("Example 5.2", []),
             "han-6-13": ("Example 5.3", []), "hertz": ("Hertz contact", []),
             "opening": ("Example 5.2 that opens", []),
@@ -34,7 +35,7 @@ PROBLEMS = {"stick-slip": ("Stick-slip", []), "plane-strain": ("The same in plan
             "turned": ("Example 5.2, parallelogram",
                        ["Geometry/Shape=quadrilateral",
                         "Geometry/Corners=1, 0; 3, 1; 2.5, 2; 0.5, 1"])}
-SCENES = {"nearly-incompressible": "plane-strain", "incompressible": "plane-strain",
+SCENES = {"nearly-incompressible": "plane-strain", "inside": "stick-slip", "incompressible": "plane-strain",
           "opening": "han-6-12-unilateral", "varying": "han-6-12", "weight": "han-6-12",
           "turned": "han-6-12"}
 OVERKILL = ("han-6-12", "han-6-13", "opening", "resting", "varying", "weight", "turned")

@@ -352,7 +352,7 @@ void EquilibratedStress::set_cells()
       element = std::make_unique<const StressElement>(
           m, cell.B, solution.scene.material_of(iterator), marked[index]);
     cell.element = element.get();
-    set_stress(index);
+    set_stress(index, solution);
     Batch &batch = batches[cell.element];
     cell.first_column = batch.n_columns;
     batch.cells.push_back(index);
@@ -361,7 +361,7 @@ void EquilibratedStress::set_cells()
 }
 
 /** sigma(u_N) = B S B' and F = B f/h in the frame of the cell. */
-void EquilibratedStress::set_stress(const unsigned int index)
+void EquilibratedStress::set_stress(const unsigned int index, const Solution<2> &of)
 {
   Cell &cell = cells[index];
   const auto &iterator = vertex_patches.cells()[index].iterator;
@@ -369,7 +369,7 @@ void EquilibratedStress::set_stress(const unsigned int index)
   const HookesLaw<2> law(solution.scene.material_of(iterator));
   const Tensor<2, 2> inverse = invert(cell.B);
   cell.sigma = Modes<3>(cell.element->m + 1);
-  const std::vector<double> coefficients = solution.coefficients(index);
+  const std::vector<double> coefficients = of.coefficients(index);
   for (unsigned int c = 0; c < 2; ++c)
   {
     const FullMatrix<double> U =
@@ -391,7 +391,7 @@ void EquilibratedStress::set_stress(const unsigned int index)
           }
     }
   }
-  if (!solution.scene.has_body_force())
+  if (!solution.scene.has_body_force() || !cell.force.empty())
     return;
   const CellMap<2> map = map_of<2>(iterator);
   cell.n_force = body_force_points(solution.scene, map, p, solution.tables);
@@ -471,7 +471,7 @@ void EquilibratedStress::set_data()
         element->residual(product, divergence, column);
         column += n;
       }
-      element->residual(sigma, load(index, {{1., 1., 1., 1.}}), column);
+      set_own_column(index);
     }
     batch.gradients.resize(std::size_t(element->n_edges) * batch.n_columns);
     multiply('T', 'N', element->n_edges, batch.n_columns, n, 1., {element->edge_energy().data(), n},
@@ -481,6 +481,15 @@ void EquilibratedStress::set_data()
              {element->conditions().data(), n}, {batch.r.data(), n}, 0., batch.defects.data(),
              element->n_conditions());
   }
+}
+
+/** Of sigma with divergence -F: behind those of the hat functions. */
+void EquilibratedStress::set_own_column(const unsigned int index)
+{
+  const Cell &cell = cells[index];
+  const std::size_t column = cell.first_column + vertex_patches.cells()[index].hats.size();
+  cell.element->residual(cell.sigma, load(index, {{1., 1., 1., 1.}}),
+                         &batches.at(cell.element).r[cell.element->n_data * column]);
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigned int hat) const
@@ -605,6 +614,18 @@ void EquilibratedStress::measure()
           std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
     }
   }
+}
+
+void EquilibratedStress::measure_from(const Solution<2> &other)
+{
+  if (macro_stresses)
+    macro_stresses = std::make_unique<const MacroStresses>(other, vertex_patches, cache);
+  for (unsigned int index = 0; index < cells.size(); ++index)
+  {
+    set_stress(index, other);
+    set_own_column(index);
+  }
+  measure();
 }
 
 bool EquilibratedStress::has_macro_cells() const

@@ -15,9 +15,9 @@
 // $w$, which takes the oscillation of $u_N$ around zero away where the body sticks. The proof, and
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
 #include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/equilibration/contact_correction.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
-#include <hpvi/equilibration/slip_correction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ double sum(const std::vector<double> &values)
 }
 
 /** |w|_a */
-double norm(const SlipCorrection<2> &correction)
+double norm(const ContactCorrection<2> &correction)
 {
   return std::sqrt(std::max(0., sum(correction.energy()))); // round-off
 }
@@ -49,7 +49,7 @@ double norm(const SlipCorrection<2> &correction)
 // A bound is one number, but its square is a sum over cells: a second indicator to mark by, without
 // unknown constants, and as fine at high degrees as at low ones.
 void set_squares(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
-                 const SlipCorrection<2> &correction, const DataError &data)
+                 const ContactCorrection<2> &correction, const DataError &data)
 {
   for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
     result.squares.push_back(std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
@@ -65,7 +65,7 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 // The general form, with $O$ for the oscillation of loads and $d$ for displacements outside the
 // space: $O + (\eta^2 + 2\,\mathrm{gap} + (|w|_a + |d|_a + O)^2)^{1/2}$.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
-               const SlipCorrection<2> &correction, const DataError &data)
+               const ContactCorrection<2> &correction, const DataError &data)
 {
   const double eta_square = sum(stress.squares), w = norm(correction),
                gap = std::max(0., sum(correction.gap())); // round-off
@@ -78,20 +78,23 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                                                 std::pow(w + result.data + result.oscillation, 2));
 }
 
-/** Of U = u_N + v + d; v moves it where u_N is not what the stress belongs to, or penetrates. */
+/** Of U = u_N - w + d; w, in V_N, is none but where u_N may penetrate. */
 void set_energy(ErrorBound &result, const Solution<2> &solution,
-                const Discretisation<2> &discretisation, const Vector<double> &shift,
-                const SlipCorrection<2> &correction, const DataError &data)
+                const Discretisation<2> &discretisation, const ContactCorrection<2> &correction,
+                const DataError &data)
 {
   const bool is_moved = solution.scene.has_unilateral_contact();
   const double w = is_moved ? norm(correction) : 0.,
                gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap());
-  Vector<double> v(shift);
+  Vector<double> v;
   if (is_moved)
-    v -= correction.unknowns();
+  {
+    v = correction.unknowns();
+    v *= -1.;
+  }
   const double change = v.all_zero() ? 0. : energy_change(solution, discretisation, v);
   result.energy = std::pow(result.stress + w + data.lift + result.oscillation, 2) / 2 + gap;
-  // J(u_N + v + d) = J(u_N + v) + (sigma(u_N + v) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
+  // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift;
   const bool is_admissible = !is_moved && data.lift == 0.; // u_N itself
@@ -104,7 +107,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
 // Each assumption of the theorem is checked on the way. If one fails there is no bound, and a
 // sentence that says why: a number that is nearly guaranteed is not guaranteed.
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
-                 const EquilibratedStress &stress, const SlipCorrection<2> &correction,
+                 const EquilibratedStress &stress, const ContactCorrection<2> &correction,
                  const DataError &data)
 {
   if (pressure.fails())
@@ -118,32 +121,23 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
   return {};
 }
 
-/** What the forces that friction leaves undone move u_N by, in unknowns, and its energy norm. */
-struct Shift
-{
-  Vector<double> x;
-  double norm = 0;
-};
-
-Shift shift_of(const Solution<2> &solution, const Discretisation<2> &discretisation,
-               const AdmissibleFriction<2> &friction)
+// @sect3{A friction bound that varies}
+//
+// Where $g$ varies between the points of the multiplier, friction within its bound may not do the
+// work of $z_N$, and no stress near $\sigma(u_N)$ is in balance with it. Forces that make up for the
+// difference move $u_N$; near the stress of what they make of it there is one.
+std::optional<Solution<2>> moved(const Solution<2> &solution,
+                                 const Discretisation<2> &discretisation,
+                                 const AdmissibleFriction<2> &friction)
 {
   if (friction.imbalance() <= tolerable)
-    return {Vector<double>(discretisation.unknowns.n()), 0.};
+    return std::nullopt;
   const Vector<double> forces = discretisation.unknowns.collect(friction.missing_forces(solution));
-  const Vector<double> x = discretisation.factor().solve(forces);
-  return {x, std::sqrt(std::max(0., x * forces))};
-}
-
-Solution<2> shifted(const Solution<2> &solution, const Discretisation<2> &discretisation,
-                    const Vector<double> &shift)
-{
-  Vector<double> u = discretisation.unknowns.expand(shift);
+  Vector<double> u = discretisation.unknowns.expand(discretisation.factor().solve(forces));
   discretisation.condensation.extend(u);
   u += solution.u;
   return Solution<2>(solution.scene, solution.spaces, u, solution.z);
 }
-
 } // namespace
 
 std::vector<double> ErrorBound::indicators() const
@@ -158,31 +152,32 @@ std::vector<double> ErrorBound::indicators() const
 //
 // Tractions along the contact that keep their bounds everywhere; a stress in equilibrium with them
 // and with the loads; a correction $w$ for what $u_N$ does where it should stick; and what data
-// leave. A friction bound that varies between the points of the multiplier moves $u_N$ first.
-ErrorBound ErrorBounds::compute(const Solution<2> &discrete,
+// leave. The energy of $u_N - w$ is known for a $w$ in $V_N$ alone.
+ErrorBound ErrorBounds::compute(const Solution<2> &solution,
                                 const Discretisation<2> &discretisation)
 {
-  const AdmissibleFriction<2> friction(discrete);
-  const Shift shift = shift_of(discrete, discretisation, friction);
-  const std::optional<Solution<2>> moved =
-      shift.norm == 0. ? std::nullopt : std::optional(shifted(discrete, discretisation, shift.x));
-  const Solution<2> &solution = moved ? *moved : discrete;
+  const AdmissibleFriction<2> friction(solution);
   const AdmissiblePressure<2> pressure(solution);
-  const EquilibratedStress stress(
-      solution,
+  const std::optional<Solution<2>> balanced = moved(solution, discretisation, friction);
+  EquilibratedStress stress(
+      balanced ? *balanced : solution,
       [&](const unsigned int face, const unsigned int end)
       { return friction.part(face, end).coefficients(); },
       [&](const unsigned int face, const unsigned int end)
       { return pressure.part(face, end).coefficients(); },
       cache);
-  const SlipCorrection<2> correction(solution, discretisation, friction, pressure);
+  if (balanced)
+    stress.measure_from(solution);
+  const ContactCorrection<2> correction(solution, discretisation, friction, pressure, &bubbles);
   const DataError data(solution, stress);
   ErrorBound result;
   set_squares(result, solution, stress, correction, data);
   set_norms(result, stress, correction, data);
-  set_energy(result, discrete, discretisation, shift.x, correction, data);
-  result.total += shift.norm;
-  result.oscillation += shift.norm;
+  if (solution.scene.has_unilateral_contact())
+    set_energy(result, solution, discretisation,
+               ContactCorrection<2>(solution, discretisation, friction, pressure, nullptr), data);
+  else
+    set_energy(result, solution, discretisation, correction, data);
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, pressure, stress, correction, data);
   return result;

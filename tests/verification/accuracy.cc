@@ -188,33 +188,6 @@ TEST(TrueError, EffectivityIsNearlyConstant)
 
 // ---------------------------------------------------------------- reference solutions
 
-/** A reference solution in a file of its own for the time of a test. */
-class ReferenceFile
-{
-public:
-  ReferenceFile(const Scene<2> &scene)
-      : path((std::filesystem::path(::testing::TempDir()) /
-              ("hpvi-" + std::to_string(std::random_device()()) + ".dat"))
-                 .string())
-  {
-    const ShapeTables<2> tables;
-    AdaptiveSolver<2>(scene).run(
-        [&](const StepReport<2> &step)
-        {
-          if (step.stopped_by.empty())
-            return;
-          std::ofstream file(path);
-          StoredSolution<2>(step.solution, step.energies.energy).write(file);
-        });
-  }
-  ~ReferenceFile()
-  {
-    std::filesystem::remove(path);
-  }
-
-  const std::string path;
-};
-
 TEST(StoredSolution, ASolutionHasNoDistanceFromItself)
 {
   const ReferenceFile file(shipped_scene("han-6-12", adaptivity("hpa2", 6)));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/scene/scene_reader.h>
 
 #include <algorithm>
@@ -175,6 +176,33 @@ inline bool mentions(const std::vector<std::string> &warnings, const std::string
                      [&](const std::string &warning)
                      { return warning.find(words) != std::string::npos; });
 }
+/** A reference solution in a file of its own for the time of a test. */
+class ReferenceFile
+{
+public:
+  explicit ReferenceFile(const Scene<2> &scene)
+      : path((std::filesystem::path(::testing::TempDir()) /
+              ("hpvi-" + std::to_string(std::random_device()()) + ".dat"))
+                 .string())
+  {
+    const ShapeTables<2> tables;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          if (step.stopped_by.empty())
+            return;
+          std::ofstream file(path);
+          StoredSolution<2>(step.solution, step.energies.energy).write(file);
+        });
+  }
+  ~ReferenceFile()
+  {
+    std::filesystem::remove(path);
+  }
+
+  const std::string path;
+};
+
 } // namespace verification
 
 #endif

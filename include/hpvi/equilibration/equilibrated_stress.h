@@ -29,6 +29,12 @@ public:
   EquilibratedStress(const Solution<2> &solution, const Parts &friction, const Parts &pressure,
                      EquilibrationCache &cache);
 
+  /**
+   * Measure from another displacement than that with which s is in balance, and take what is free of s inside
+   * cells nearest to that.
+   */
+  void measure_from(const Solution<2> &other);
+
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
   double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
 
@@ -91,7 +97,8 @@ private:
   double known_shear(unsigned int edge, unsigned int end) const;
   void set_cells();
   void set_data();
-  void set_stress(unsigned int cell);
+  void set_stress(unsigned int cell, const Solution<2> &of);
+  void set_own_column(unsigned int cell);
   Modes<2> load(unsigned int cell, const std::array<double, 4> &psi) const;
   void solve_patches();
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;

@@ -4,6 +4,7 @@
 
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/stresses/edge_bubbles.h>
 
 #include <string>
 #include <vector>
@@ -18,21 +19,22 @@ namespace hpvi
  *     |u - u_N|_a <= O + (eta^2 + 2 gap(u_N - w) + (|w|_a + |d|_a + O)^2)^{1/2},
  *     eta = |s - sigma(u_N)| in energy,   gap(v) = int g (|v_t| - lam* v_t) + int pi (u_0 - v_n),
  *
- * w from SlipCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. The energy
+ * w from ContactCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. The energy
  * of an admissible displacement, U = u_N + d, or u_N - w + d where contact is unilateral, is above the least
  * one by at most
  *
  *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + |w|_a + |d|_a + O)^2/2 + gap(u_N - w).
  *
- * Where the friction bound varies so much that no admissible friction is in balance with u_N, all this is of
- * u_N + x, x the displacement by what is missing, and |x|_a comes to the bound. doc/bound.md proves both.
+ * Where the friction bound varies so much that no admissible friction is in balance with u_N, s is near the stress of
+ * u_N + x, x the displacement by what is missing; eta tells its distance from sigma(u_N) all the same. doc/bound.md
+ * proves both.
  */
 struct ErrorBound
 {
   double total = 0;       ///< of |u - u_N|_a, (stress length^dim)^{1/2}
   double stress = 0;      ///< eta
   double slip = 0;        ///< (2 gap(u_N - w) + |w|_a^2)^{1/2}
-  double oscillation = 0; ///< O, and how far u_N is moved for a friction bound that varies
+  double oscillation = 0; ///< O
   double data = 0;        ///< |d|_a
   double energy = 0;      ///< of J(U) - J(u) [stress length^dim]
 
@@ -59,6 +61,7 @@ public:
 
 private:
   EquilibrationCache cache;
+  EdgeBubbles<2> bubbles;
 };
 } // namespace hpvi
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_slip_correction_h
-#define hpvi_slip_correction_h
+#ifndef hpvi_contact_correction_h
+#define hpvi_contact_correction_h
 
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/admissible_pressure.h>
+#include <hpvi/stresses/edge_bubbles.h>
 
 #include <vector>
 
@@ -16,28 +17,35 @@ namespace hpvi
  *     |u - u_N|_a^2 <= |s - sigma(u_N)|^2 + 2 gap(u_N - w) + |w|_a^2,
  *     gap(v) = int g (|v_t| - l* v_t) + int pi (u_0 - v_n),
  *
- * for a stress s in balance with the admissible friction g l* and pressure pi, and any w in V_N that vanishes where
+ * for a stress s in balance with the admissible friction g l* and pressure pi, and any w that vanishes where
  * displacements are prescribed, with w_n = 0 on bilateral contact and u_Nn - w_n <= u_0 on unilateral. gap(u_N)
  * alone would be of first order in u_Nt where the body sticks and u_Nt oscillates.
  *
- * Here w_t = u_Nt on faces that stick, w_n = u_Nn - u_0 on faces that press, and elsewhere w is one of these,
+ * Here w is in V_N, and in cells with a transition EdgeBubbles of four degrees more are added: where stick and slip, or
+ * contact and gap, share an edge, no polynomial of V_N has one sign and is near zero on a part of it. w_t = u_Nt on faces
+ * that stick, w_n = u_Nn - u_0 on faces that press, and elsewhere w is one of these,
  * whichever gives least: it has the
  * least energy; or it makes `2 gap + |w|_a^2` least while u_Nt - w_t keeps the direction of slip on faces
- * with both stick and slip and on slipping ones nearby, and u_Nn - w_n stays below u_0. Or w = 0. What of
+ * with both stick and slip, on slipping ones nearby and on sticking ones beside those, and u_Nn - w_n stays below u_0. Or
+ * w = 0. What of
  * u_Nn - w_n still exceeds u_0, read at the nodes of the faces (what it does between them is for DataError),
  * goes by a piecewise linear w_n. It lives in the cells at the contact boundary.
  */
 template <int dim>
-class SlipCorrection
+class ContactCorrection
 {
 public:
-  SlipCorrection(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-                 const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure);
+  /** @p bubbles: their matrices; nullptr leaves w in V_N. */
+  ContactCorrection(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                    const AdmissibleFriction<dim> &friction,
+                    const AdmissiblePressure<dim> &pressure, EdgeBubbles<dim> *bubbles);
 
   const std::vector<double> &gap() const; ///< of u_N - w, by contact face [stress length^dim]
   const std::vector<double> &uncorrected_gap() const; ///< of u_N
   const std::vector<double> &energy() const;          ///< |w|_a^2 by cell [stress length^dim]
-  const dealii::Vector<double> &unknowns() const;     ///< w, as Unknowns counts them
+
+  /** w, as Unknowns counts them; behind those the coefficients of edge bubbles. */
+  const dealii::Vector<double> &unknowns() const;
 
   bool fails() const; ///< Do supports keep u_N - w from being admissible?
 

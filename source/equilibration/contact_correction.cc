@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/restricted_energy.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/equilibration/slip_correction.h>
+#include <hpvi/equilibration/contact_correction.h>
 #include <hpvi/solver/inequality_program.h>
 #include <hpvi/stresses/legendre.h>
 
@@ -35,6 +36,11 @@ struct Slip
     nowhere
   } mode = everywhere;
   double direction = 0.; ///< 1 or -1; 0: none, or both
+
+  bool is_directed_everywhere() const
+  {
+    return mode == everywhere && direction != 0.;
+  }
 };
 
 /** A face without friction slips, in no direction. */
@@ -59,6 +65,29 @@ Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
   return result;
 }
 
+template <int dim>
+std::vector<Slip> slips_of(const std::vector<ContactFace<dim>> &faces,
+                           const Solution<dim> &solution)
+{
+  std::vector<Slip> result;
+  for (const ContactFace<dim> &face : faces)
+    result.push_back(slip_of(face, solution));
+  return result;
+}
+
+/**
+ * The end of slip may be on the first face that sticks as well as on the last that slips, with one Gauss point
+ * on each always. That the former slips in part, with the direction of the latter, excludes neither.
+ */
+void free_neighbours(std::vector<Slip> &slips)
+{
+  const std::vector<Slip> discrete(slips);
+  for (unsigned int k = 0; k + 1 < slips.size(); ++k)
+    for (const auto &[one, other] : {std::pair(k, k + 1), std::pair(k + 1, k)})
+      if (discrete[one].mode == Slip::nowhere && discrete[other].is_directed_everywhere())
+        slips[one] = {Slip::partly, discrete[other].direction};
+}
+
 /** One component of the displacement on a contact face by the unknowns of the linear system. */
 struct Trace
 {
@@ -74,6 +103,18 @@ struct Trace
       for (unsigned int i = 0; i < result.size(); ++i)
         result[i] -= legendre(i, k) * w[unknowns[k]];
     return EdgePolynomial(result);
+  }
+
+  /** By more unknowns, from @p first on, with their coefficients. */
+  void extend(const FullMatrix<double> &more, const unsigned int first)
+  {
+    FullMatrix<double> all(more.m(), unknowns.size() + more.n());
+    all.fill(legendre, 0, 0, 0, 0);
+    all.fill(more, 0, unknowns.size(), 0, 0);
+    legendre = all;
+    for (unsigned int i = 0; i < more.n(); ++i)
+      unknowns.push_back(first + i);
+    u.resize(more.m());
   }
 };
 
@@ -140,6 +181,18 @@ struct Opening
   }
 };
 
+/** The end of contact likewise may be on the first face that presses. */
+void free_neighbours(std::vector<std::optional<Opening>> &openings)
+{
+  std::vector<bool> is_open;
+  for (const auto &opening : openings)
+    is_open.push_back(opening && opening->mode == Opening::open);
+  for (unsigned int k = 0; k < openings.size(); ++k)
+    if (openings[k] && openings[k]->mode == Opening::closed &&
+        ((k > 0 && is_open[k - 1]) || (k + 1 < is_open.size() && is_open[k + 1])))
+      openings[k]->mode = Opening::partly;
+}
+
 double largest_value(const EdgePolynomial &polynomial)
 {
   double result = polynomial(0.);
@@ -179,7 +232,8 @@ double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
   std::vector<double> cuts = v.zeros();
   cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
   std::sort(cuts.begin(), cuts.end());
-  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 4);
+  // l* has degree p + 5, v up to p + 4; the rest is for g.
+  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 8);
   double result = 0;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -195,6 +249,21 @@ double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
   return result;
 }
 
+/** How many degrees edge bubbles have beyond the cell's; twice as many bring the bound down by a few hundredths. */
+constexpr unsigned int n_bubbles = 4;
+
+/** Coefficients of P_{p+1+i} - P_{p-1+i}, which vanish at both ends: (p + 1 + n_bubbles) x n_bubbles. */
+FullMatrix<double> bubble_coefficients(const unsigned int p)
+{
+  FullMatrix<double> result(p + 1 + n_bubbles, n_bubbles);
+  for (unsigned int i = 0; i < n_bubbles; ++i)
+  {
+    result(p + 1 + i, i) = 1. / legendre::root(p + 1 + i);
+    result(p - 1 + i, i) = -1. / legendre::root(p - 1 + i);
+  }
+  return result;
+}
+
 enum class Role
 {
   outside, ///< w is zero there
@@ -202,165 +271,8 @@ enum class Role
   free
 };
 
-/** The energy `x'Ax` over free unknowns, with others @p fixed or zero; some free ones are kept for programs. */
-class Strip
-{
-public:
-  Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
-        std::vector<unsigned int> kept);
-
-  /** Where an unknown stands among those kept, or none. */
-  unsigned int place(unsigned int unknown) const;
-
-  unsigned int n_kept() const;
-  FullMatrix<double>
-  H() const; ///< least energy for values z of those kept: `z'Hz - 2 h'z + constant`
-  Vector<double> h() const;
-
-  Vector<double> minimiser() const; ///< x
-  Vector<double>
-  minimiser(const Vector<double> &kept_values) const; ///< with these values of those kept
-
-private:
-  SymmetricMatrix restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
-                           Vector<double> &f) const;
-  Vector<double> all(const Vector<double> &y) const;
-
-  std::vector<unsigned int> free, kept; ///< unknowns; those kept in the order of C
-  Vector<double> fixed, y;              ///< L^-1 of what the fixed ones do to the free ones
-  std::unique_ptr<const LinearSolver> solver;
-};
-
-Strip::Strip(const SymmetricMatrix &A, const std::vector<Role> &roles, const Vector<double> &fixed,
-             std::vector<unsigned int> all_kept)
-    : fixed(fixed)
-{
-  std::vector<unsigned int> number(A.n(), none);
-  for (unsigned int i = 0; i < A.n(); ++i)
-    if (roles[i] == Role::free)
-    {
-      number[i] = free.size();
-      free.push_back(i);
-    }
-  Vector<double> f(free.size());
-  const SymmetricMatrix A_ff = restrict(A, number, f);
-  std::sort(all_kept.begin(), all_kept.end());
-  std::vector<unsigned int> numbers;
-  for (const unsigned int unknown : all_kept)
-    numbers.push_back(number[unknown]);
-  solver = std::make_unique<const LinearSolver>(A_ff, numbers);
-  for (const unsigned int k : solver->kept_order())
-    kept.push_back(all_kept[k]);
-  y = solver->forward(f);
-}
-
-/** The block of the free unknowns, and what the fixed ones do to them. */
-SymmetricMatrix Strip::restrict(const SymmetricMatrix &A, const std::vector<unsigned int> &number,
-                                Vector<double> &f) const
-{
-  SymmetricMatrix A_ff;
-  for (unsigned int column = 0; column < A.n(); ++column)
-  {
-    const unsigned int own = number[column];
-    if (own == none && fixed[column] == 0.)
-      continue;
-    for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
-    {
-      const unsigned int row = A.row[k], other = number[row];
-      if (own != none && other != none)
-      {
-        A_ff.row.push_back(other);
-        // Where contact alone holds the body, A is singular; w need not be the minimiser to be of use.
-        A_ff.value.push_back(A.value[k] * (row == column ? 1. + 1e-10 : 1.));
-      }
-      else if (own != none)
-        f[own] -= A.value[k] * fixed[row];
-      else if (other != none)
-        f[other] -= A.value[k] * fixed[column];
-    }
-    if (own != none)
-      A_ff.column_start.push_back(A_ff.row.size());
-  }
-  return A_ff;
-}
-
-unsigned int Strip::place(const unsigned int unknown) const
-{
-  const auto found = std::find(kept.begin(), kept.end(), unknown);
-  return found == kept.end() ? none : found - kept.begin();
-}
-
-unsigned int Strip::n_kept() const
-{
-  return kept.size();
-}
-
-FullMatrix<double> Strip::H() const
-{
-  const LAPACKFullMatrix<double> &C = solver->kept_factor();
-  FullMatrix<double> result(kept.size(), kept.size());
-  for (unsigned int i = 0; i < kept.size(); ++i)
-    for (unsigned int j = 0; j <= i; ++j)
-    {
-      for (unsigned int k = 0; k <= j; ++k)
-        result(i, j) += C(i, k) * C(j, k);
-      result(j, i) = result(i, j);
-    }
-  return result;
-}
-
-Vector<double> Strip::h() const
-{
-  const LAPACKFullMatrix<double> &C = solver->kept_factor();
-  Vector<double> result(kept.size());
-  for (unsigned int i = 0; i < kept.size(); ++i)
-    for (unsigned int k = 0; k <= i; ++k)
-      result[i] += C(i, k) * y[y.size() - kept.size() + k];
-  return result;
-}
-
-Vector<double> Strip::minimiser() const
-{
-  return all(y);
-}
-
-Vector<double> Strip::minimiser(const Vector<double> &kept_values) const
-{
-  const LAPACKFullMatrix<double> &C = solver->kept_factor();
-  Vector<double> changed(y);
-  for (unsigned int k = 0; k < kept.size(); ++k)
-  {
-    double &entry = changed[y.size() - kept.size() + k];
-    entry = 0.;
-    for (unsigned int i = k; i < kept.size(); ++i)
-      entry += C(i, k) * kept_values[i];
-  }
-  return all(changed);
-}
-
-Vector<double> Strip::all(const Vector<double> &forwarded) const
-{
-  const Vector<double> values = solver->backward(forwarded);
-  Vector<double> x(fixed);
-  for (unsigned int i = 0; i < free.size(); ++i)
-    x[free[i]] = values[i];
-  return x;
-}
-
-/** x'Ax, from the columns where x is not zero. */
-double energy_product(const SymmetricMatrix &A, const Vector<double> &x)
-{
-  double result = 0;
-  for (unsigned int column = 0; column < A.n(); ++column)
-    if (x[column] != 0.)
-      for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
-        result += (static_cast<unsigned int>(A.row[k]) == column ? 1. : 2.) * A.value[k] *
-                  x[A.row[k]] * x[column];
-  return result;
-}
-
 /** A trace of w at a point of its face by the unknowns of a strip that are kept. */
-Vector<double> trace_row(const Strip &strip, const Trace &trace, const double s)
+Vector<double> trace_row(const RestrictedEnergy &strip, const Trace &trace, const double s)
 {
   const Vector<double> L = legendre_basis(trace.legendre.m(), s);
   Vector<double> values(trace.unknowns.size()), row(strip.n_kept());
@@ -379,7 +291,7 @@ struct Condition
   double sign;
 
   /** At one point; false: w is fixed there. */
-  bool add_to(InequalityProgram &program, const Strip &strip, const double s) const
+  bool add_to(InequalityProgram &program, const RestrictedEnergy &strip, const double s) const
   {
     Vector<double> row = trace_row(strip, *trace, s);
     row *= sign;
@@ -404,12 +316,18 @@ class Search
 {
 public:
   Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-         const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure);
+         const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure,
+         EdgeBubbles<dim> *bubbles);
+
+  /** No correction. */
+  Candidate nothing() const;
 
   /** Of w, with as much more as it takes for u_N - w not to penetrate. */
   Candidate of(const Vector<double> &w) const;
   /** The best one, from one that is known. */
   Candidate best(Candidate result) const;
+
+  std::vector<double> energies(const Vector<double> &w) const; ///< |w|_a^2 by cell
 
 private:
   std::vector<Role> roles() const;
@@ -418,17 +336,22 @@ private:
   bool is_near_pressure(unsigned int face) const;
   double penetration(const Vector<double> &w, std::map<unsigned int, double> &heights) const;
   bool lift(Vector<double> &w) const;
-  void add_friction(const Strip &strip, const std::vector<bool> &nearby,
+  void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                     const Vector<double> &fixed, Vector<double> &h,
                     std::vector<Condition> &conditions) const;
-  void add_pressure(const Strip &strip, const Vector<double> &fixed, Vector<double> &h,
+  void add_pressure(const RestrictedEnergy &strip, const Vector<double> &fixed, Vector<double> &h,
                     std::vector<Condition> &conditions) const;
   std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
   std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
                                           const std::vector<Role> &roles) const;
-  void try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+  void try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                          const Vector<double> &fixed, Candidate &best) const;
   void take_better(Candidate &best, const Vector<double> &w) const;
+
+  using Directions = std::vector<std::pair<Tensor<1, dim>, Trace *>>;
+  void add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+                   EdgeBubbles<dim> &bubbles);
+  void add_columns(unsigned int cell, const typename EdgeBubbles<dim>::Energies &energies);
 
   const Solution<dim> &solution;
   const Discretisation<dim> &discretisation;
@@ -437,27 +360,97 @@ private:
   std::vector<Slip> slips;
   std::vector<Trace> traces; ///< of u_t
   std::vector<std::optional<Opening>> openings;
-  double tolerance = 0; ///< of penetrations: round-off
+  BorderedMatrix A;                         ///< bordered by edge bubbles
+  std::vector<unsigned int> cell_of_bubble; ///< by column of the border
+  double tolerance = 0;                     ///< of penetrations: round-off
 };
 
 template <int dim>
 Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
                     const AdmissibleFriction<dim> &friction,
-                    const AdmissiblePressure<dim> &pressure)
+                    const AdmissiblePressure<dim> &pressure, EdgeBubbles<dim> *const bubbles)
     : solution(solution), discretisation(discretisation), friction(friction),
-      faces(solution.contact_space.faces()), openings(faces.size())
+      faces(solution.contact_space.faces()), slips(slips_of(faces, solution)),
+      openings(faces.size()), A{discretisation.system.A, {}}
 {
   const LegendreTables tables;
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
-    slips.push_back(slip_of(faces[k], solution));
     traces.push_back(trace_of(faces[k], faces[k].frame(0.5).tangent, solution,
                               discretisation.unknowns, tables.from_nodes(faces[k].degree)));
-    if (faces[k].condition->is_unilateral())
+    if (!faces[k].condition->is_unilateral())
+      continue;
+    openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
+    tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
+  }
+  if (!bubbles)
+    return;
+  free_neighbours(slips);
+  free_neighbours(openings);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    const ContactFrame<dim> frame = faces[k].frame(0.5);
+    Directions directions;
+    if (slips[k].mode == Slip::partly)
+      directions.emplace_back(frame.tangent, &traces[k]);
+    if (openings[k] && openings[k]->mode == Opening::partly)
+      directions.emplace_back(frame.normal, &openings[k]->penetration);
+    if (!directions.empty())
+      add_bubbles(faces[k], directions, *bubbles);
+  }
+}
+
+/**
+ * Bubbles along the directions of some traces on a face, as unknowns of these. A cell at the boundary with two faces
+ * has them on one.
+ */
+template <int dim>
+void Search<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+                              EdgeBubbles<dim> &bubbles)
+{
+  const unsigned int cell = face.cell->active_cell_index(), first = A.n();
+  if (std::find(cell_of_bubble.begin(), cell_of_bubble.end(), cell) != cell_of_bubble.end())
+    return;
+  const FullMatrix<double> coefficients = bubble_coefficients(face.degree);
+  const unsigned int n_nodes = coefficients.m();
+  FullMatrix<double> at_nodes(dim * n_nodes, directions.size() * n_bubbles);
+  for (unsigned int node = 0; node < n_nodes; ++node)
+  {
+    const Vector<double> L =
+        legendre_basis(n_nodes, solution.tables.gauss_lobatto(n_nodes).point(node)[0]);
+    Vector<double> values(n_bubbles);
+    coefficients.Tvmult(values, L);
+    for (unsigned int d = 0; d < directions.size(); ++d)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < n_bubbles; ++i)
+          at_nodes(c * n_nodes + node, d * n_bubbles + i) = directions[d].first[c] * values[i];
+  }
+  add_columns(cell, bubbles.energies(face, at_nodes, solution.scene, solution.tables));
+  for (unsigned int d = 0; d < directions.size(); ++d)
+    directions[d].second->extend(coefficients, first + d * n_bubbles);
+}
+
+template <int dim>
+void Search<dim>::add_columns(const unsigned int cell,
+                              const typename EdgeBubbles<dim>::Energies &energies)
+{
+  const auto dofs = solution.displacement_space.cell_dofs(cell);
+  const unsigned int first = A.n();
+  for (unsigned int i = 0; i < energies.own.n(); ++i)
+  {
+    std::map<unsigned int, double> column;
+    for (unsigned int j = 0; j < energies.with_shapes.m(); ++j)
+      for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[j]))
+        column[unknown] += weight * energies.with_shapes(j, i);
+    for (unsigned int j = 0; j <= i; ++j)
+      column[first + j] = energies.own(j, i);
+    for (const auto &[row, value] : column)
     {
-      openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
-      tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
+      A.border.row.push_back(row);
+      A.border.value.push_back(value);
     }
+    A.border.column_start.push_back(A.border.row.size());
+    cell_of_bubble.push_back(cell);
   }
 }
 
@@ -510,8 +503,16 @@ bool Search<dim>::lift(Vector<double> &w) const
             u[dof] = faces[k].frame(0.5).normal[c] * (1. + 1e-10) * (first + s * (last - first));
         }
     }
-  w += discretisation.unknowns.coordinates(u);
+  const Vector<double> lifted = discretisation.unknowns.coordinates(u);
+  for (unsigned int i = 0; i < lifted.size(); ++i)
+    w[i] += lifted[i];
   return penetration(w, heights) <= std::max(tolerance, 1e-13 * solution.u.linfty_norm());
+}
+
+template <int dim>
+Candidate Search<dim>::nothing() const
+{
+  return of(Vector<double>(A.n()));
 }
 
 template <int dim>
@@ -519,8 +520,7 @@ Candidate Search<dim>::of(const Vector<double> &w) const
 {
   Candidate result{w, {}, 0.};
   const bool is_admissible = lift(result.w);
-  result.total = is_admissible ? energy_product(discretisation.system.A, result.w)
-                               : std::numeric_limits<double>::infinity();
+  result.total = is_admissible ? A.energy(result.w) : std::numeric_limits<double>::infinity();
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     const EdgePolynomial rest = traces[k].rest(result.w);
@@ -554,7 +554,7 @@ template <int dim>
 std::vector<Role> Search<dim>::roles() const
 {
   const Unknowns<dim> &unknowns = discretisation.unknowns;
-  std::vector<Role> result(unknowns.n(), Role::free);
+  std::vector<Role> result(A.n(), Role::free);
   std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (!faces[k].friction.vanishes() || is_near_pressure(k))
@@ -637,7 +637,9 @@ Vector<double> Search<dim>::fixed_displacement() const
     if (openings[k] && openings[k]->mode == Opening::closed)
       complete(frame.normal, EdgePolynomial(openings[k]->penetration.u));
   }
-  return discretisation.unknowns.coordinates(u);
+  Vector<double> result = discretisation.unknowns.coordinates(u);
+  result.grow_or_shrink(A.n());
+  return result;
 }
 
 /**
@@ -689,7 +691,7 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
 
 /** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
 template <int dim>
-void Search<dim>::add_friction(const Strip &strip, const std::vector<bool> &nearby,
+void Search<dim>::add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                                const Vector<double> &fixed, Vector<double> &h,
                                std::vector<Condition> &conditions) const
 {
@@ -707,8 +709,8 @@ void Search<dim>::add_friction(const Strip &strip, const std::vector<bool> &near
 
 /** Where the body presses or nearly does, u_Nn - w_n <= u_0; the gap is linear in w. */
 template <int dim>
-void Search<dim>::add_pressure(const Strip &strip, const Vector<double> &fixed, Vector<double> &h,
-                               std::vector<Condition> &conditions) const
+void Search<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<double> &fixed,
+                               Vector<double> &h, std::vector<Condition> &conditions) const
 {
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (is_near_pressure(k))
@@ -726,7 +728,7 @@ void Search<dim>::add_pressure(const Strip &strip, const Vector<double> &fixed, 
 }
 
 template <int dim>
-void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> &nearby,
+void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                                     const Vector<double> &fixed, Candidate &best) const
 {
   Vector<double> h = strip.h();
@@ -740,20 +742,20 @@ void Search<dim>::try_one_direction(const Strip &strip, const std::vector<bool> 
   if (!program.solve())
     return;
   take_better(best, strip.minimiser(program.minimiser()));
-  // What still penetrates between the points is worth more points.
+  // What has another sign between the points is worth more points.
   bool stands_out = true;
   for (unsigned int round = 0; stands_out && round < 10; ++round)
   {
     const Vector<double> w = strip.minimiser(program.minimiser());
     stands_out = false;
     for (const Condition &condition : conditions)
-      if (condition.sign > 0.)
-      {
-        const EdgePolynomial rest = condition.trace->rest(w);
-        for (const double s : rest.extremes())
-          if (rest(s) > tolerance)
-            stands_out = condition.add_to(program, strip, s) || stands_out;
-      }
+    {
+      const EdgePolynomial rest = condition.trace->rest(w);
+      const double round_off = condition.sign > 0. ? tolerance : 1e-14 * rest.largest();
+      for (const double s : rest.extremes())
+        if (condition.sign * rest(s) > round_off)
+          stands_out = condition.add_to(program, strip, s) || stands_out;
+    }
     if (stands_out && program.solve())
       take_better(best, strip.minimiser(program.minimiser()));
     else
@@ -768,11 +770,15 @@ Candidate Search<dim>::best(Candidate result) const
     return result;
   const std::vector<Role> all_roles = roles();
   Vector<double> fixed = fixed_displacement();
+  std::vector<bool> is_free;
   for (unsigned int i = 0; i < fixed.size(); ++i)
+  {
     if (all_roles[i] != Role::fixed)
       fixed[i] = 0.;
+    is_free.push_back(all_roles[i] == Role::free);
+  }
   const std::vector<bool> nearby = nearby_faces(result.gaps);
-  const Strip strip(discretisation.system.A, all_roles, fixed, kept_unknowns(nearby, all_roles));
+  const RestrictedEnergy strip(A, is_free, fixed, kept_unknowns(nearby, all_roles));
   take_better(result, strip.minimiser());
   if (strip.n_kept() > 0)
     try
@@ -785,23 +791,12 @@ Candidate Search<dim>::best(Candidate result) const
     }
   return result;
 }
-} // namespace
 
 template <int dim>
-SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
-                                    const Discretisation<dim> &discretisation,
-                                    const AdmissibleFriction<dim> &friction,
-                                    const AdmissiblePressure<dim> &pressure)
-    : cell_energies(solution.displacement_space.degrees().size())
+std::vector<double> Search<dim>::energies(const Vector<double> &w) const
 {
-  const Search<dim> search(solution, discretisation, friction, pressure);
-  Candidate best = search.of(Vector<double>(discretisation.unknowns.n()));
-  uncorrected = best.gaps;
-  best = search.best(std::move(best));
-  has_failed = !std::isfinite(best.total);
-  face_gaps = std::move(best.gaps);
-  w = std::move(best.w);
-  for (unsigned int cell = 0; cell < cell_energies.size(); ++cell)
+  std::vector<double> result(solution.displacement_space.degrees().size());
+  for (unsigned int cell = 0; cell < result.size(); ++cell)
     if (const auto &element = discretisation.condensation.element(cell))
     {
       const auto dofs = solution.displacement_space.cell_dofs(cell);
@@ -810,42 +805,63 @@ SlipCorrection<dim>::SlipCorrection(const Solution<dim> &solution,
         for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
           values[i] += weight * w[unknown];
       if (!values.all_zero())
-        cell_energies[cell] = element->condensed.matrix_norm_square(values);
+        result[cell] = element->condensed.matrix_norm_square(values);
     }
+  for (unsigned int i = 0; i < cell_of_bubble.size(); ++i)
+    result[cell_of_bubble[i]] += A.energy(A.A.n() + i, w);
+  return result;
+}
+} // namespace
+
+template <int dim>
+ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
+                                          const Discretisation<dim> &discretisation,
+                                          const AdmissibleFriction<dim> &friction,
+                                          const AdmissiblePressure<dim> &pressure,
+                                          EdgeBubbles<dim> *const bubbles)
+{
+  const Search<dim> search(solution, discretisation, friction, pressure, bubbles);
+  Candidate best = search.nothing();
+  uncorrected = best.gaps;
+  best = search.best(std::move(best));
+  has_failed = !std::isfinite(best.total);
+  face_gaps = std::move(best.gaps);
+  w = std::move(best.w);
+  cell_energies = search.energies(w);
 }
 
 template <int dim>
-const std::vector<double> &SlipCorrection<dim>::gap() const
+const std::vector<double> &ContactCorrection<dim>::gap() const
 {
   return face_gaps;
 }
 
 template <int dim>
-const std::vector<double> &SlipCorrection<dim>::uncorrected_gap() const
+const std::vector<double> &ContactCorrection<dim>::uncorrected_gap() const
 {
   return uncorrected;
 }
 
 template <int dim>
-const std::vector<double> &SlipCorrection<dim>::energy() const
+const std::vector<double> &ContactCorrection<dim>::energy() const
 {
   return cell_energies;
 }
 
 template <int dim>
-bool SlipCorrection<dim>::fails() const
+bool ContactCorrection<dim>::fails() const
 {
   return has_failed;
 }
 
 template <int dim>
-const Vector<double> &SlipCorrection<dim>::unknowns() const
+const Vector<double> &ContactCorrection<dim>::unknowns() const
 {
   return w;
 }
 
 template <int dim>
-double SlipCorrection<dim>::total() const
+double ContactCorrection<dim>::total() const
 {
   return 2. * sum(face_gaps) + sum(cell_energies);
 }
@@ -855,7 +871,7 @@ double energy_change(const Solution<dim> &solution, const Discretisation<dim> &d
                      const Vector<double> &v)
 {
   const Vector<double> all = discretisation.unknowns.expand(v);
-  double result = energy_product(discretisation.system.A, v) / 2. -
+  double result = BorderedMatrix{discretisation.system.A, {}}.energy(v) / 2. -
                   solution.z * solution.spaces->contact_operator.moments(all);
   Vector<double> moved(solution.u);
   moved += all;
@@ -873,7 +889,7 @@ double energy_change(const Solution<dim> &solution, const Discretisation<dim> &d
   return result;
 }
 
-template class SlipCorrection<2>;
+template class ContactCorrection<2>;
 template double energy_change(const Solution<2> &, const Discretisation<2> &,
                               const Vector<double> &);
 } // namespace hpvi

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_edge_bubbles_h
+#define hpvi_edge_bubbles_h
+
+#include <hpvi/contact/contact_space.h>
+#include <hpvi/discretisation/condensation.h>
+
+#include <map>
+#include <memory>
+
+namespace hpvi
+{
+/**
+ * Displacements beyond those of the space: in one cell at a contact face, of degree q > p, with given traces on that
+ * face, zero on the other edges of the cell, and with the least energy. Cells of one class share their matrices.
+ */
+template <int dim>
+class EdgeBubbles
+{
+public:
+  struct Energies
+  {
+    dealii::FullMatrix<double> own; ///< a(b_i, b_j)
+    /** a(phi_i, b_j) with the shape functions of degree p on the boundary of the cell; those inside have none. */
+    dealii::FullMatrix<double> with_shapes;
+  };
+
+  /**
+   * Column j of @p traces holds b_j at the q + 1 Gauss-Lobatto nodes along the face, component by component; it vanishes
+   * at the ends.
+   */
+  Energies energies(const ContactFace<dim> &face, const dealii::FullMatrix<double> &traces,
+                    const Scene<dim> &scene, const ShapeTables<dim> &tables);
+
+private:
+  std::map<typename ElementMatrices<dim>::Class, std::shared_ptr<const CondensedElement>> elements;
+};
+} // namespace hpvi
+
+#endif

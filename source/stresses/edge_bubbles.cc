@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/stresses/edge_bubbles.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Unknowns of degree q on the boundary of a cell from those of degree p. */
+template <int dim>
+FullMatrix<double> embedding(const unsigned int p, const unsigned int q,
+                             const ShapeTables<dim> &tables)
+{
+  static_assert(dim == 2, "edges are faces");
+  const LocalNumbering &low = tables.numbering(p), &high = tables.numbering(q);
+  const EdgeInterpolation &along = tables.edge_interpolation(p, p, q, whole_edge);
+  FullMatrix<double> result(high.n_boundary, low.n_boundary);
+  for (unsigned int face = 0; face < high.edge.size(); ++face)
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int j = 0; j <= q; ++j)
+        for (unsigned int i = 0; i <= p; ++i) // a vertex has its 1 from both of its edges
+          result(high.edge[face][c * (q + 1) + j], low.edge[face][c * (p + 1) + along.nodes[i]]) =
+              along.weights(j, i);
+  return result;
+}
+} // namespace
+
+template <int dim>
+typename EdgeBubbles<dim>::Energies
+EdgeBubbles<dim>::energies(const ContactFace<dim> &face, const FullMatrix<double> &traces,
+                           const Scene<dim> &scene, const ShapeTables<dim> &tables)
+{
+  const unsigned int q = traces.m() / dim - 1, n = traces.n();
+  const auto material = face.cell->material_id();
+  auto &element =
+      elements[ElementMatrices<dim>(scene, tables).congruence_class(face.map, q, material)];
+  if (!element)
+    element = CondensedElements<dim>(scene, tables).get(face.map, q, material);
+  const FullMatrix<double> &K = element->condensed;
+  const std::vector<unsigned int> &on_edge = tables.numbering(q).edge[face.face_no];
+  FullMatrix<double> b(K.m(), n), forces(K.m(), n);
+  for (unsigned int i = 0; i < on_edge.size(); ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      b(on_edge[i], j) = traces(i, j);
+  K.mmult(forces, b);
+  Energies result;
+  result.own.reinit(n, n);
+  b.Tmmult(result.own, forces);
+  // What is inside a cell, of a shape function too, does no work on a displacement of least energy.
+  const FullMatrix<double> shapes = embedding(face.degree, q, tables);
+  result.with_shapes.reinit(shapes.n(), n);
+  shapes.Tmmult(result.with_shapes, forces);
+  return result;
+}
+
+template class EdgeBubbles<2>;
+} // namespace hpvi
