@@ -27,10 +27,16 @@ struct Side
   Vector<double> h;
   EdgePolynomial l;
   double missing = 0; ///< this face's share of the work that g l_a leaves undone
+  double slip = 0;    ///< 1 or -1 where all Gauss points of z_N slip that way
 
-  /** 1 or -1 where no other l does the work of z_N; else 0. */
+  /**
+   * 1 or -1 where no other l does the work of z_N, or the face slips everywhere; else 0. There l below 1 would cost
+   * int g (1 - l) |u_t|, of first order in what z_N misses of g; making up for that is of second.
+   */
   double forced() const
   {
+    if (slip != 0.)
+      return slip;
     return std::abs(work) < (1. - 10. * round_off) * limit ? 0. : work < 0. ? -1. : 1.;
   }
 };
@@ -38,6 +44,22 @@ struct Side
 double hat(const unsigned int end, const double s)
 {
   return end == 0 ? 1. - s : s;
+}
+
+/** 1 or -1 where all Gauss points of a face slip that way; else 0. */
+template <int dim>
+double common_slip(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  double result = 0;
+  for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
+  {
+    const double bound = solution.contact_space.multipliers()[i].bound, z = solution.z[i];
+    const double slip = std::abs(z) < (1. - 1e-10) * bound ? 0. : z < 0. ? -1. : 1.;
+    if (slip == 0. || slip * result < 0.)
+      return 0.;
+    result = slip;
+  }
+  return result;
 }
 
 /** What a face adds to the patches of both its ends. */
@@ -59,6 +81,7 @@ public:
     if (leans)
       u_t = edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
                        solution.u);
+    slip = common_slip(face, solution);
   }
 
   Side side(unsigned int end) const;
@@ -73,13 +96,14 @@ private:
   const QGauss<1> &gauss;
   const EdgePolynomial z;
   EdgePolynomial u_t;
+  double slip = 0; ///< of a Side
 };
 
 template <int dim>
 Side FaceIntegrals<dim>::side(const unsigned int end) const
 {
-  Side result{number, end, 0., 0., Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
-              {},     0.};
+  Side result{number, end, 0.,  0., Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
+              {},     0.,  slip};
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0];

@@ -168,7 +168,11 @@ unsigned int traction_degree(const ContactFace<dim> &face, const Vector<double> 
   const auto presses = [&](const unsigned int i) { return z[i] > 0.; };
   const auto n_pressing = std::count_if(face.pressures.begin(), face.pressures.end(), presses);
   const bool ends = n_pressing > 0 && n_pressing < std::ptrdiff_t(face.pressures.size());
-  return face.degree + (ends || has_transition(face, z, space) ? more : 0);
+  const std::vector<double> &g = face.friction.values;
+  const bool varies = std::any_of(g.begin(), g.end(),
+                                  [&](const double value)
+                                  { return std::abs(value - g[0]) > 1e-10 * std::abs(g[0]); });
+  return face.degree + (ends || varies || has_transition(face, z, space) ? more : 0);
 }
 
 template <int dim>
