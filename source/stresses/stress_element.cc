@@ -290,25 +290,13 @@ void StressElement::add_corner_stress(const unsigned int corner)
   corner_energy = enlarged;
 }
 
-/** Orthonormal to those before it. */
-void StressElement::add_condition(std::vector<double> condition)
+/** Of length 1, but not orthogonal to the others: a corner sees its two edges alone, and patches count on that. */
+void StressElement::add_condition(const std::vector<double> &condition)
 {
-  for (const unsigned int pass : {0, 1})
-  {
-    (void)pass; // once more, for what round-off leaves
-    for (std::size_t first = 0; first < N.size(); first += n_data)
-    {
-      const double along =
-          std::inner_product(condition.begin(), condition.end(), N.begin() + first, 0.);
-      for (unsigned int i = 0; i < n_data; ++i)
-        condition[i] -= along * N[first + i];
-    }
-    const double norm =
-        std::sqrt(std::inner_product(condition.begin(), condition.end(), condition.begin(), 0.));
-    for (double &entry : condition)
-      entry /= norm;
-  }
-  N.insert(N.end(), condition.begin(), condition.end());
+  const double norm =
+      std::sqrt(std::inner_product(condition.begin(), condition.end(), condition.begin(), 0.));
+  for (const double entry : condition)
+    N.push_back(entry / norm);
 }
 
 /** Equilibrium: `int Div S . B'z` is the work of the tractions on a rigid motion z, in coordinates B (xi, eta)'. */
