@@ -99,17 +99,19 @@ const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) 
   return result;
 }
 
-FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
-                                      const unsigned int component, const unsigned int degree,
-                                      const FullMatrix<double> &from_nodes)
+FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> &coefficients,
+                                                      const unsigned int component,
+                                                      const unsigned int degree) const
 {
   const unsigned int n = degree + 1;
-  const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
-  FullMatrix<double> nodal(n, n), half(n, n), result(n, n);
+  std::vector<unsigned int> &lexicographic = numberings[degree];
+  if (lexicographic.empty())
+    lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
+  FullMatrix<double> values(n, n), half(n, n), result(n, n);
   for (unsigned int i = 0; i < n * n; ++i)
-    nodal(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
-  from_nodes.mmult(half, nodal);
-  half.mTmult(result, from_nodes);
+    values(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
+  from_nodes(degree).mmult(half, values);
+  half.mTmult(result, from_nodes(degree));
   return result;
 }
 } // namespace hpvi
