@@ -49,7 +49,7 @@ PivotedCholesky::PivotedCholesky(const unsigned int n, const std::vector<double>
                                  const double tolerance)
     : n(n)
 {
-  std::vector<double> diagonal(n), columns; // columns of L, each of length n, in the order of A
+  std::vector<double> diagonal(n), row(n), columns; // those of L, of length n in the order of A
   for (unsigned int i = 0; i < n; ++i)
     diagonal[i] = A[i * n + i];
   columns.reserve(A.size());
@@ -61,12 +61,12 @@ PivotedCholesky::PivotedCholesky(const unsigned int n, const std::vector<double>
     first = order.empty() ? diagonal[pivot] : first;
     if (!(diagonal[pivot] > tolerance * first))
       break;
-    const std::size_t start = columns.size();
+    const unsigned int k = order.size();
     columns.insert(columns.end(), &A[pivot * n], &A[pivot * n] + n);
-    double *const column = &columns[start];
-    for (const double *other = columns.data(); other != column; other += n)
-      for (unsigned int i = 0; i < n; ++i)
-        column[i] -= other[pivot] * other[i];
+    double *const column = &columns[k * n];
+    for (unsigned int j = 0; j < k; ++j)
+      row[j] = columns[j * n + pivot];
+    multiply('N', 'N', n, 1, k, -1., {columns.data(), n}, {row.data(), k}, 1., column, n);
     const double scale = 1 / std::sqrt(diagonal[pivot]);
     for (unsigned int i = 0; i < n; ++i)
     {

@@ -101,8 +101,7 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
   }
   solve_patches();
   measure();
-  if (macro_stresses)
-    cache.drop_unused();
+  cache.drop_unused();
 }
 
 const VertexPatches &EquilibratedStress::patches() const
