@@ -35,10 +35,14 @@ double legendre::shift(const unsigned int i)
 
 double legendre::evaluate(const std::vector<double> &coefficients, const double x)
 {
-  const std::vector<double> L = values(coefficients.size(), x);
-  double sum = 0;
-  for (unsigned int i = 0; i < L.size(); ++i)
-    sum += coefficients[i] * L[i];
+  double sum = 0, P = 1, before = 0; // as in values()
+  for (unsigned int i = 0; i < coefficients.size(); ++i)
+  {
+    sum += coefficients[i] * P * at_end(i, true);
+    const double next = ((2 * i + 1) * x * P - i * before) / (i + 1);
+    before = P;
+    P = next;
+  }
   return sum;
 }
 

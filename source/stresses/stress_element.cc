@@ -450,21 +450,23 @@ Modes<3> StressElement::nearest(const Modes<3> &stress, std::vector<double> &amp
   Modes<3> result(m + 1);
   const unsigned int n = std::min(stress.n, m + 1);
   for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
+  {
+    const unsigned int n_whole = i + 2 <= m ? std::min(n, m - 1) : 0;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int j = 0; j < n_whole; ++j)
+        result(k, i, j) = stress(k, i, j);
+    for (unsigned int j = n_whole; j < n; ++j)
     {
       const Components s{{stress(0, i, j), stress(1, i, j), stress(2, i, j)}};
-      if (std::max(i, j) + 2 <= m)
-        for (unsigned int k = 0; k < 3; ++k)
-          result(k, i, j) = s[k];
-      else if (s[0] != 0. || s[1] != 0. || s[2] != 0.)
-      {
-        Components e{};
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int l = 0; l < 3 && has(k, i, j); ++l)
-            e[k] += compliance[k][l] * s[l];
-        set_nearest(i, j, e, result);
-      }
+      if (s[0] == 0. && s[1] == 0. && s[2] == 0.)
+        continue;
+      Components e{};
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int l = 0; l < 3 && has(k, i, j); ++l)
+          e[k] += compliance[k][l] * s[l];
+      set_nearest(i, j, e, result);
     }
+  }
   return result;
 }
 
