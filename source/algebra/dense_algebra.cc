@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace hpvi
 {
@@ -16,7 +16,13 @@ void multiply(const char op_A, const char op_B, const unsigned int rows, const u
 {
   const blas_int m = rows, n = columns, k = inner, lda = std::max(A.stride, 1u),
                  ldb = std::max(B.stride, 1u), ldc = stride;
-  if (m > 0 && n > 0)
+  if (m == 0 || n == 0)
+    return;
+  const blas_int one = 1, rows_A = op_A == 'N' ? m : k, columns_A = op_A == 'N' ? k : m;
+  if (n == 1 && op_B == 'N')
+    dealii::gemv(&op_A, &rows_A, &columns_A, &alpha, A.entries, &lda, B.entries, &one, &beta, C,
+                 &one);
+  else
     dealii::gemm(&op_A, &op_B, &m, &n, &k, &alpha, A.entries, &lda, B.entries, &ldb, &beta, C,
                  &ldc);
 }
@@ -39,32 +45,36 @@ void solve_triangular(const char op, const unsigned int n, const unsigned int co
     dealii::trtrs("L", &op, "N", &size, &nrhs, L.entries, &lda, B, &ldb, &info);
 }
 
-PivotedCholesky::PivotedCholesky(const unsigned int n, std::vector<double> A,
+PivotedCholesky::PivotedCholesky(const unsigned int n, const std::vector<double> &A,
                                  const double tolerance)
     : n(n)
 {
-  std::vector<unsigned int> left(n);
-  std::iota(left.begin(), left.end(), 0);
-  std::vector<double> columns; // one after the other, each of length n
+  std::vector<double> diagonal(n), row(n), columns; // those of L, of length n in the order of A
+  for (unsigned int i = 0; i < n; ++i)
+    diagonal[i] = A[i * n + i];
+  columns.reserve(A.size());
   double first = 0;
   while (order.size() < n)
   {
-    unsigned int pivot = n;
-    for (const unsigned int i : left)
-      if (pivot == n || A[i * n + i] > A[pivot * n + pivot])
-        pivot = i;
-    const double diagonal = A[pivot * n + pivot];
-    first = order.empty() ? diagonal : first;
-    if (!(diagonal > tolerance * first))
+    const unsigned int pivot =
+        std::max_element(diagonal.begin(), diagonal.end()) - diagonal.begin();
+    first = order.empty() ? diagonal[pivot] : first;
+    if (!(diagonal[pivot] > tolerance * first))
       break;
-    order.push_back(pivot);
-    left.erase(std::find(left.begin(), left.end(), pivot));
+    const unsigned int k = order.size();
+    columns.insert(columns.end(), &A[pivot * n], &A[pivot * n] + n);
+    double *const column = &columns[k * n];
+    for (unsigned int j = 0; j < k; ++j)
+      row[j] = columns[j * n + pivot];
+    multiply('N', 'N', n, 1, k, -1., {columns.data(), n}, {row.data(), k}, 1., column, n);
+    const double scale = 1 / std::sqrt(diagonal[pivot]);
     for (unsigned int i = 0; i < n; ++i)
-      columns.push_back(A[pivot * n + i] / std::sqrt(diagonal));
-    const double *const column = &columns[columns.size() - n];
-    for (const unsigned int j : left)
-      for (unsigned int i = 0; i < n; ++i) // those of order too, which nothing reads again
-        A[j * n + i] -= column[i] * column[j];
+    {
+      column[i] *= scale;
+      diagonal[i] -= column[i] * column[i];
+    }
+    diagonal[pivot] = -std::numeric_limits<double>::infinity(); // not again
+    order.push_back(pivot);
   }
   const unsigned int rank = order.size();
   L.assign(rank * rank, 0.);

@@ -61,20 +61,22 @@ bool has_distorted_cells(const Solution<2> &solution)
   return false;
 }
 
+/** From nu = 0.476 on; with less the whole of sigma gave bounds that were lower by a hundredth. */
+bool hardly_changes_volume(const Material &material)
+{
+  return material.lambda(2) > 20. * material.mu();
+}
+
 /**
- * Without the modes of the pressure lambda div u_N that the stable pair Q_p, P_{p-1} would not have, where a change of
- * volume costs much. They oscillate, count little in the energy of sigma, and would count much in that of psi sigma,
+ * Without the modes of the pressure lambda div u_N that the stable pair Q_p, P_{p-1} would not have. They oscillate,
+ * count little in the energy of sigma, and would count much in that of psi sigma,
  * whose deviator has to carry what grad psi makes of them. On a parallelogram they do no work on psi times a rigid motion,
  * the divergence of which has modes 1, xi, eta, xi^2 and eta^2, so that patches keep their balance.
  */
 Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, const Tensor<2, 2> &B,
                                       const Material &material)
 {
-  constexpr double much =
-      20.; // from nu = 0.476 on; for less the whole of sigma gave bounds lower by a hundredth
   const double lambda = material.lambda(2), mu = material.mu();
-  if (lambda < much * mu)
-    return sigma;
   const Tensor<2, 2> to_trace = transpose(B) * B, unit = invert(to_trace);
   for (unsigned int i = 0; i < sigma.n; ++i)
     for (unsigned int j = 0; j < sigma.n; ++j)
@@ -88,6 +90,19 @@ Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, cons
         sigma(2, i, j) -= pressure * unit[0][1];
       }
   return sigma;
+}
+
+/** A row of the symmetric tensor. */
+Modes<2> row(const unsigned int k, const Modes<3> &s)
+{
+  const unsigned int size = s.n * s.n;
+  Modes<2> result(s.n);
+  for (const unsigned int c : {0, 1})
+  {
+    const auto from = s.coefficients.begin() + size * (k == c ? k : 2);
+    std::copy(from, from + size, result.coefficients.begin() + size * c);
+  }
+  return result;
 }
 
 void add(Modes<2> &sum, const Modes<2> &part)
@@ -117,8 +132,7 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
   }
   solve_patches();
   measure();
-  if (macro_stresses)
-    cache.drop_unused();
+  cache.drop_unused();
 }
 
 const VertexPatches &EquilibratedStress::patches() const
@@ -250,7 +264,7 @@ double EquilibratedStress::missed_force(const unsigned int index) const
   if (cell.force.empty())
     return 0.;
   const unsigned int m = cell.element->m;
-  const Modes<2> modes = load(index, {{1., 1., 1., 1.}}); // of -F
+  const Modes<2> modes = load(index, {{1., 0., 0., 0.}}); // of -F
   const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
   const QGauss<2> gauss(cell.n_force + 2);
   double sum = 0;
@@ -383,9 +397,10 @@ void EquilibratedStress::set_cells()
     cell.element = element.get();
     set_stress(index, solution);
     Batch &batch = batches[cell.element];
-    cell.first_column = batch.n_columns;
+    cell.place = batch.cells.size();
+    cell.first_hat = batch.n_hats;
     batch.cells.push_back(index);
-    batch.n_columns += vertex_patches.cells()[index].hats.size() + 1;
+    batch.n_hats += vertex_patches.cells()[index].hats.size();
   }
 }
 
@@ -401,8 +416,7 @@ void EquilibratedStress::set_stress(const unsigned int index, const Solution<2> 
   const std::vector<double> coefficients = of.coefficients(index);
   for (unsigned int c = 0; c < 2; ++c)
   {
-    const FullMatrix<double> U =
-        displacement_modes(coefficients, c, p, cache.legendre.from_nodes(p));
+    const FullMatrix<double> U = cache.legendre.displacement_modes(coefficients, c, p);
     for (unsigned int d = 0; d < 2; ++d)
     {
       Tensor<2, 2> reference;
@@ -410,14 +424,18 @@ void EquilibratedStress::set_stress(const unsigned int index, const Solution<2> 
       const Tensor<2, 2> s =
           inverse * Tensor<2, 2>(law.stress(reference * inverse)) * transpose(inverse);
       const std::array<double, 3> weights{{s[0][0], s[1][1], s[0][1]}};
-      for (unsigned int i = 1; i <= p; ++i)
-        for (int a = static_cast<int>(i) - 1; a >= 0; a -= 2)
-          for (unsigned int b = 0; b <= p; ++b)
-          {
-            const double value = legendre::derivative(i, a) * (d == 0 ? U(i, b) : U(b, i));
-            for (unsigned int k = 0; k < 3; ++k)
-              cell.sigma(k, d == 0 ? a : b, d == 0 ? b : a) += weights[k] * value;
-          }
+      for (unsigned int b = 0; b <= p; ++b)
+      {
+        std::array<double, 2> sums{{0., 0.}}; // L_i' = root(i) sum root(a) L_a, a = i-1, i-3, ...
+        for (unsigned int i = p; i > 0; --i)
+        {
+          const unsigned int a = i - 1;
+          sums[i % 2] += legendre::root(i) * (d == 0 ? U(i, b) : U(b, i));
+          for (unsigned int k = 0; k < 3; ++k)
+            cell.sigma(k, d == 0 ? a : b, d == 0 ? b : a) +=
+                weights[k] * legendre::root(a) * sums[i % 2];
+        }
+      }
     }
   }
   if (!solution.scene.has_body_force() || !cell.force.empty())
@@ -435,8 +453,9 @@ void EquilibratedStress::set_stress(const unsigned int index, const Solution<2> 
   }
 }
 
-/** -psi F by the quadrature of the loads, so that its moments with rigid motions are the same. */
-Modes<2> EquilibratedStress::load(const unsigned int index, const std::array<double, 4> &psi) const
+/** -psi F by the quadrature of the loads, psi from its coefficients, so that its moments with rigid motions are the same. */
+Modes<2> EquilibratedStress::load(const unsigned int index,
+                                  const std::array<double, n_bilinear> &c) const
 {
   const Cell &cell = cells[index];
   const unsigned int n = cell.n_force, n_modes = std::min(n, cell.element->m);
@@ -445,7 +464,6 @@ Modes<2> EquilibratedStress::load(const unsigned int index, const std::array<dou
     return result;
   const FullMatrix<double> &project = cache.legendre.projection(n_modes, n);
   const QGauss<1> &gauss = solution.tables.gauss(n);
-  const std::array<double, 4> c = bilinear(psi);
   for (unsigned int k = 0; k < 2; ++k)
   {
     FullMatrix<double> values(n, n), half(n_modes, n), modes(n_modes, n_modes);
@@ -465,62 +483,86 @@ Modes<2> EquilibratedStress::load(const unsigned int index, const std::array<dou
   return result;
 }
 
-/** Columns of data: of `psi sigma` with divergence `sigma grad psi - psi F`, and of sigma with -F. */
+/**
+ * Columns of data of one cell: of `psi sigma` with divergence `sigma grad psi - psi F` for the bilinear
+ * functions psi.
+ */
+void EquilibratedStress::set_data(const unsigned int index, double *const r) const
+{
+  const StressElement &element = *cells[index].element;
+  const Material &material = solution.scene.material_of(vertex_patches.cells()[index].iterator);
+  const Modes<3> sigma = hardly_changes_volume(material)
+                             ? without_oscillating_pressure(
+                                   cells[index].sigma, solution.displacement_space.degrees()[index],
+                                   cells[index].B, material)
+                             : cells[index].sigma;
+  const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma);
+  const auto add_column = [&](const unsigned int k, const Modes<3> &product, Modes<2> divergence)
+  {
+    std::array<double, n_bilinear> psi{};
+    psi[k] = 1.;
+    add(divergence, load(index, psi));
+    element.residual(product, divergence, r + std::size_t(k) * element.n_data);
+  };
+  add_column(0, sigma, Modes<2>(sigma.n));
+  add_column(1, times_xi, row(0, sigma));
+  add_column(2, times_eta, row(1, sigma));
+  Modes<2> both = row(0, times_eta);
+  add(both, row(1, times_xi));
+  add_column(3, times(1, times_xi), both);
+}
+
+/** `matrix' r` for r of each hat function, n_rows each. */
+std::vector<double> EquilibratedStress::on_hats(const Batch &batch,
+                                                const std::vector<double> &matrix,
+                                                const unsigned int n_data,
+                                                const unsigned int n_rows) const
+{
+  const unsigned int n_columns = n_bilinear * batch.cells.size();
+  std::vector<double> products(std::size_t(n_rows) * n_columns),
+      result(std::size_t(n_rows) * batch.n_hats);
+  multiply('T', 'N', n_rows, n_columns, n_data, 1., {matrix.data(), n_data},
+           {batch.r.data(), n_data}, 0., products.data(), n_rows);
+  const double *product = products.data();
+  double *target = result.data();
+  for (const unsigned int index : batch.cells)
+  {
+    for (const VertexPatches::Hat &hat : vertex_patches.cells()[index].hats)
+    {
+      const std::array<double, n_bilinear> c = bilinear(hat.values);
+      for (unsigned int i = 0; i < n_rows; ++i)
+        target[i] = c[0] * product[i] + c[1] * product[n_rows + i] +
+                    c[2] * product[2 * n_rows + i] + c[3] * product[3 * n_rows + i];
+      target += n_rows;
+    }
+    product += std::size_t(n_bilinear) * n_rows;
+  }
+  return result;
+}
+
 void EquilibratedStress::set_data()
 {
   for (auto &[element, batch] : batches)
   {
     const unsigned int n = element->n_data;
-    batch.r.resize(std::size_t(n) * batch.n_columns);
+    batch.r.resize(std::size_t(n) * n_bilinear * batch.cells.size());
     for (const unsigned int index : batch.cells)
-    {
-      const Modes<3> sigma = without_oscillating_pressure(
-          cells[index].sigma, solution.displacement_space.degrees()[index], cells[index].B,
-          solution.scene.material_of(vertex_patches.cells()[index].iterator));
-      const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma),
-                     times_both = times(1, times_xi);
-      double *column = &batch.r[std::size_t(n) * cells[index].first_column];
-      Modes<3> product(sigma.n);
-      Modes<2> divergence(sigma.n);
-      const unsigned int size = sigma.n * sigma.n;
-      for (const VertexPatches::Hat &hat : vertex_patches.cells()[index].hats)
-      {
-        const std::array<double, 4> c = bilinear(hat.values);
-        for (unsigned int i = 0; i < product.coefficients.size(); ++i)
-          product.coefficients[i] = c[0] * sigma.coefficients[i] + c[1] * times_xi.coefficients[i] +
-                                    c[2] * times_eta.coefficients[i] +
-                                    c[3] * times_both.coefficients[i];
-        for (unsigned int k = 0; k < 2; ++k)
-        {
-          const unsigned int x = k == 0 ? 0 : 2 * size, y = k == 0 ? 2 * size : size;
-          for (unsigned int i = 0; i < size; ++i)
-            divergence.coefficients[k * size + i] =
-                c[1] * sigma.coefficients[x + i] + c[3] * times_eta.coefficients[x + i] +
-                c[2] * sigma.coefficients[y + i] + c[3] * times_xi.coefficients[y + i];
-        }
-        add(divergence, load(index, hat.values));
-        element->residual(product, divergence, column);
-        column += n;
-      }
-      set_own_column(index);
-    }
-    batch.gradients.resize(std::size_t(element->n_edges) * batch.n_columns);
-    multiply('T', 'N', element->n_edges, batch.n_columns, n, 1., {element->edge_energy().data(), n},
-             {batch.r.data(), n}, 0., batch.gradients.data(), element->n_edges);
-    batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_columns);
-    multiply('T', 'N', element->n_conditions(), batch.n_columns, n, 1.,
-             {element->conditions().data(), n}, {batch.r.data(), n}, 0., batch.defects.data(),
-             element->n_conditions());
+      set_data(index, &batch.r[std::size_t(n) * n_bilinear * cells[index].place]);
+    batch.gradients = on_hats(batch, element->edge_energy(), n, element->n_edges);
+    batch.defects = on_hats(batch, element->conditions(), n, element->n_conditions());
+    for (const unsigned int index : batch.cells)
+      if (hardly_changes_volume(solution.scene.material_of(vertex_patches.cells()[index].iterator)))
+        set_own_data(index);
   }
 }
 
-/** Of sigma with divergence -F: behind those of the hat functions. */
-void EquilibratedStress::set_own_column(const unsigned int index)
+/** Of sigma with divergence -F, in the column of psi = 1. */
+void EquilibratedStress::set_own_data(const unsigned int index)
 {
   const Cell &cell = cells[index];
-  const std::size_t column = cell.first_column + vertex_patches.cells()[index].hats.size();
-  cell.element->residual(cell.sigma, load(index, {{1., 1., 1., 1.}}),
-                         &batches.at(cell.element).r[cell.element->n_data * column]);
+  const std::size_t n = cell.element->n_data;
+  cell.element->residual(cell.sigma, load(index, {{1., 0., 0., 0.}}),
+                         &batches.at(cell.element).r[n * n_bilinear * cell.place]);
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigned int hat) const
@@ -529,7 +571,7 @@ PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigne
     return macro_stresses->patch_cell(index, hat);
   const Cell &cell = cells[index];
   const Batch &batch = batches.at(cell.element);
-  const std::size_t column = cell.first_column + hat;
+  const std::size_t column = cell.first_hat + hat;
   return {traction_energy(*cell.element), cell.h * cell.h,
           &batch.gradients[column * cell.element->n_edges],
           &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]};
@@ -590,14 +632,18 @@ void EquilibratedStress::add_tractions(const unsigned int index, const TractionE
       {
         const StressEdge::Component &component = edge.components[c];
         const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
+        if (weight == 0.)
+          continue;
         const std::vector<double> &t = sums[geometry.edges[face]][c];
         double *const target = all + element.edge_entry(face, row);
+        const FullMatrix<double> *const half =
+            part == whole_edge ? nullptr : &cache.legendre.half(component.n, part);
         for (unsigned int i = 0; i < component.n; ++i)
-          if (part == whole_edge)
+          if (!half)
             target[i] += weight * t[i];
           else
             for (unsigned int j = 0; j < component.n; ++j)
-              target[i] += weight * cache.legendre.half(component.n, part)(i, j) * t[j];
+              target[i] += weight * (*half)(i, j) * t[j];
       }
   }
 }
@@ -607,10 +653,8 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
 {
   const Cell &cell = cells[index];
   const StressElement &element = *cell.element;
-  const VertexPatches::Cell &geometry = vertex_patches.cells()[index];
   const double *const column =
-      &batches.at(&element)
-           .r[std::size_t(element.n_data) * (cell.first_column + geometry.hats.size())];
+      &batches.at(&element).r[std::size_t(element.n_data) * n_bilinear * cell.place];
   std::vector<double> r(column, column + element.n_data);
   add_tractions(index, traction_energy(element), &r[element.n_divergence]);
   return r;
@@ -654,7 +698,7 @@ void EquilibratedStress::measure_from(const Solution<2> &other)
   for (unsigned int index = 0; index < cells.size(); ++index)
   {
     set_stress(index, other);
-    set_own_column(index);
+    set_own_data(index);
   }
   measure();
 }

@@ -41,8 +41,7 @@ public:
     const std::vector<double> coefficients = solution.coefficients(cell);
     for (unsigned int c = 0; c < 2; ++c)
     {
-      const FullMatrix<double> U =
-          displacement_modes(coefficients, c, n - 1, legendre.from_nodes(n - 1));
+      const FullMatrix<double> U = legendre.displacement_modes(coefficients, c, n - 1);
       for (auto &modes : slopes[c])
         modes.reinit(n, n);
       for (unsigned int i = 1; i < n; ++i)

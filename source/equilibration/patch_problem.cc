@@ -24,6 +24,19 @@ struct Block
   const std::vector<double> *known; ///< coefficients, where there is no unknown
 };
 
+/** `target += scale B' data` with the part of B that is a block. */
+void add_transposed(const Block &b, const double *const data, const double scale,
+                    double *const target)
+{
+  for (unsigned int i = 0; i < b.n; ++i)
+  {
+    double sum = b.R ? 0. : data[b.row + i];
+    for (unsigned int l = 0; b.R && l < b.n; ++l)
+      sum += (*b.R)(l, i) * data[b.row + l];
+    target[i] += scale * b.weight * sum;
+  }
+}
+
 class PatchProblem
 {
 public:
@@ -51,8 +64,12 @@ private:
   void factorise(PatchFactor &factor) const;
   void add_energy(const PatchCell &cell, const std::vector<Block> &parts, double scale,
                   PatchFactor &factor) const;
+  void add_conditions(const PatchCell &cell, const std::vector<Block> &parts, unsigned int first,
+                      PatchFactor &factor) const;
   void add_data(const PatchCell &cell, const std::vector<Block> &parts, double scale,
                 std::vector<double> &g, std::vector<double> &right) const;
+  std::vector<double> minimise(const PatchFactor &factor, std::vector<double> x,
+                               std::vector<double> &right) const;
 
   const std::vector<PatchCell> &cells;
   const std::vector<PatchEdge> &edges;
@@ -121,7 +138,7 @@ EquilibrationCache::Signature PatchProblem::signature() const
   return key;
 }
 
-/** Adds `scale B' G B` to H and appends the columns `B' N`, where B takes unknowns to data. */
+/** Adds `scale B' G B` to H, where B takes unknowns to data. */
 void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &parts,
                               const double scale, PatchFactor &factor) const
 {
@@ -151,40 +168,50 @@ void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &p
           factor.H[std::size_t(d.unknown + j) * n + b.unknown + i] +=
               scale * b.weight * d.weight * G.entries[j * G.stride + i];
     }
+}
+
+/** Appends those columns of `B' N` that are not empty: a corner away from the vertex sees no unknown. */
+void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block> &parts,
+                                  const unsigned int first, PatchFactor &factor) const
+{
+  const TractionEnergy &element = cell.element;
+  std::vector<double> column(n);
   for (unsigned int k = 0; k < element.n_conditions; ++k)
   {
     const double *const N = element.N.entries + std::size_t(k) * element.N.stride;
-    const std::size_t column = factor.conditions.size();
-    factor.conditions.resize(column + n);
+    std::fill(column.begin(), column.end(), 0.);
     for (const Block &b : parts)
-      for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
-      {
-        double sum = b.R ? 0. : N[b.row + i];
-        for (unsigned int l = 0; b.R && l < b.n; ++l)
-          sum += (*b.R)(l, i) * N[b.row + l];
-        factor.conditions[column + b.unknown + i] += b.weight * sum;
-      }
+      if (b.unknown != none)
+        add_transposed(b, N, 1., &column[b.unknown]);
+    if (std::all_of(column.begin(), column.end(), [](const double entry) { return entry == 0.; }))
+      continue;
+    factor.conditions.insert(factor.conditions.end(), column.begin(), column.end());
+    factor.present.push_back(first + k);
   }
-  factor.n_conditions += element.n_conditions;
 }
 
+/** H and C; then, with `W = L^-1 C`, as many conditions as `W'W` has rank. */
 void PatchProblem::factorise(PatchFactor &factor) const
 {
-  factor.n = n;
   factor.H.assign(std::size_t(n) * n, 0.);
-  unsigned int n_all = 0;
-  for (const PatchCell &cell : cells)
-    n_all += cell.element.n_conditions;
-  factor.conditions.reserve(std::size_t(n) * n_all);
+  unsigned int first = 0;
   for (unsigned int k = 0; k < cells.size(); ++k)
+  {
     add_energy(cells[k], blocks[k], cells[k].area / cells[0].area, factor);
+    add_conditions(cells[k], blocks[k], first, factor);
+    first += cells[k].element.n_conditions;
+  }
   AssertThrow(cholesky(n, factor.H.data(), n), ExcInternalError());
-  factor.W = factor.conditions;
-  const unsigned int m = factor.n_conditions;
-  solve_triangular('N', n, m, {factor.H.data(), n}, factor.W.data(), n);
-  std::vector<double> S(m * m);
-  multiply('T', 'N', m, m, n, 1., {factor.W.data(), n}, {factor.W.data(), n}, 0., S.data(), m);
-  factor.S = PivotedCholesky(m, S, 1e-11); // patches have motions and corners in common
+  const unsigned int m = factor.present.size();
+  std::vector<double> W(factor.conditions), S(m * m);
+  solve_triangular('N', n, m, {factor.H.data(), n}, W.data(), n);
+  multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
+  PivotedCholesky chosen(m, S, 1e-11); // patches have motions and corners in common
+  factor.W.reserve(chosen.order.size() * n);
+  for (const unsigned int k : chosen.order)
+    factor.W.insert(factor.W.end(), &W[k * n], &W[k * n] + n);
+  factor.chosen = std::move(chosen.order);
+  factor.S = std::move(chosen.L);
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
@@ -216,15 +243,36 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
     defect = changed_defect.data();
   }
   for (const Block &b : parts)
-    for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
-    {
-      double sum = b.R ? 0. : gradient[b.row + i];
-      for (unsigned int l = 0; b.R && l < b.n; ++l)
-        sum += (*b.R)(l, i) * gradient[b.row + l];
-      g[b.unknown + i] += scale * b.weight * sum;
-    }
+    if (b.unknown != none)
+      add_transposed(b, gradient, scale, &g[b.unknown]);
   for (unsigned int k = 0; k < n_conditions; ++k)
     right.push_back(-defect[k]);
+}
+
+/** Minimises energy subject to the chosen conditions; right := what all of them miss. */
+std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vector<double> x,
+                                           std::vector<double> &right) const
+{
+  const unsigned int m = factor.present.size(), rank = factor.chosen.size();
+  for (double &value : x)
+    value = -value;
+  solve_triangular('N', n, 1, {factor.H.data(), n}, x.data(), n);
+  for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
+  {
+    std::vector<double> mu;
+    for (const unsigned int k : factor.chosen)
+      mu.push_back(right[factor.present[k]]);
+    multiply('T', 'N', rank, 1, n, -1., {factor.W.data(), n}, {x.data(), n}, 1., mu.data(), rank);
+    for (const char op : {'N', 'T'})
+      solve_triangular(op, rank, 1, {factor.S.data(), rank}, mu.data(), rank);
+    multiply('N', 'N', n, 1, rank, 1., {factor.W.data(), n}, {mu.data(), rank}, 1., x.data(), n);
+  }
+  solve_triangular('T', n, 1, {factor.H.data(), n}, x.data(), n);
+  std::vector<double> met(m);
+  multiply('T', 'N', m, 1, n, 1., {factor.conditions.data(), n}, {x.data(), n}, 0., met.data(), m);
+  for (unsigned int k = 0; k < m; ++k)
+    right[factor.present[k]] -= met[k];
+  return x;
 }
 
 double PatchProblem::solve()
@@ -234,23 +282,10 @@ double PatchProblem::solve()
   PatchFactor &factor = found->second.value;
   if (is_new)
     factorise(factor);
-  std::vector<double> x(n), right;
+  std::vector<double> g(n), right;
   for (unsigned int k = 0; k < cells.size(); ++k)
-    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, x, right);
-  for (double &value : x)
-    value = -value;
-  const unsigned int m = factor.n_conditions;
-  solve_triangular('N', n, 1, {factor.H.data(), n}, x.data(), n);
-  for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
-  {
-    std::vector<double> left(right);
-    multiply('T', 'N', m, 1, n, -1., {factor.W.data(), n}, {x.data(), n}, 1., left.data(), m);
-    const std::vector<double> mu = factor.S.solve(left);
-    multiply('N', 'N', n, 1, m, 1., {factor.W.data(), n}, {mu.data(), m}, 1., x.data(), n);
-  }
-  solve_triangular('T', n, 1, {factor.H.data(), n}, x.data(), n);
-  multiply('T', 'N', m, 1, n, -1., {factor.conditions.data(), n}, {x.data(), n}, 1., right.data(),
-           m);
+    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, g, right);
+  const std::vector<double> x = minimise(factor, std::move(g), right);
   for (unsigned int e = 0; e < edges.size(); ++e)
     for (unsigned int c = 0; c < 2; ++c)
     {

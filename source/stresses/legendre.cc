@@ -35,10 +35,14 @@ double legendre::shift(const unsigned int i)
 
 double legendre::evaluate(const std::vector<double> &coefficients, const double x)
 {
-  const std::vector<double> L = values(coefficients.size(), x);
-  double sum = 0;
-  for (unsigned int i = 0; i < L.size(); ++i)
-    sum += coefficients[i] * L[i];
+  double sum = 0, P = 1, before = 0; // as in values()
+  for (unsigned int i = 0; i < coefficients.size(); ++i)
+  {
+    sum += coefficients[i] * P * at_end(i, true);
+    const double next = ((2 * i + 1) * x * P - i * before) / (i + 1);
+    before = P;
+    P = next;
+  }
   return sum;
 }
 
@@ -99,17 +103,19 @@ const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) 
   return result;
 }
 
-FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
-                                      const unsigned int component, const unsigned int degree,
-                                      const FullMatrix<double> &from_nodes)
+FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> &coefficients,
+                                                      const unsigned int component,
+                                                      const unsigned int degree) const
 {
   const unsigned int n = degree + 1;
-  const auto lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
-  FullMatrix<double> nodal(n, n), half(n, n), result(n, n);
+  std::vector<unsigned int> &lexicographic = numberings[degree];
+  if (lexicographic.empty())
+    lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
+  FullMatrix<double> values(n, n), half(n, n), result(n, n);
   for (unsigned int i = 0; i < n * n; ++i)
-    nodal(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
-  from_nodes.mmult(half, nodal);
-  half.mTmult(result, from_nodes);
+    values(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];
+  from_nodes(degree).mmult(half, values);
+  half.mTmult(result, from_nodes(degree));
   return result;
 }
 } // namespace hpvi

@@ -290,25 +290,13 @@ void StressElement::add_corner_stress(const unsigned int corner)
   corner_energy = enlarged;
 }
 
-/** Orthonormal to those before it. */
-void StressElement::add_condition(std::vector<double> condition)
+/** Of length 1, but not orthogonal to the others: a corner sees its two edges alone, and patches count on that. */
+void StressElement::add_condition(const std::vector<double> &condition)
 {
-  for (const unsigned int pass : {0, 1})
-  {
-    (void)pass; // once more, for what round-off leaves
-    for (std::size_t first = 0; first < N.size(); first += n_data)
-    {
-      const double along =
-          std::inner_product(condition.begin(), condition.end(), N.begin() + first, 0.);
-      for (unsigned int i = 0; i < n_data; ++i)
-        condition[i] -= along * N[first + i];
-    }
-    const double norm =
-        std::sqrt(std::inner_product(condition.begin(), condition.end(), condition.begin(), 0.));
-    for (double &entry : condition)
-      entry /= norm;
-  }
-  N.insert(N.end(), condition.begin(), condition.end());
+  const double norm =
+      std::sqrt(std::inner_product(condition.begin(), condition.end(), condition.begin(), 0.));
+  for (const double entry : condition)
+    N.push_back(entry / norm);
 }
 
 /** Equilibrium: `int Div S . B'z` is the work of the tractions on a rigid motion z, in coordinates B (xi, eta)'. */
@@ -462,21 +450,23 @@ Modes<3> StressElement::nearest(const Modes<3> &stress, std::vector<double> &amp
   Modes<3> result(m + 1);
   const unsigned int n = std::min(stress.n, m + 1);
   for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
+  {
+    const unsigned int n_whole = i + 2 <= m ? std::min(n, m - 1) : 0;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int j = 0; j < n_whole; ++j)
+        result(k, i, j) = stress(k, i, j);
+    for (unsigned int j = n_whole; j < n; ++j)
     {
       const Components s{{stress(0, i, j), stress(1, i, j), stress(2, i, j)}};
-      if (std::max(i, j) + 2 <= m)
-        for (unsigned int k = 0; k < 3; ++k)
-          result(k, i, j) = s[k];
-      else if (s[0] != 0. || s[1] != 0. || s[2] != 0.)
-      {
-        Components e{};
-        for (unsigned int k = 0; k < 3; ++k)
-          for (unsigned int l = 0; l < 3 && has(k, i, j); ++l)
-            e[k] += compliance[k][l] * s[l];
-        set_nearest(i, j, e, result);
-      }
+      if (s[0] == 0. && s[1] == 0. && s[2] == 0.)
+        continue;
+      Components e{};
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int l = 0; l < 3 && has(k, i, j); ++l)
+          e[k] += compliance[k][l] * s[l];
+      set_nearest(i, j, e, result);
     }
+  }
   return result;
 }
 

@@ -31,7 +31,7 @@ void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L
 struct PivotedCholesky
 {
   PivotedCholesky() = default;
-  PivotedCholesky(unsigned int n, std::vector<double> A, double tolerance);
+  PivotedCholesky(unsigned int n, const std::vector<double> &A, double tolerance);
 
   /** One of the solutions of `A x = b`, for b in the range of A. */
   std::vector<double> solve(const std::vector<double> &b) const;

@@ -73,17 +73,21 @@ private:
     dealii::Tensor<2, 2> B;
     double h; ///< of the element [length]
     Modes<3> sigma;
-    std::vector<double> force; ///< F in the frame, at the points of the loads; empty: none
-    unsigned int n_force = 0;  ///< these points per direction
-    unsigned int first_column;
+    std::vector<double> force;     ///< F in the frame, at the points of the loads; empty: none
+    unsigned int n_force = 0;      ///< these points per direction
+    unsigned int place, first_hat; ///< in its batch
   };
 
-  /** All data of the cells of one element: a column for each hat function, then one for 1. */
+  /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
+  static constexpr unsigned int n_bilinear = 4;
+
+  /** All data of the cells of one element, r for psi each of the bilinear functions. */
   struct Batch
   {
     std::vector<unsigned int> cells;
-    unsigned int n_columns = 0;
-    std::vector<double> r, gradients, defects;
+    unsigned int n_hats = 0;
+    std::vector<double> r;
+    std::vector<double> gradients, defects; ///< G r and N' r by hat function
   };
 
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
@@ -98,8 +102,11 @@ private:
   void set_cells();
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);
-  void set_own_column(unsigned int cell);
-  Modes<2> load(unsigned int cell, const std::array<double, 4> &psi) const;
+  void set_own_data(unsigned int cell);
+  Modes<2> load(unsigned int cell, const std::array<double, n_bilinear> &psi) const;
+  void set_data(unsigned int cell, double *r) const;
+  std::vector<double> on_hats(const Batch &batch, const std::vector<double> &matrix,
+                              unsigned int n_data, unsigned int n_rows) const;
   void solve_patches();
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
   void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;

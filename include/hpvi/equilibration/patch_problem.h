@@ -17,11 +17,12 @@ namespace hpvi
 /** What a patch problem depends on besides its data: its matrices, factored. */
 struct PatchFactor
 {
-  unsigned int n = 0, n_conditions = 0;
-  std::vector<double> H;          ///< n x n: L of the energy of the unknown tractions
-  std::vector<double> conditions; ///< n x n_conditions: columns C
-  std::vector<double> W;          ///< L^-1 C
-  PivotedCholesky S;              ///< W'W
+  std::vector<double> H;             ///< n x n: L of the energy of the unknown tractions
+  std::vector<double> conditions;    ///< n x present: columns C
+  std::vector<unsigned int> present; ///< conditions with columns, others hold by what is known
+  std::vector<unsigned int> chosen;  ///< places in present of those that imply all others
+  std::vector<double> W;             ///< n x chosen: L^-1 C
+  std::vector<double> S;             ///< chosen x chosen: L of W'W
 };
 
 /** What a run keeps from step to step: elements by class, patches by signature. */

@@ -60,16 +60,17 @@ public:
   /** n x n_gauss: `w_q L_i(x_q)`, which turns values at Gauss points into coefficients. */
   const dealii::FullMatrix<double> &projection(unsigned int n, unsigned int n_gauss) const;
 
+  /** Coefficients (row xi, column eta) of one component of u_N on a cell, as Solution gives it. */
+  dealii::FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
+                                                unsigned int component, unsigned int degree) const;
+
 private:
   using Matrices = std::map<std::array<unsigned int, 2>, dealii::FullMatrix<double>>;
   mutable Matrices halves, projections;
   mutable std::map<unsigned int, dealii::FullMatrix<double>> nodal;
+  mutable std::map<unsigned int, std::vector<unsigned int>>
+      numberings; ///< lexicographic, by degree
 };
-
-/** Legendre coefficients (row xi, column eta) of one component of u_N on a cell, as Solution gives it. */
-dealii::FullMatrix<double> displacement_modes(const std::vector<double> &coefficients,
-                                              unsigned int component, unsigned int degree,
-                                              const dealii::FullMatrix<double> &from_nodes);
 } // namespace hpvi
 
 #endif

@@ -79,7 +79,7 @@ public:
   void residual(const Modes<3> &stress, const Modes<2> &divergence, double *r) const;
 
   unsigned int n_conditions() const;
-  const std::vector<double> &conditions() const; ///< N, orthonormal columns of n_data
+  const std::vector<double> &conditions() const; ///< N, columns of n_data with length 1
 
   /**
    * Columns n_divergence and following of G, where `min (s, C^-1 s) = h^2 r'G r` over the stresses s
@@ -114,7 +114,7 @@ private:
   void set_tractions(const dealii::Tensor<2, 2> &B);
   void add_corner_stress(unsigned int corner);
   void set_conditions(const dealii::Tensor<2, 2> &B);
-  void add_condition(std::vector<double> condition);
+  void add_condition(const std::vector<double> &condition);
   void factorise();
   std::vector<double> corner_amplitudes(const Modes<3> &stress, const Modes<3> &q) const;
   Modes<3> nearest(const Modes<3> &stress, std::vector<double> &amplitudes) const;
