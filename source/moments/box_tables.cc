@@ -214,10 +214,12 @@ FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &mom
   FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), W.n());
   M_inverse.mmult(rim_to_inner, W);
   for (const unsigned int face : GeometryInfo<dim>::face_indices())
-    for (unsigned int s = 0; moments[face] && s < dim - 1; ++s)
+    for (unsigned int c = 0; c < dim; ++c)
     {
+      if (!moments[dim * face + c])
+        continue;
       const auto number = [&](const unsigned int shape)
-      { return fe.component_to_system_index(tangents<dim>(face)[s], shape); };
+      { return fe.component_to_system_index(c, shape); };
       for (unsigned int r = 0; r < n_moments(); ++r)
       {
         const unsigned int row = number(inner[face][r]);

@@ -72,7 +72,7 @@ public:
   dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law,
                                        const dealii::Tensor<1, dim> &size) const;
 
-  /** T of `u = T v` on a cell: @p moments[face] says where v has moments for inner nodes. */
+  /** T of `u = T v` on a cell: @p moments[dim face + component] says where v has moments for inner nodes. */
   dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &moments) const;
 
 private:
