@@ -174,6 +174,12 @@ unsigned int BoxTables<dim>::part(const unsigned int face, const std::array<bool
 }
 
 template <int dim>
+BoxTable<dim> BoxTables<dim>::face_table(const unsigned int face, const unsigned int n_gauss) const
+{
+  return tabulate_face(scalar(), QGauss<dim - 1>(n_gauss), face, Point<dim>(), 1);
+}
+
+template <int dim>
 double BoxTables<dim>::psi(const unsigned int k, const unsigned int face, const Point<dim> &x) const
 {
   double product = 1;

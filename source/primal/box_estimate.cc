@@ -39,6 +39,7 @@ private:
   const DistributedVector &u;
   const std::vector<ContactVector<dim>> &lambda;
   ErrorEstimate result;
+  std::vector<BoxTable<dim>> fine_faces; ///< by face, with twice as many points as u_N has nodes
 };
 
 /** Which side of @p whole's centre does @p piece lie on? */
@@ -65,9 +66,12 @@ BoxResiduals<dim>::BoxResiduals(const MomentSpace<dim> &space, const Distributed
   const unsigned int n_cells = space.dof_handler.get_triangulation().n_active_cells();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
-  if (space.scene.has_unilateral_contact())
-    for (auto *part : {&result.normal, &result.penetration, &result.tension})
-      part->assign(n_cells, 0.);
+  if (!space.scene.has_unilateral_contact())
+    return;
+  for (auto *part : {&result.normal, &result.penetration, &result.tension})
+    part->assign(n_cells, 0.);
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+    fine_faces.push_back(space.tables.face_table(face, 2 * (space.tables.degree + 1)));
 }
 
 /** `int |div sigma + F|^2` */
@@ -229,20 +233,15 @@ double BoxResiduals<dim>::penetration(const MomentFace<dim> &face,
 {
   const BoundaryCondition<dim> &condition = space.condition(face.cell, face.face);
   const double mu = space.scene.material_of(face.cell).mu();
+  const BoxTable<dim> &table = fine_faces[face.face];
   double sum = 0;
-  for (unsigned int part = 0; part < GeometryInfo<dim>::max_children_per_face; ++part)
+  for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    const BoxTable<dim> &table =
-        space.tables.quarters[face.face * GeometryInfo<dim>::max_children_per_face + part];
-    for (unsigned int q = 0; q < table.points.size(); ++q)
-    {
-      const double depth =
-          space.contact[face.pressure].sign * value(table, q, field)[face.face / 2] -
-          condition.gap_at(MomentSpace<dim>::point_of(face.cell, table.points[q]));
-      sum += table.weights[q] * std::pow(mu * std::max(depth, 0.), 2);
-    }
+    const double depth = space.contact[face.pressure].sign * value(table, q, field)[face.face / 2] -
+                         condition.gap_at(MomentSpace<dim>::point_of(face.cell, table.points[q]));
+    sum += table.weights[q] * std::pow(mu * std::max(depth, 0.), 2);
   }
-  return sum * face.cell->face(face.face)->measure() / GeometryInfo<dim>::max_children_per_face;
+  return sum * face.cell->face(face.face)->measure();
 }
 
 template <int dim>
