@@ -144,9 +144,11 @@ TEST(Unilateral, BothPathsAgreeInThePlane)
 
 TEST(Unilateral, BothPathsAgreeOnACurvedFoundationWithoutFriction)
 {
-  expect_reduced_path(opening_plane({{"Adaptivity/Method", "hap3"},
-                                     {"Boundary bottom/Friction bound", ""},
-                                     {"Boundary bottom/Gap", "0.002*(x - 4)*(x - 2)*exp(x/4)"}}));
+  expect_reduced_path(
+      opening_plane({{"Adaptivity/Method", "hap3"},
+                     {"Boundary bottom/Friction bound", ""},
+                     {"Adaptivity/Maximum steps", "3"}, // then p4est refines one cell more
+                     {"Boundary bottom/Gap", "0.002*(x - 4)*(x - 2)*exp(x/4) + 0.02*(4 - x)"}}));
 }
 
 /** Plane strain: a slab of one layer with u_z = 0 on both sides. */
