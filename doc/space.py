@@ -20,7 +20,7 @@ import matplotlib.pyplot as plt
 parser = argparse.ArgumentParser()
 parser.add_argument("--program", default="build/hpvi")
 parser.add_argument("--output", default="output/space")
-parser.add_argument("--unknowns", type=int, default=20000, help="the accuracy chart ends behind a third of so many")
+parser.add_argument("--unknowns", type=int, default=20000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
 parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy"])
@@ -83,21 +83,30 @@ def chart(name, x, y, curves, log_y=True):
     plt.close(figure)
 
 
+def series():
+    """What ends the runs of a method: its first mesh of 2 x 2 x 1 elements, then limits of unknowns, each a quarter of the
+    next, which end with the first mesh that has as many. Degrees 2 to 4 get at least three points."""
+    limits = [limit for limit in (options.unknowns // 4 ** k for k in (2, 1, 0)) if limit >= 1000]  # more than a first mesh
+    return [{"Adaptivity/Maximum steps": 1}, *({"Adaptivity/Maximum unknowns": limit, "Adaptivity/Maximum steps": 99}
+                                               for limit in limits)]
+
+
 def accuracy():
     """The error of J(u_N), friction taken at all points, which is at least half the squared energy norm's. No
     conforming u_N is below the minimum: the lowest value of all runs stands for it."""
-    limit = run("limit", **{"Adaptivity/Method": "hap4", "Adaptivity/Maximum unknowns": options.unknowns})[-1]
+    limit = run("limit", **{"Adaptivity/Method": "hap4", "Geometry/Subdivisions": "2, 2, 1", "Adaptivity/Maximum unknowns": 2 * options.unknowns})[-1]
     if "million" not in options.without:
         limit = min(limit, run("million", "doc/space/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
     J = limit["energy"]
     methods = {"uniform Q2": "hup2", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
     table, curves = [], {}
     for label, method in methods.items():
-        for steps in range(1, 20):  # each a run of its own: CPU seconds of steps are not known, those of runs are
-            row = run(f"{method}-{steps}", **{"Adaptivity/Method": method, "Adaptivity/Maximum steps": steps})[-1]
-            table.append((label, int(row["dofs_free"]), row["energy"], abs(1 - row["energy"] / J), round(row["run_cpu"], 3)))
-            if row["dofs_free"] >= options.unknowns // 3:
-                break
+        for limits in series():  # each a run of its own: CPU seconds of runs are known, not those of steps
+            row = run(f"{method}-{'-'.join(map(str, limits.values()))}",
+                      **{"Adaptivity/Method": method, "Geometry/Subdivisions": "2, 2, 1", **limits})[-1]
+            point = (label, int(row["dofs_free"]), row["energy"], abs(1 - row["energy"] / J), round(row["run_cpu"], 3))
+            if not any(point[:2] == known[:2] for known in table):  # two limits may end at the same mesh
+                table.append(point)
     if "peer" not in options.without:
         result = OUTPUT / "getfem.json"
         if not result.exists():

@@ -174,6 +174,12 @@ unsigned int BoxTables<dim>::part(const unsigned int face, const std::array<bool
 }
 
 template <int dim>
+BoxTable<dim> BoxTables<dim>::face_table(const unsigned int face, const unsigned int n_gauss) const
+{
+  return tabulate_face(scalar(), QGauss<dim - 1>(n_gauss), face, Point<dim>(), 1);
+}
+
+template <int dim>
 double BoxTables<dim>::psi(const unsigned int k, const unsigned int face, const Point<dim> &x) const
 {
   double product = 1;
@@ -214,10 +220,12 @@ FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &mom
   FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), W.n());
   M_inverse.mmult(rim_to_inner, W);
   for (const unsigned int face : GeometryInfo<dim>::face_indices())
-    for (unsigned int s = 0; moments[face] && s < dim - 1; ++s)
+    for (unsigned int c = 0; c < dim; ++c)
     {
+      if (!moments[dim * face + c])
+        continue;
       const auto number = [&](const unsigned int shape)
-      { return fe.component_to_system_index(tangents<dim>(face)[s], shape); };
+      { return fe.component_to_system_index(c, shape); };
       for (unsigned int r = 0; r < n_moments(); ++r)
       {
         const unsigned int row = number(inner[face][r]);

@@ -16,7 +16,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double stick_factor = 1e4;
+constexpr double held_factor = 1e4;
 constexpr unsigned int maximum_steps = 300;
 
 template <int dim>
@@ -62,32 +62,32 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
 
 template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
-    : space(space), system(system), blocks(space.discs.size()), inserted(space.discs.size()),
-      states(space.discs.size()),
+    : space(space), system(system), blocks(space.contact.size()), inserted(space.contact.size()),
+      states(space.contact.size()),
       is_direct(dim == 2 || space.scene.solver.linear == LinearMethod::direct)
 {
-  for (unsigned int k = 0; k < space.discs.size(); ++k)
+  for (unsigned int k = 0; k < blocks.size(); ++k)
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s; ++t)
-        blocks[k][s][t] = system.A.el(space.owned.nth_index_in_set(space.discs[k].unknowns[s]),
-                                      space.owned.nth_index_in_set(space.discs[k].unknowns[t]));
+        if (const auto &moment = space.contact[k]; moment.is_friction() || s == t)
+          blocks[k][s][t] = system.A.el(space.owned.nth_index_in_set(moment.unknowns[s]),
+                                        space.owned.nth_index_in_set(moment.unknowns[t]));
   motions = rigid_motions();
 }
 
 template <int dim>
-const typename MomentMatrix<dim>::Block &MomentMatrix<dim>::block(const unsigned int disc) const
+const typename MomentMatrix<dim>::Block &MomentMatrix<dim>::block(const unsigned int k) const
 {
-  return blocks[disc];
+  return blocks[k];
 }
 
-/** What sticks is no unknown. */
+/** What is held is no unknown. */
 template <int dim>
 void MomentMatrix<dim>::mask(DistributedVector &x) const
 {
   for (unsigned int k = 0; k < states.size(); ++k)
-    if (states[k].sticks)
-      for (const unsigned int unknown : space.discs[k].unknowns)
-        x.local_element(unknown) = 0;
+    if (states[k].is_held)
+      space.set_moment(x, k, {});
 }
 
 template <int dim>
@@ -134,21 +134,29 @@ std::vector<double> MomentMatrix<dim>::rigid_motions() const
                 rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
         }
     }
-  for (const FrictionFace<dim> &face : space.faces)
-    for (unsigned int k = face.first; k < face.first + space.tables.n_moments(); ++k)
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        for (unsigned int m = 0; m < n_motions<dim>; ++m)
-          result[m * n + space.discs[k].unknowns[s]] =
-              rigid_motion(m, (space.discs[k].x - centre) / length)[tangents<dim>(face.face)[s]];
+  for (const MomentFace<dim> &face : space.faces)
+    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+      for (unsigned int m = 0; m < n_motions<dim>; ++m)
+      {
+        const auto set = [&](const ContactMoment<dim> &moment, const unsigned int s,
+                             const unsigned int axis) {
+          result[m * n + moment.unknowns[s]] = rigid_motion(m, (moment.x - centre) / length)[axis];
+        };
+        for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
+          set(space.contact[face.friction + k], s, tangents<dim>(face.face)[s]);
+        if (face.has_pressure())
+          set(space.contact[face.pressure + k], 0, face.face / 2);
+      }
   return result;
 }
 
 template <int dim>
-void MomentMatrix<dim>::set_block(const unsigned int disc, const Block &block)
+void MomentMatrix<dim>::set_block(const unsigned int k, const Block &block)
 {
-  const auto &unknowns = space.discs[disc].unknowns;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    for (unsigned int t = 0; t < dim - 1; ++t)
+  const auto &unknowns = space.contact[k].unknowns;
+  const unsigned int n = space.contact[k].n_unknowns();
+  for (unsigned int s = 0; s < n; ++s)
+    for (unsigned int t = 0; t < n; ++t)
       system.A.set(space.owned.nth_index_in_set(unknowns[s]),
                    space.owned.nth_index_in_set(unknowns[t]), block[s][t]);
 }
@@ -163,12 +171,12 @@ void MomentMatrix<dim>::set_up()
   for (unsigned int k = 0; k < states.size(); ++k)
   {
     inserted[k] = states[k].stiffness;
-    if (states[k].sticks)
+    if (states[k].is_held)
       for (unsigned int s = 0; s < dim - 1; ++s)
       {
-        inserted[k][s][s] += (stick_factor - 1) * blocks[k][s][s];
+        inserted[k][s][s] += (held_factor - 1) * blocks[k][s][s];
         for (unsigned int m = 0; m < n_motions<dim>; ++m)
-          free_motions[m * n + space.discs[k].unknowns[s]] = 0;
+          free_motions[m * n + space.contact[k].unknowns[s]] = 0;
       }
     set_block(k, blocks[k] + inserted[k]);
   }
@@ -181,18 +189,18 @@ void MomentMatrix<dim>::set_up()
   setup_seconds += timer.wall_time();
 }
 
-/** By CHOLMOD, without what sticks. */
+/** By CHOLMOD, without what is held. */
 template <int dim>
 void MomentMatrix<dim>::factor_alone()
 {
-  std::vector<char> is_stuck(space.owned.n_elements(), 0);
+  std::vector<char> is_held(space.owned.n_elements(), 0);
   for (unsigned int k = 0; k < states.size(); ++k)
-    for (const unsigned int unknown : space.discs[k].unknowns)
-      is_stuck[unknown] = states[k].sticks;
+    for (const unsigned int unknown : space.contact[k].unknowns)
+      is_held[unknown] = states[k].is_held;
   SymmetricMatrix upper; // its column j is what row j has up to the diagonal
-  upper.resize((system.A.n_nonzero_elements() + is_stuck.size()) / 2);
+  upper.resize((system.A.n_nonzero_elements() + is_held.size()) / 2);
   int n_entries = 0;
-  for (unsigned int j = 0; j < is_stuck.size(); ++j)
+  for (unsigned int j = 0; j < is_held.size(); ++j)
   {
     int n = 0, *columns = nullptr;
     double *values = nullptr;
@@ -200,10 +208,10 @@ void MomentMatrix<dim>::factor_alone()
     for (int e = 0; e < n; ++e)
     {
       const unsigned int i = columns[e]; // numbered alike on one process
-      if (i > j || (i < j && (values[e] == 0 || is_stuck[i] || is_stuck[j])))
+      if (i > j || (i < j && (values[e] == 0 || is_held[i] || is_held[j])))
         continue;
       upper.row[n_entries] = i;
-      upper.value[n_entries++] = i == j && is_stuck[j] ? 1. : values[e];
+      upper.value[n_entries++] = i == j && is_held[j] ? 1. : values[e];
     }
     upper.column_start.push_back(n_entries);
   }
@@ -215,14 +223,13 @@ void MomentMatrix<dim>::factor_alone()
 template <int dim>
 void MomentMatrix<dim>::factor_together()
 {
-  std::vector<types::global_dof_index> stuck;
+  std::vector<types::global_dof_index> held;
   for (unsigned int k = 0; k < states.size(); ++k)
-    for (const unsigned int unknown : space.discs[k].unknowns)
-      if (states[k].sticks)
-        stuck.push_back(space.owned.nth_index_in_set(unknown));
+    for (unsigned int s = 0; states[k].is_held && s < space.contact[k].n_unknowns(); ++s)
+      held.push_back(space.owned.nth_index_in_set(space.contact[k].unknowns[s]));
   factored.reinit(system.A);
   factored.copy_from(system.A);
-  factored.clear_rows(stuck, 1.);
+  factored.clear_rows(held, 1.);
   using Factors = TrilinosWrappers::SolverDirect;
   factors = std::make_unique<Factors>(control, Factors::AdditionalData(false, "Amesos_Mumps"));
   factors->initialize(factored);
@@ -250,15 +257,17 @@ void MomentMatrix<dim>::factor()
 }
 
 template <int dim>
-void MomentMatrix<dim>::linearise(const std::vector<DiscState<dim>> &new_states, const bool anew)
+void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_states, const bool anew)
 {
   types::global_dof_index changed = 0;
   for (unsigned int k = 0; k < states.size(); ++k)
-    changed += states[k].sticks != new_states[k].sticks;
+    changed += states[k].is_held != new_states[k].is_held;
   states = new_states;
   if (is_direct)
     factor();
-  else if (anew || !amg || 50 * Utilities::MPI::sum(changed, space.communicator()) > space.n_discs)
+  else if (anew || !amg ||
+           50 * Utilities::MPI::sum(changed, space.communicator()) >
+               space.n_discs + space.n_pressures)
     set_up();
 }
 
@@ -280,7 +289,7 @@ void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVect
   }
   amg->vmult(z, r);
   for (unsigned int k = 0; k < states.size(); ++k)
-    if (!states[k].sticks && known[k].sticks)
+    if (!states[k].is_held && known[k].is_held)
       space.add_moment(z, k, invert(blocks[k] + states[k].stiffness) * space.moment(r, k));
   mask(z);
 }
@@ -291,7 +300,6 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
                                 const double tolerance)
 {
   DistributedVector r = b, z = b, p, q = b;
-  mask(v);
   multiply_linearised(q, v);
   mask(r);
   r -= q;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/input_error.h>
 #include <hpvi/moments/moment_space.h>
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace hpvi
 {
@@ -40,6 +44,33 @@ private:
 } // namespace
 
 template <int dim>
+ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) const
+{
+  ContactVector<dim> result;
+  if (is_friction())
+    result = z / std::max(1., z.norm());
+  else
+    result[0] = std::max(0., z[0]);
+  return result;
+}
+
+template <int dim>
+bool ContactMoment<dim>::holds(const ContactVector<dim> &z) const
+{
+  return is_friction() ? z.norm() <= 1 : z[0] > 0;
+}
+
+template <int dim>
+std::vector<unsigned int> MomentFace<dim>::axes() const
+{
+  std::vector<unsigned int> result;
+  for (unsigned int c = 0; c < dim; ++c)
+    if (c == face / 2 ? has_pressure() : has_friction())
+      result.push_back(c);
+  return result;
+}
+
+template <int dim>
 MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
     : scene(scene), tables(tables), dof_handler(mesh)
@@ -48,12 +79,16 @@ MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
   together(communicator(), [this]() { constrain(); });
   constraints.make_consistent_in_parallel(owned, relevant, communicator());
   constraints.close();
-  together(communicator(), [this]() { find_discs(); });
+  together(communicator(), [this]() { find_contact(); });
   types::global_dof_index constrained = 0;
   for (const auto i : owned)
     constrained += constraints.is_constrained(i);
   n_free = dof_handler.n_dofs() - Utilities::MPI::sum(constrained, communicator());
-  n_discs = Utilities::MPI::sum(types::global_dof_index(discs.size()), communicator());
+  const types::global_dof_index own_discs =
+      std::count_if(contact.begin(), contact.end(), [](const auto &c) { return c.is_friction(); });
+  n_discs = Utilities::MPI::sum(own_discs, communicator());
+  n_pressures =
+      Utilities::MPI::sum(types::global_dof_index(contact.size()) - own_discs, communicator());
 }
 
 /** The components of a node one after the other, as multigrid wants them. */
@@ -99,39 +134,100 @@ void MomentSpace<dim>::constrain()
 }
 
 template <int dim>
-void MomentSpace<dim>::find_discs()
+void MomentSpace<dim>::find_contact()
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   for (const Cell &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
     {
-      const std::vector<bool> has_friction = friction_faces(cell);
-      const Tensor<1, dim> size = extent(cell);
       cell->get_dof_indices(dofs);
-      for (const unsigned int face : cell->face_indices())
+      for (const unsigned int number : cell->face_indices())
       {
-        if (!has_friction[face])
+        if (!cell->at_boundary(number))
           continue;
-        first_discs[{cell->active_cell_index(), face}] = discs.size();
-        faces.push_back({cell, face, static_cast<unsigned int>(discs.size())});
-        const BoxTable<dim> &table = tables.moment_points[face];
-        for (unsigned int k = 0; k < tables.n_moments(); ++k)
-        {
-          ContactDisc<dim> disc;
-          disc.radius = table.weights[k];
-          disc.x = point_of(cell, table.points[k]);
-          for (unsigned int s = 0; s < dim - 1; ++s)
-          {
-            const unsigned int axis = tangents<dim>(face)[s];
-            disc.radius *= size[axis];
-            disc.unknowns[s] = owned.index_within_set(dof(dofs, tables.inner[face][k], axis));
-          }
-          disc.bound = condition(cell, face).friction.bound->value(disc.x);
-          disc.radius *= disc.bound;
-          discs.push_back(disc);
-        }
+        const BoundaryCondition<dim> &boundary = condition(cell, number);
+        MomentFace<dim> face{cell, number};
+        if (boundary.has_contact() && boundary.friction.bound)
+          add_friction(face, dofs);
+        if (boundary.is_unilateral())
+          add_pressures(face, dofs);
+        if (!face.has_friction() && !face.has_pressure())
+          continue;
+        face_numbers[{cell->active_cell_index(), number}] = faces.size();
+        faces.push_back(face);
       }
     }
+}
+
+template <int dim>
+void MomentSpace<dim>::add_friction(MomentFace<dim> &face,
+                                    const std::vector<types::global_dof_index> &dofs)
+{
+  face.friction = contact.size();
+  const BoxTable<dim> &table = tables.moment_points[face.face];
+  for (unsigned int k = 0; k < tables.n_moments(); ++k)
+  {
+    ContactMoment<dim> disc;
+    disc.kind = ContactMoment<dim>::Kind::friction;
+    disc.x = point_of(face.cell, table.points[k]);
+    disc.area = table.weights[k] * face.cell->face(face.face)->measure();
+    disc.bound = condition(face.cell, face.face).friction.bound->value(disc.x);
+    disc.weight = disc.bound * disc.area;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      disc.unknowns[s] = owned.index_within_set(
+          dof(dofs, tables.inner[face.face][k], tangents<dim>(face.face)[s]));
+    contact.push_back(disc);
+  }
+}
+
+template <int dim>
+void MomentSpace<dim>::add_pressures(MomentFace<dim> &face,
+                                     const std::vector<types::global_dof_index> &dofs)
+{
+  face.pressure = contact.size();
+  const BoxTable<dim> &table = tables.moment_points[face.face];
+  for (unsigned int k = 0; k < tables.n_moments(); ++k)
+  {
+    ContactMoment<dim> pressure;
+    pressure.kind = ContactMoment<dim>::Kind::pressure;
+    pressure.x = point_of(face.cell, table.points[k]);
+    pressure.area = table.weights[k] * face.cell->face(face.face)->measure();
+    pressure.weight = pressure.area;
+    pressure.gap[0] = moment_of_gap(face, k);
+    pressure.sign = face.face % 2 == 0 ? -1. : 1.;
+    pressure.unknowns.fill(
+        owned.index_within_set(dof(dofs, tables.inner[face.face][k], face.face / 2)));
+    contact.push_back(pressure);
+  }
+}
+
+/** `int psi_k u_0 / int psi_k` by p+2 points a direction, as in the plane. */
+template <int dim>
+double MomentSpace<dim>::moment_of_gap(const MomentFace<dim> &face, const unsigned int k) const
+{
+  const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
+  if (!boundary.gap)
+    return 0;
+  const QGauss<dim - 1> rule(tables.degree + 2);
+  double integral = 0;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    Point<dim> unit;
+    unit[face.face / 2] = face.face % 2;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      unit[tangents<dim>(face.face)[s]] = rule.point(q)[s];
+    const Point<dim> x = point_of(face.cell, unit);
+    const double gap = boundary.gap->value(x);
+    if (!std::isfinite(gap))
+    {
+      std::ostringstream line;
+      line << "Boundary " << boundary.name << "/Gap: is " << gap << " at (" << x
+           << "); give a gap that is finite everywhere";
+      throw InputError(line.str());
+    }
+    integral += rule.weight(q) * tables.psi(k, face.face, unit) * gap;
+  }
+  return integral / tables.moment_points[face.face].weights[k];
 }
 
 template <int dim>
@@ -171,10 +267,10 @@ DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) con
   const unsigned int n = tables.n_moments();
   Vector<double> rest(n), inner(n);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const FrictionFace<dim> &face : faces)
+  for (const MomentFace<dim> &face : faces)
   {
     face.cell->get_dof_indices(dofs);
-    for (const unsigned int axis : tangents<dim>(face.face))
+    for (const unsigned int axis : face.axes())
     {
       const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
       for (unsigned int k = 0; k < n; ++k)
@@ -199,7 +295,7 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
-  for (const FrictionFace<dim> &face : faces)
+  for (const MomentFace<dim> &face : faces)
   {
     const CellField<dim> field = this->field(face.cell, u);
     for (unsigned int k = 0; k < tables.n_moments(); ++k)
@@ -209,8 +305,10 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
         m += tables.M(k, j) * field[tables.inner[face.face][j]];
       for (unsigned int j = 0; j < tables.W.n(); ++j)
         m += tables.W(k, j) * field[tables.rim[face.face][j]];
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        v.local_element(discs[face.first + k].unknowns[s]) = m[tangents<dim>(face.face)[s]];
+      for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
+        v.local_element(contact[face.friction + k].unknowns[s]) = m[tangents<dim>(face.face)[s]];
+      if (face.has_pressure())
+        v.local_element(contact[face.pressure + k].unknowns[0]) = m[face.face / 2];
     }
   }
   constraints.set_zero(v);
@@ -218,20 +316,28 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
 }
 
 template <int dim>
-Tangential<dim> MomentSpace<dim>::moment(const DistributedVector &v, const unsigned int disc) const
+ContactVector<dim> MomentSpace<dim>::moment(const DistributedVector &v, const unsigned int k) const
 {
-  Tangential<dim> result;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    result[s] = v.local_element(discs[disc].unknowns[s]);
+  ContactVector<dim> result;
+  for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
+    result[s] = contact[k].sign * v.local_element(contact[k].unknowns[s]);
   return result;
 }
 
 template <int dim>
-void MomentSpace<dim>::add_moment(DistributedVector &v, const unsigned int disc,
-                                  const Tangential<dim> &value) const
+void MomentSpace<dim>::add_moment(DistributedVector &v, const unsigned int k,
+                                  const ContactVector<dim> &value) const
 {
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    v.local_element(discs[disc].unknowns[s]) += value[s];
+  for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
+    v.local_element(contact[k].unknowns[s]) += contact[k].sign * value[s];
+}
+
+template <int dim>
+void MomentSpace<dim>::set_moment(DistributedVector &v, const unsigned int k,
+                                  const ContactVector<dim> &value) const
+{
+  for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
+    v.local_element(contact[k].unknowns[s]) = contact[k].sign * value[s];
 }
 
 template <int dim>
@@ -271,21 +377,35 @@ const BoundaryCondition<dim> &MomentSpace<dim>::condition(const Cell &cell,
 }
 
 template <int dim>
-std::vector<bool> MomentSpace<dim>::friction_faces(const Cell &cell) const
+std::vector<bool>
+MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iterator &cell) const
 {
-  std::vector<bool> result(GeometryInfo<dim>::faces_per_cell, false);
+  std::vector<bool> result(dim * GeometryInfo<dim>::faces_per_cell, false);
   for (const unsigned int face : cell->face_indices())
-    result[face] = cell->at_boundary(face) && condition(cell, face).has_contact() &&
-                   condition(cell, face).friction.bound;
+  {
+    if (!cell->at_boundary(face))
+      continue;
+    const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
+    for (unsigned int c = 0; c < dim; ++c)
+      result[dim * face + c] = c == face / 2
+                                   ? boundary.is_unilateral()
+                                   : boundary.has_contact() && boundary.friction.bound != nullptr;
+  }
   return result;
 }
 
 template <int dim>
-unsigned int MomentSpace<dim>::first_disc(const Cell &cell, const unsigned int face) const
+const MomentFace<dim> *MomentSpace<dim>::moment_face(const Cell &cell,
+                                                     const unsigned int face) const
 {
-  return first_discs.at({cell->active_cell_index(), face});
+  const auto found = face_numbers.find({cell->active_cell_index(), face});
+  return found == face_numbers.end() ? nullptr : &faces[found->second];
 }
 
+template struct ContactMoment<2>;
+template struct ContactMoment<3>;
+template struct MomentFace<2>;
+template struct MomentFace<3>;
 template class MomentSpace<2>;
 template class MomentSpace<3>;
 } // namespace hpvi

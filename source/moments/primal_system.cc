@@ -74,29 +74,32 @@ void PrimalSystem<dim>::assemble()
       for (unsigned int i = 0; i < loads.size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
           nodal[fe.component_to_system_index(c, i)] = loads[i][c];
-      const std::vector<bool> friction_faces = space.friction_faces(cell);
-      if (std::find(friction_faces.begin(), friction_faces.end(), true) == friction_faces.end())
+      const std::vector<bool> moment_components = space.moment_components(cell);
+      if (std::find(moment_components.begin(), moment_components.end(), true) ==
+          moment_components.end())
         F = nodal;
       else
-        space.tables.basis_of_moments(friction_faces).Tvmult(F, nodal);
+        space.tables.basis_of_moments(moment_components).Tvmult(F, nodal);
       cell->get_dof_indices(dofs);
-      space.constraints.distribute_local_to_global(stiffness(cell, friction_faces), F, dofs, A, f);
+      space.constraints.distribute_local_to_global(stiffness(cell, moment_components), F, dofs, A,
+                                                   f);
     }
 }
 
 template <int dim>
 const FullMatrix<double> &
-PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &friction_faces) const
+PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &moment_components) const
 {
   const auto [entry, is_new] =
-      matrices.try_emplace({cell->level(), cell->material_id(), friction_faces});
+      matrices.try_emplace({cell->level(), cell->material_id(), moment_components});
   if (!is_new)
     return entry->second;
   const Matrix K = space.tables.stiffness(HookesLaw<dim>(space.scene.material_of(cell)),
                                           MomentSpace<dim>::extent(cell));
-  if (std::find(friction_faces.begin(), friction_faces.end(), true) == friction_faces.end())
+  if (std::find(moment_components.begin(), moment_components.end(), true) ==
+      moment_components.end())
     return entry->second = K;
-  const Matrix T = space.tables.basis_of_moments(friction_faces);
+  const Matrix T = space.tables.basis_of_moments(moment_components);
   Matrix KT(K.m(), K.m());
   K.mmult(KT, T);
   entry->second.reinit(K.m(), K.m());
@@ -143,7 +146,7 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 {
   double sum = 0;
   const FESystem<dim> &fe = space.tables.fe;
-  const std::vector<bool> none(GeometryInfo<dim>::faces_per_cell, false);
+  const std::vector<bool> none(dim * GeometryInfo<dim>::faces_per_cell, false);
   Vector<double> local(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -170,7 +173,7 @@ PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
 {
   NodalForces forces{space.ghosted_vector(), space.ghosted_vector()};
   const FESystem<dim> &fe = space.tables.fe;
-  const std::vector<bool> none(GeometryInfo<dim>::faces_per_cell, false);
+  const std::vector<bool> none(dim * GeometryInfo<dim>::faces_per_cell, false);
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
   Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())

@@ -54,9 +54,9 @@ Record row(const MomentPoint<dim> &point, const BoundaryCondition<dim> &boundary
   add_tangential(record, "multiplier", point.lambda, point);
   record.emplace_back("normal_traction", text(point.normal_traction));
   add_tangential(record, "tangential_traction", -point.bound * point.lambda, point);
-  record.emplace_back("state", mode_name(point.slips ? ContactMode::slip : ContactMode::stick));
+  record.emplace_back("state", mode_name(point.mode()));
   record.emplace_back("boundary", boundary.name);
-  record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(-u_n));
+  record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(point.gap));
   return record;
 }
 } // namespace

@@ -31,16 +31,29 @@ std::string known(const double value)
   return std::isfinite(value) ? text(value) : "";
 }
 
+/** Nothing where no contact can be penetrated. */
+template <int dim>
+std::string json_penetration(const BoundaryCondition<dim> &boundary,
+                             const Penetration<dim> &penetration)
+{
+  if (!boundary.is_unilateral())
+    return "";
+  return ",\n      \"largest_penetration\": " + text(penetration.depth) +
+         ",\n      \"largest_penetration_at\": " +
+         (penetration.depth > 0 ? json_point<dim>(penetration.x) : "null");
+}
+
 /** A member of summary.json: force, pressure and zones of each contact boundary. */
 template <int dim>
-std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points)
+std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points,
+                         const std::vector<Penetration<dim>> &penetrations)
 {
   std::string list;
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     if (!boundary.has_contact())
       continue;
-    double normal = 0, area = 0, slipping = 0, pressure = 0;
+    double normal = 0, area = 0, open = 0, slipping = 0, pressure = 0;
     Tensor<1, dim> friction;
     Point<dim> at;
     for (const MomentPoint<dim> &point : points)
@@ -50,7 +63,8 @@ std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<
       normal += point.area * point.normal_traction;
       friction -= point.area * point.bound * point.lambda;
       area += point.area;
-      slipping += point.slips ? point.area : 0.;
+      open += point.mode() == ContactMode::open ? point.area : 0.;
+      slipping += point.mode() == ContactMode::slip ? point.area : 0.;
       if (-point.normal_traction > pressure)
       {
         pressure = -point.normal_traction;
@@ -62,8 +76,9 @@ std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<
             ",\n      \"friction_resultant\": " + json_point<dim>(friction) +
             ",\n      \"largest_pressure\": " + text(pressure) +
             ",\n      \"largest_pressure_at\": " + (pressure > 0 ? json_point<dim>(at) : "null") +
-            ",\n      \"area\": " + text(area) + ",\n      \"slipping_area\": " + text(slipping) +
-            "\n    }";
+            json_penetration(boundary, penetrations[boundary.id]) +
+            ",\n      \"area\": " + text(area) + ",\n      \"open_area\": " + text(open) +
+            ",\n      \"slipping_area\": " + text(slipping) + "\n    }";
   }
   return "  \"contact\": {" + list + (list.empty() ? "" : "\n  ") + "},\n";
 }
@@ -110,11 +125,12 @@ template <int dim>
 Record convergence_record(const PrimalReport<dim> &step)
 {
   const std::string degree = std::to_string(step.space.tables.degree);
+  const bool unilateral = step.space.scene.has_unilateral_contact();
   Record record{{"step", text(step.number)},
                 {"elements", std::to_string(step.n_cells)},
                 {"dofs", std::to_string(step.space.dof_handler.n_dofs())},
                 {"dofs_free", std::to_string(step.space.n_free)},
-                {"multipliers", std::to_string((dim - 1) * step.space.n_discs)},
+                {"multipliers", std::to_string(step.space.n_multipliers())},
                 {"p_min", degree},
                 {"p_max", degree},
                 {"estimate", text(step.total_estimate)},
@@ -126,6 +142,9 @@ Record convergence_record(const PrimalReport<dim> &step)
                 {"estimate_jumps", text(step.estimate_jumps)},
                 {"estimate_neumann", text(step.estimate_neumann)},
                 {"estimate_contact", text(step.estimate_contact)},
+                {"estimate_normal", unilateral ? text(step.estimate_normal) : ""},
+                {"estimate_penetration", unilateral ? text(step.estimate_penetration) : ""},
+                {"estimate_tension", unilateral ? text(step.estimate_tension) : ""},
                 {"estimate_scaled", text(step.scaled_estimate)},
                 {"estimate_relative", known(step.relative_estimate)},
                 {"energy_norm", text(step.energies.norm)},
@@ -138,6 +157,7 @@ Record convergence_record(const PrimalReport<dim> &step)
                 {"newton_error", text(step.newton.error)},
                 {"augmented_steps", text(step.newton.augmented_steps)},
                 {"slipping", text(step.newton.n_slipping)},
+                {"pressing", unilateral ? text(step.newton.n_pressing) : ""},
                 {"peak_memory", text(step.peak_memory)},
                 {"processes", text(Utilities::MPI::n_mpi_processes(step.space.communicator()))}};
   for (const auto &field : resultants(step.contact))
@@ -256,7 +276,8 @@ void PrimalOutput<dim>::write_tables(const PrimalReport<dim> &step)
     forces = "  \"error_bound\": null,\n  \"no_error_bound\": \"the primal path has no guaranteed "
              "bound of "
              "the error\",\n" +
-             equilibrium_json(step.equilibrium) + json_contact(scene, step.contact);
+             equilibrium_json(step.equilibrium) +
+             json_contact(scene, step.contact, step.penetrations);
   write("summary.json", summary());
 }
 

@@ -18,28 +18,28 @@ template <int dim>
 AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
                                               const PrimalSystem<dim> &system,
                                               MomentMatrix<dim> &matrix,
-                                              const std::vector<Tangential<dim>> &start)
+                                              const std::vector<ContactVector<dim>> &start)
     : space(space), system(system), matrix(matrix), lambda(start)
 {
   const Corners<dim> &corners = space.scene.geometry.corners;
   growth = space.scene.materials[0].young / corners.back().distance(corners.front());
-  for (Tangential<dim> &value : lambda)
-    value = projected(value);
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    lambda[k] = space.contact[k].projected(lambda[k]);
 }
 
 /** `G_k c_k`: at first that of a body as thick as this one, in the end several times what a moment meets in A. */
 template <int dim>
-double AugmentedLagrangian<dim>::stiffness(const unsigned int disc) const
+double AugmentedLagrangian<dim>::stiffness(const unsigned int k) const
 {
-  return std::min(growth * space.discs[disc].radius / space.discs[disc].bound,
-                  20 * trace(matrix.block(disc)) / (dim - 1));
+  return std::min(growth * space.contact[k].area, 20 * trace(matrix.block(k)) / (dim - 1));
 }
 
 template <int dim>
-Tangential<dim> AugmentedLagrangian<dim>::argument(const DistributedVector &v,
-                                                   const unsigned int disc) const
+ContactVector<dim> AugmentedLagrangian<dim>::argument(const DistributedVector &v,
+                                                      const unsigned int k) const
 {
-  return lambda[disc] + stiffness(disc) / space.discs[disc].radius * space.moment(v, disc);
+  const ContactMoment<dim> &moment = space.contact[k];
+  return lambda[k] + stiffness(k) / moment.weight * (space.moment(v, k) - moment.gap);
 }
 
 template <int dim>
@@ -49,8 +49,8 @@ DistributedVector AugmentedLagrangian<dim>::gradient(const DistributedVector &v)
   matrix.multiply(result, v);
   result -= system.f;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.discs[k].radius; G > 0)
-      space.add_moment(result, k, G * projected(argument(v, k)));
+    if (const double G = space.contact[k].weight; G > 0)
+      space.add_moment(result, k, G * space.contact[k].projected(argument(v, k)));
   return result;
 }
 
@@ -60,20 +60,36 @@ double AugmentedLagrangian<dim>::change(const DistributedVector &v) const
 {
   double sum = 0;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.discs[k].radius; G > 0)
-      sum += (G * (projected(argument(v, k)) - lambda[k])).norm_square();
+    if (const double G = space.contact[k].weight; G > 0)
+      sum += (G * (space.contact[k].projected(argument(v, k)) - lambda[k])).norm_square();
+  return std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
+}
+
+/** Of the contact: the root of the sum of their squares. Without loads they say what round-off is. */
+template <int dim>
+double AugmentedLagrangian<dim>::contact_forces() const
+{
+  double sum = 0;
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    sum += (space.contact[k].weight * lambda[k]).norm_square();
   return std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
 }
 
 template <int dim>
-std::vector<DiscState<dim>> AugmentedLagrangian<dim>::states(const DistributedVector &v) const
+std::vector<MomentState<dim>> AugmentedLagrangian<dim>::states(const DistributedVector &v) const
 {
-  std::vector<DiscState<dim>> result(lambda.size());
+  std::vector<MomentState<dim>> result(lambda.size());
   for (unsigned int k = 0; k < lambda.size(); ++k)
   {
-    if (!(space.discs[k].radius > 0))
+    if (!(space.contact[k].weight > 0))
       continue;
-    const Tangential<dim> z = argument(v, k);
+    const ContactVector<dim> z = argument(v, k);
+    if (!space.contact[k].is_friction())
+    {
+      if (z[0] > 0)
+        result[k].stiffness = stiffness(k) * unit_symmetric_tensor<dim - 1>();
+      continue;
+    }
     const double size = z.norm();
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s; ++t)
@@ -85,18 +101,18 @@ std::vector<DiscState<dim>> AugmentedLagrangian<dim>::states(const DistributedVe
   return result;
 }
 
-/** The derivative of the terms of friction at `v + length step` along @p step. */
+/** The derivative of the terms of contact at `v + length step` along @p step. */
 template <int dim>
-double AugmentedLagrangian<dim>::work_of_friction(const DistributedVector &v,
-                                                  const DistributedVector &step,
-                                                  const double length) const
+double AugmentedLagrangian<dim>::work_of_contact(const DistributedVector &v,
+                                                 const DistributedVector &step,
+                                                 const double length) const
 {
   double sum = 0;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.discs[k].radius; G > 0)
+    if (const double G = space.contact[k].weight; G > 0)
     {
-      const Tangential<dim> m = space.moment(step, k);
-      sum += G * projected(argument(v, k) + length * stiffness(k) / G * m) * m;
+      const ContactVector<dim> m = space.moment(step, k);
+      sum += G * space.contact[k].projected(argument(v, k) + length * stiffness(k) / G * m) * m;
     }
   return Utilities::MPI::sum(sum, space.communicator());
 }
@@ -110,9 +126,9 @@ double AugmentedLagrangian<dim>::length_of(const DistributedVector &v,
   DistributedVector product = v;
   matrix.multiply(product, step);
   const double curvature = step * product, slope = gradient * step,
-               linear = slope - work_of_friction(v, step, 0);
+               linear = slope - work_of_contact(v, step, 0);
   const auto derivative = [&](const double length)
-  { return linear + length * curvature + work_of_friction(v, step, length); };
+  { return linear + length * curvature + work_of_contact(v, step, length); };
   if (!(derivative(1) > 0.5 * std::abs(slope)))
     return 1;
   double begin = 0, end = 1;
@@ -129,7 +145,7 @@ unsigned int AugmentedLagrangian<dim>::update(DistributedVector &v)
   for (double size = b.l2_norm(), previous = size; size > 0.1 * change(v);
        previous = size, size = b.l2_norm(), ++n_steps)
   {
-    if (size <= 1e-14 * system.f.l2_norm())
+    if (size <= 1e-14 * std::max(system.f.l2_norm(), contact_forces()))
       break;
     if (n_steps == maximum_steps)
       throw NumericalFailure("the augmented Lagrangian does not converge");
@@ -142,8 +158,8 @@ unsigned int AugmentedLagrangian<dim>::update(DistributedVector &v)
     b = gradient(v);
   }
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (space.discs[k].radius > 0)
-      lambda[k] = projected(argument(v, k));
+    if (space.contact[k].weight > 0)
+      lambda[k] = space.contact[k].projected(argument(v, k));
   growth *= 10;
   return n_steps;
 }

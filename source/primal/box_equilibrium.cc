@@ -12,6 +12,23 @@ using namespace dealii;
 
 namespace
 {
+/** `G lambda` at Gauss point @p k of a face, along the axes of the body. */
+template <int dim>
+Tensor<1, dim> force_at(const MomentSpace<dim> &space, const MomentFace<dim> &face,
+                        const unsigned int k, const std::vector<ContactVector<dim>> &lambda)
+{
+  Tensor<1, dim> result;
+  for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
+    result[tangents<dim>(face.face)[s]] =
+        space.contact[face.friction + k].weight * lambda[face.friction + k][s];
+  if (face.has_pressure())
+  {
+    const ContactMoment<dim> &pressure = space.contact[face.pressure + k];
+    result[face.face / 2] = pressure.sign * pressure.weight * lambda[face.pressure + k][0];
+  }
+  return result;
+}
+
 /** What this process knows of nodes and of the forces there. */
 template <int dim>
 class NodalReactions
@@ -20,12 +37,12 @@ public:
   using Cell = typename MomentSpace<dim>::Cell;
 
   NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-                 const DistributedVector &u, const std::vector<Tangential<dim>> &lambda);
+                 const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
   void add_to(Resultants<dim> &resultants) const;
 
 private:
   void find_nodes();
-  void find_friction(const std::vector<Tangential<dim>> &lambda);
+  void find_contact_forces(const std::vector<ContactVector<dim>> &lambda);
   void carry_to_masters();
 
   const MomentSpace<dim> &space;
@@ -37,38 +54,38 @@ private:
     std::set<types::boundary_id> holds; ///< whose conditions hold it
   };
   std::vector<Node> nodes; ///< of the unknowns of this process
-  struct Friction
+  struct ContactForce
   {
     types::boundary_id boundary;
     Tensor<1, dim> force;
     Point<dim> x;
   };
-  std::vector<Friction> friction; ///< of nodes of faces of this process
+  std::vector<ContactForce> contact_forces; ///< of nodes of faces of this process
 };
 
 template <int dim>
 NodalReactions<dim>::NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
                                     const DistributedVector &u,
-                                    const std::vector<Tangential<dim>> &lambda)
+                                    const std::vector<ContactVector<dim>> &lambda)
     : space(space), nodes(space.owned.n_elements())
 {
   auto forces = system.nodal_forces(u);
   loads.swap(forces.loads);
   reactions.swap(forces.internal);
   reactions -= loads;
-  find_friction(lambda);
+  find_contact_forces(lambda);
   carry_to_masters();
   find_nodes();
 }
 
-/** `-sum_k G_k lambda_k m_k(phi_i)` on inner and rim nodes of faces with friction, which no support exerts. */
+/** `-sum_k G_k lambda_k m_k(phi_i)`: on inner and rim nodes of contact faces what no support exerts. */
 template <int dim>
-void NodalReactions<dim>::find_friction(const std::vector<Tangential<dim>> &lambda)
+void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<dim>> &lambda)
 {
   const BoxTables<dim> &tables = space.tables;
   DistributedVector sum = space.ghosted_vector();
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const FrictionFace<dim> &face : space.faces)
+  for (const MomentFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
     const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
@@ -76,16 +93,12 @@ void NodalReactions<dim>::find_friction(const std::vector<Tangential<dim>> &lamb
       for (unsigned int j = 0; j < shapes.size(); ++j)
       {
         Tensor<1, dim> force;
-        for (unsigned int s = 0; s < dim - 1; ++s)
-        {
-          const unsigned int axis = tangents<dim>(face.face)[s];
-          for (unsigned int k = 0; k < tables.n_moments(); ++k)
-            force[axis] -=
-                space.discs[face.first + k].radius * lambda[face.first + k][s] * moments(k, j);
+        for (unsigned int k = 0; k < tables.n_moments(); ++k)
+          force -= moments(k, j) * force_at(space, face, k, lambda);
+        for (const unsigned int axis : face.axes())
           sum(dofs[tables.fe.component_to_system_index(axis, shapes[j])]) += force[axis];
-        }
         const unsigned int node = tables.fe.component_to_system_index(0, shapes[j]);
-        friction.push_back(
+        contact_forces.push_back(
             {face.cell->face(face.face)->boundary_id(), force,
              MomentSpace<dim>::point_of(face.cell, tables.fe.unit_support_point(node))});
       }
@@ -161,14 +174,15 @@ void NodalReactions<dim>::add_to(Resultants<dim> &resultants) const
     for (const types::boundary_id boundary : node.holds)
       resultants.add_reaction(boundary, force, node.x);
   }
-  for (const Friction &part : friction)
+  for (const ContactForce &part : contact_forces)
     resultants.add_reaction(part.boundary, part.force, part.x);
 }
 } // namespace
 
 template <int dim>
 Equilibrium<dim> equilibrium(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-                             const DistributedVector &u, const std::vector<Tangential<dim>> &lambda)
+                             const DistributedVector &u,
+                             const std::vector<ContactVector<dim>> &lambda)
 {
   const Corners<dim> &corners = space.scene.geometry.corners;
   Resultants<dim> resultants(space.scene,
@@ -180,7 +194,9 @@ Equilibrium<dim> equilibrium(const MomentSpace<dim> &space, const PrimalSystem<d
 }
 
 template Equilibrium<2> equilibrium(const MomentSpace<2> &, const PrimalSystem<2> &,
-                                    const DistributedVector &, const std::vector<Tangential<2>> &);
+                                    const DistributedVector &,
+                                    const std::vector<ContactVector<2>> &);
 template Equilibrium<3> equilibrium(const MomentSpace<3> &, const PrimalSystem<3> &,
-                                    const DistributedVector &, const std::vector<Tangential<3>> &);
+                                    const DistributedVector &,
+                                    const std::vector<ContactVector<3>> &);
 } // namespace hpvi

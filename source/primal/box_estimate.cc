@@ -2,6 +2,7 @@
 #include <hpvi/primal/box_estimate.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hpvi
 {
@@ -17,7 +18,7 @@ public:
   using Cell = typename MomentSpace<dim>::Cell;
 
   BoxResiduals(const MomentSpace<dim> &space, const DistributedVector &u,
-               const std::vector<Tangential<dim>> &lambda);
+               const std::vector<ContactVector<dim>> &lambda);
   ErrorEstimate compute();
 
 private:
@@ -30,12 +31,15 @@ private:
 
   Tensor<1, dim> traction(const Cell &cell, const BoxTable<dim> &table, unsigned int q,
                           const CellField<dim> &field, unsigned int face) const;
-  Tensor<1, dim> friction(const Cell &cell, unsigned int face, const Point<dim> &unit) const;
+  Tensor<1, dim> contact_traction(const MomentFace<dim> &face, const Point<dim> &unit) const;
+  double tension(const MomentFace<dim> &face) const;
+  double penetration(const MomentFace<dim> &face, const CellField<dim> &field) const;
 
   const MomentSpace<dim> &space;
   const DistributedVector &u;
-  const std::vector<Tangential<dim>> &lambda;
+  const std::vector<ContactVector<dim>> &lambda;
   ErrorEstimate result;
+  std::vector<BoxTable<dim>> fine_faces; ///< by face, with twice as many points as u_N has nodes
 };
 
 /** Which side of @p whole's centre does @p piece lie on? */
@@ -56,12 +60,18 @@ double longest_edge(const Tensor<1, dim> &size)
 
 template <int dim>
 BoxResiduals<dim>::BoxResiduals(const MomentSpace<dim> &space, const DistributedVector &u,
-                                const std::vector<Tangential<dim>> &lambda)
+                                const std::vector<ContactVector<dim>> &lambda)
     : space(space), u(u), lambda(lambda)
 {
   const unsigned int n_cells = space.dof_handler.get_triangulation().n_active_cells();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
+  if (!space.scene.has_unilateral_contact())
+    return;
+  for (auto *part : {&result.normal, &result.penetration, &result.tension})
+    part->assign(n_cells, 0.);
+  for (const unsigned int face : GeometryInfo<dim>::face_indices())
+    fine_faces.push_back(space.tables.face_table(face, 2 * (space.tables.degree + 1)));
 }
 
 /** `int |div sigma + F|^2` */
@@ -144,34 +154,39 @@ double BoxResiduals<dim>::jumps(const Cell &cell, const unsigned int face,
   return sum;
 }
 
-/** The contact's traction `-g lambda` at a point of a face, as a vector; zero without friction. */
+/** The contact's traction `-g lambda - p n` at a point of a face; zero in components without a multiplier. */
 template <int dim>
-Tensor<1, dim> BoxResiduals<dim>::friction(const Cell &cell, const unsigned int face,
-                                           const Point<dim> &unit) const
+Tensor<1, dim> BoxResiduals<dim>::contact_traction(const MomentFace<dim> &face,
+                                                   const Point<dim> &unit) const
 {
   Tensor<1, dim> result;
-  if (!space.friction_faces(cell)[face])
-    return result;
-  const unsigned int first = space.first_disc(cell, face);
   for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
-    for (unsigned int s = 0; s < dim - 1; ++s)
-      result[tangents<dim>(face)[s]] -=
-          space.discs[first + k].bound * lambda[first + k][s] * space.tables.psi(k, face, unit);
+  {
+    const double psi = space.tables.psi(k, face.face, unit);
+    for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
+      result[tangents<dim>(face.face)[s]] -=
+          psi * space.contact[face.friction + k].bound * lambda[face.friction + k][s];
+    if (face.has_pressure())
+      result[face.face / 2] -=
+          psi * space.contact[face.pressure + k].sign * lambda[face.pressure + k][0];
+  }
   return result;
 }
 
-/** sigma n - G in the components that nothing holds; on contact without the traction of friction. */
+/** sigma n - G in the components that nothing holds; on contact without the traction that it exerts. */
 template <int dim>
 void BoxResiduals<dim>::add_boundary(const Cell &cell, const unsigned int face,
                                      const CellField<dim> &field)
 {
   const BoundaryCondition<dim> &condition = space.condition(cell, face);
+  const MomentFace<dim> *const moment_face = space.moment_face(cell, face);
   const BoxTable<dim> &table = space.tables.faces[face];
   Tensor<1, dim> squares;
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    Tensor<1, dim> residual =
-        traction(cell, table, q, field, face) - friction(cell, face, table.points[q]);
+    Tensor<1, dim> residual = traction(cell, table, q, field, face);
+    if (moment_face)
+      residual -= contact_traction(*moment_face, table.points[q]);
     for (unsigned int c = 0; c < dim; ++c)
     {
       if (condition.traction[c])
@@ -183,9 +198,50 @@ void BoxResiduals<dim>::add_boundary(const Cell &cell, const unsigned int face,
   }
   squares *= cell->face(face)->measure();
   for (unsigned int c = 0; c < dim; ++c)
-    (condition.has_contact() && c != face / 2 ? result.contact
-                                              : result.neumann)[cell->active_cell_index()] +=
+    (!condition.has_contact()                     ? result.neumann
+     : c != face / 2                              ? result.contact
+     : moment_face && moment_face->has_pressure() ? result.normal
+                                                  : result.neumann)[cell->active_cell_index()] +=
         squares[c];
+  if (moment_face && moment_face->has_pressure())
+  {
+    result.tension[cell->active_cell_index()] += tension(*moment_face);
+    result.penetration[cell->active_cell_index()] += penetration(*moment_face, field);
+  }
+}
+
+/** `|min(p, 0)|^2`, of a pressure that is positive at its Gauss points and need not be between them. */
+template <int dim>
+double BoxResiduals<dim>::tension(const MomentFace<dim> &face) const
+{
+  const BoxTable<dim> &table = space.tables.faces[face.face];
+  double sum = 0;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    double pressure = 0;
+    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+      pressure += space.tables.psi(k, face.face, table.points[q]) * lambda[face.pressure + k][0];
+    sum += table.weights[q] * std::pow(std::min(pressure, 0.), 2);
+  }
+  return sum * face.cell->face(face.face)->measure();
+}
+
+/** `mu^2 |max(u_n - u_0, 0)|^2`, seen at twice as many points in each direction as u_N has nodes. */
+template <int dim>
+double BoxResiduals<dim>::penetration(const MomentFace<dim> &face,
+                                      const CellField<dim> &field) const
+{
+  const BoundaryCondition<dim> &condition = space.condition(face.cell, face.face);
+  const double mu = space.scene.material_of(face.cell).mu();
+  const BoxTable<dim> &table = fine_faces[face.face];
+  double sum = 0;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const double depth = space.contact[face.pressure].sign * value(table, q, field)[face.face / 2] -
+                         condition.gap_at(MomentSpace<dim>::point_of(face.cell, table.points[q]));
+    sum += table.weights[q] * std::pow(mu * std::max(depth, 0.), 2);
+  }
+  return sum * face.cell->face(face.face)->measure();
 }
 
 template <int dim>
@@ -206,6 +262,11 @@ ErrorEstimate BoxResiduals<dim>::compute()
           result.jumps[index] += weight * jumps(cell, face, field);
       result.neumann[index] *= weight;
       result.contact[index] *= weight;
+      if (result.normal.empty())
+        continue;
+      result.normal[index] *= weight;
+      result.tension[index] *= weight;
+      result.penetration[index] /= weight;
     }
   return std::move(result);
 }
@@ -213,13 +274,13 @@ ErrorEstimate BoxResiduals<dim>::compute()
 
 template <int dim>
 ErrorEstimate estimate_error(const MomentSpace<dim> &space, const DistributedVector &u,
-                             const std::vector<Tangential<dim>> &lambda)
+                             const std::vector<ContactVector<dim>> &lambda)
 {
   return BoxResiduals<dim>(space, u, lambda).compute();
 }
 
 template ErrorEstimate estimate_error(const MomentSpace<2> &, const DistributedVector &,
-                                      const std::vector<Tangential<2>> &);
+                                      const std::vector<ContactVector<2>> &);
 template ErrorEstimate estimate_error(const MomentSpace<3> &, const DistributedVector &,
-                                      const std::vector<Tangential<3>> &);
+                                      const std::vector<ContactVector<3>> &);
 } // namespace hpvi

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/contact_state.h>
 #include <hpvi/primal/contact_points.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,6 +24,7 @@ MomentPoint<dim> point_on(const MomentSpace<dim> &space,
   point.boundary = condition.id;
   point.area = table.weights[k] * cell->face(face)->measure();
   point.displacement = value(table, k, field);
+  point.gap = condition.gap_at(point.x) - point.normal_sign() * point.displacement[point.axis()];
   const SymmetricTensor<2, dim> sigma =
       HookesLaw<dim>(space.scene.material_of(cell))
           .stress(gradient(table, k, field, MomentSpace<dim>::extent(cell)));
@@ -43,31 +43,61 @@ bool before(const MomentPoint<dim> &a, const MomentPoint<dim> &b)
                                       b.x.end_raw());
 }
 
+/** What the multipliers say at Gauss point @p k of a face; a pressure that is round-off beside the largest is none. */
+template <int dim>
+void add_multipliers(const MomentSpace<dim> &space, const MomentFace<dim> &face,
+                     const unsigned int k, const std::vector<ContactVector<dim>> &lambda,
+                     const double negligible, MomentPoint<dim> &point)
+{
+  if (face.has_friction())
+  {
+    const ContactVector<dim> &own = lambda[face.friction + k];
+    point.bound = space.contact[face.friction + k].bound;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      point.lambda[tangents<dim>(face.face)[s]] = own[s];
+    point.slips = point.bound == 0 || own.norm() >= 1 - slip_tolerance;
+  }
+  if (face.has_pressure())
+  {
+    const double pressure = lambda[face.pressure + k][0];
+    point.normal_traction = 0. - pressure; // never -0
+    point.is_open = pressure <= negligible;
+  }
+}
+
+/** As in the plane. */
+template <int dim>
+double negligible_pressure(const MomentSpace<dim> &space,
+                           const std::vector<ContactVector<dim>> &lambda)
+{
+  double largest = 0;
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    if (!space.contact[k].is_friction())
+      largest = std::max(largest, lambda[k][0]);
+  return 1e-10 * Utilities::MPI::max(largest, space.communicator());
+}
+
 template <int dim>
 std::vector<MomentPoint<dim>> own_points(const MomentSpace<dim> &space, const DistributedVector &u,
-                                         const std::vector<Tangential<dim>> &lambda)
+                                         const std::vector<ContactVector<dim>> &lambda)
 {
+  const double negligible = negligible_pressure(space, lambda);
   std::vector<MomentPoint<dim>> points;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned() || !cell->at_boundary())
       continue;
-    const std::vector<bool> friction_faces = space.friction_faces(cell);
-    for (const unsigned int face : cell->face_indices())
+    for (const unsigned int number : cell->face_indices())
     {
-      if (!cell->at_boundary(face) || !space.condition(cell, face).has_contact())
+      if (!cell->at_boundary(number) || !space.condition(cell, number).has_contact())
         continue;
       const CellField<dim> field = space.field(cell, u);
+      const MomentFace<dim> *const face = space.moment_face(cell, number);
       for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
       {
-        points.push_back(point_on(space, cell, face, k, field));
-        if (!friction_faces[face])
-          continue;
-        const unsigned int disc = space.first_disc(cell, face) + k;
-        points.back().bound = space.discs[disc].bound;
-        for (unsigned int s = 0; s < dim - 1; ++s)
-          points.back().lambda[tangents<dim>(face)[s]] = lambda[disc][s];
-        points.back().slips = points.back().bound == 0 || lambda[disc].norm() >= 1 - slip_tolerance;
+        points.push_back(point_on(space, cell, number, k, field));
+        if (face)
+          add_multipliers(space, *face, k, lambda, negligible, points.back());
       }
     }
   }
@@ -78,7 +108,7 @@ std::vector<MomentPoint<dim>> own_points(const MomentSpace<dim> &space, const Di
 template <int dim>
 std::vector<MomentPoint<dim>> contact_points(const MomentSpace<dim> &space,
                                              const DistributedVector &u,
-                                             const std::vector<Tangential<dim>> &lambda)
+                                             const std::vector<ContactVector<dim>> &lambda)
 {
   std::vector<MomentPoint<dim>> points;
   for (const auto &part :
@@ -92,8 +122,10 @@ template <int dim>
 double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
 {
   double sum = 0;
-  for (const FrictionFace<dim> &face : space.faces)
+  for (const MomentFace<dim> &face : space.faces)
   {
+    if (!face.has_friction())
+      continue;
     const BoxTable<dim> &table = space.tables.faces[face.face];
     const Expression<dim> &g = space.condition(face.cell, face.face).friction.bound;
     const CellField<dim> field = space.field(face.cell, u);
@@ -108,12 +140,46 @@ double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
+template <int dim>
+std::vector<Penetration<dim>> penetrations(const MomentSpace<dim> &space,
+                                           const DistributedVector &u)
+{
+  std::vector<Penetration<dim>> own(space.scene.boundaries.size());
+  for (const MomentFace<dim> &face : space.faces)
+  {
+    if (!face.has_pressure())
+      continue;
+    const BoundaryCondition<dim> &condition = space.condition(face.cell, face.face);
+    const BoxTable<dim> &table = space.tables.faces[face.face];
+    const CellField<dim> field = space.field(face.cell, u);
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+    {
+      const Point<dim> x = MomentSpace<dim>::point_of(face.cell, table.points[q]);
+      const double depth =
+          space.contact[face.pressure].sign * value(table, q, field)[face.face / 2] -
+          condition.gap_at(x);
+      if (depth > own[condition.id].depth)
+        own[condition.id] = {depth, x};
+    }
+  }
+  std::vector<Penetration<dim>> result(own.size());
+  for (const auto &part : Utilities::MPI::all_gather(space.communicator(), own))
+    for (unsigned int b = 0; b < result.size(); ++b)
+      if (part[b].depth > result[b].depth)
+        result[b] = part[b];
+  return result;
+}
+
+template std::vector<Penetration<2>> penetrations(const MomentSpace<2> &,
+                                                  const DistributedVector &);
+template std::vector<Penetration<3>> penetrations(const MomentSpace<3> &,
+                                                  const DistributedVector &);
 template std::vector<MomentPoint<2>> contact_points(const MomentSpace<2> &,
                                                     const DistributedVector &,
-                                                    const std::vector<Tangential<2>> &);
+                                                    const std::vector<ContactVector<2>> &);
 template std::vector<MomentPoint<3>> contact_points(const MomentSpace<3> &,
                                                     const DistributedVector &,
-                                                    const std::vector<Tangential<3>> &);
+                                                    const std::vector<ContactVector<3>> &);
 template double friction_work(const MomentSpace<2> &, const DistributedVector &);
 template double friction_work(const MomentSpace<3> &, const DistributedVector &);
 } // namespace hpvi

@@ -16,10 +16,12 @@ namespace
 constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 
 /**
- * From all discs sticking a front of slip advances by a few of them in each step of Newton's method: more than
- * these start with the augmented Lagrangian, whose number of steps does not depend on the mesh.
+ * From all moments held a front of slip or of open contact advances by a few of them in each step of Newton's method:
+ * more than these start with the augmented Lagrangian, whose number of steps does not depend on the mesh. In space they lie
+ * in two directions: 400 take eight steps where the augmented Lagrangian takes thirty.
  */
-constexpr unsigned int many_discs = 100;
+template <int dim>
+constexpr unsigned int many_moments = dim == 2 ? 100 : 500;
 
 [[noreturn]] void give_up(const NewtonReport &report)
 {
@@ -49,32 +51,70 @@ NewtonReport &NewtonReport::operator+=(const NewtonReport &next)
 template <int dim>
 MomentNewton<dim>::MomentNewton(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
                                 MomentMatrix<dim> &matrix)
-    : space(space), system(system), matrix(matrix), c(space.discs.size()), z(space.discs.size()),
-      r(space.owned_vector())
+    : space(space), system(system), matrix(matrix), c(space.contact.size()),
+      z(space.contact.size()), r(space.owned_vector())
 {
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k)) // a tenth of the stiffness that a moment meets; its size hardly matters
-      c[k] = 0.1 * trace(matrix.block(k)) / (dim - 1) / space.discs[k].radius;
+      c[k] = 0.1 * stiffness(k) / space.contact[k].weight;
 }
 
 template <int dim>
-bool MomentNewton<dim>::acts(const unsigned int disc) const
+bool MomentNewton<dim>::acts(const unsigned int k) const
 {
-  return space.discs[disc].radius > 0;
+  return space.contact[k].weight > 0;
 }
 
-/** r without the forces at discs. */
+/** What a moment meets in A, the mean of its directions. */
 template <int dim>
-DistributedVector MomentNewton<dim>::off_discs() const
+double MomentNewton<dim>::stiffness(const unsigned int k) const
+{
+  return trace(matrix.block(k)) / (dim - 1);
+}
+
+/** m - u_0 */
+template <int dim>
+ContactVector<dim> MomentNewton<dim>::distance(const DistributedVector &v,
+                                               const unsigned int k) const
+{
+  return space.moment(v, k) - space.contact[k].gap;
+}
+
+/**
+ * A multiplier in its set. Of a pressure P(z) and not P(lambda): where contact is open the residual would make
+ * a pressure of either sign, and its product with the distance would be taken for an error.
+ */
+template <int dim>
+ContactVector<dim> MomentNewton<dim>::admissible(const unsigned int k) const
+{
+  const ContactMoment<dim> &moment = space.contact[k];
+  return moment.projected(moment.is_friction() ? lambda[k] : z[k]);
+}
+
+/** What is missing to the equality of both energies, and the price of penetration. */
+template <int dim>
+double MomentNewton<dim>::gap(const DistributedVector &v, const unsigned int k) const
+{
+  const ContactMoment<dim> &moment = space.contact[k];
+  const ContactVector<dim> m = distance(v, k);
+  if (moment.is_friction())
+    return moment.weight * (m.norm() - admissible(k) * m);
+  return moment.weight * admissible(k)[0] * std::abs(m[0]) +
+         0.5 * stiffness(k) * std::pow(std::max(0., m[0]), 2);
+}
+
+/** r without the forces of the contact. */
+template <int dim>
+DistributedVector MomentNewton<dim>::off_contact() const
 {
   DistributedVector result = r;
   for (unsigned int k = 0; k < c.size(); ++k)
-    for (unsigned int s = 0; acts(k) && s < dim - 1; ++s)
-      result.local_element(space.discs[k].unknowns[s]) = 0;
+    if (acts(k))
+      space.set_moment(result, k, {});
   return result;
 }
 
-/** Of the equations off the discs and of `G (lambda - P(z))`; brings lambda, z and r up to date. */
+/** Of the equations off the contact and of `G (lambda - P(z))`; brings lambda, z and r up to date. */
 template <int dim>
 typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const DistributedVector &v,
                                                                  const bool keep_lambda)
@@ -83,60 +123,81 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const Distribut
   matrix.multiply(product, v);
   r = system.f;
   r -= product;
-  double on_discs = 0, friction = 0, gap = 0;
+  double on_contact = 0, gaps = 0, forces = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
   {
     if (!acts(k))
       continue;
-    const double G = space.discs[k].radius;
-    const Tangential<dim> m = space.moment(v, k), force = space.moment(r, k);
+    const ContactMoment<dim> &moment = space.contact[k];
+    const double G = moment.weight;
+    const ContactVector<dim> force = space.moment(r, k);
     if (keep_lambda)
-      on_discs += (force - G * lambda[k]).norm_square();
+      on_contact += (force - G * lambda[k]).norm_square();
     else
       lambda[k] = force / G;
-    z[k] = lambda[k] + c[k] * m;
-    on_discs += G * G * (lambda[k] - projected(z[k])).norm_square();
-    friction += G * m.norm();
-    gap += G * (m.norm() - projected(lambda[k]) * m);
+    z[k] = lambda[k] + c[k] * distance(v, k);
+    on_contact += G * G * (lambda[k] - moment.projected(z[k])).norm_square();
+    forces += moment.is_friction() ? 0. : G * G * moment.projected(z[k]).norm_square();
+    gaps += gap(v, k);
   }
-  const std::vector<double> mine{on_discs, friction, gap};
+  const std::vector<double> mine{on_contact, gaps, forces};
   std::vector<double> sums(mine.size());
   Utilities::MPI::sum(mine, space.communicator(), sums);
-  // Not as a difference of norms: forces at discs are so large that their round-off would hide the rest.
-  return {std::sqrt(off_discs().norm_sqr() + sums[0]),
-          -0.5 * (v * system.f) - 0.5 * (v * r) + sums[1], std::max(0., sums[2])};
+  return {std::sqrt(off_contact().norm_sqr() + sums[0]), std::max(0., sums[1]),
+          std::max(system.f.l2_norm(), std::sqrt(sums[2]))};
 }
 
 template <int dim>
-std::vector<DiscState<dim>> MomentNewton<dim>::states(const bool all_stick) const
+std::vector<MomentState<dim>> MomentNewton<dim>::states(const bool all_held) const
 {
-  std::vector<DiscState<dim>> result(c.size());
+  std::vector<MomentState<dim>> result(c.size());
   for (unsigned int k = 0; k < c.size(); ++k)
   {
-    const double size = z[k].norm();
-    result[k].sticks = acts(k) && (all_stick || size <= 1);
-    if (!acts(k) || result[k].sticks)
+    const ContactMoment<dim> &moment = space.contact[k];
+    result[k].is_held = acts(k) && (all_held || moment.holds(z[k]));
+    if (!acts(k) || result[k].is_held || !moment.is_friction())
       continue;
-    const Tangential<dim> n = z[k] / size;
-    const double stiffness = space.discs[k].radius * c[k] / std::max(size - 1, 1e-9);
+    const double size = z[k].norm();
+    const ContactVector<dim> n = z[k] / size;
+    const double H = moment.weight * c[k] / std::max(size - 1, 1e-9);
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s && dim == 3; ++t) // in the plane no direction is left
-        result[k].stiffness[s][t] = stiffness * ((s == t ? 1. : 0.) - n[s] * n[t]);
+        result[k].stiffness[s][t] = H * ((s == t ? 1. : 0.) - n[s] * n[t]);
   }
   return result;
 }
 
+/** Where moments are held: 0, or the gap. */
+template <int dim>
+void MomentNewton<dim>::hold(DistributedVector &v,
+                             const std::vector<MomentState<dim>> &states) const
+{
+  for (unsigned int k = 0; k < c.size(); ++k)
+    if (states[k].is_held)
+      space.set_moment(v, k, space.contact[k].gap);
+}
+
+/** With P(z) = z/|z| where a disc slips, and 0 where contact is open. */
 template <int dim>
 DistributedVector
-MomentNewton<dim>::right_hand_side(const std::vector<DiscState<dim>> &states) const
+MomentNewton<dim>::right_hand_side(const std::vector<MomentState<dim>> &states) const
 {
   DistributedVector b = system.f;
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (acts(k) && !states[k].sticks)
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        b.local_element(space.discs[k].unknowns[s]) -=
-            space.discs[k].radius * z[k][s] / z[k].norm();
+    if (acts(k) && !states[k].is_held)
+      space.add_moment(b, k, -space.contact[k].weight * space.contact[k].projected(z[k]));
   return b;
+}
+
+/** Deeper than round-off beside @p force? */
+template <int dim>
+bool MomentNewton<dim>::penetrates(const DistributedVector &v, const double force) const
+{
+  double deepest = 0;
+  for (unsigned int k = 0; k < c.size(); ++k)
+    if (!space.contact[k].is_friction())
+      deepest = std::max(deepest, stiffness(k) * distance(v, k)[0]);
+  return Utilities::MPI::max(deepest, space.communicator()) > 1e-10 * force;
 }
 
 template <int dim>
@@ -145,14 +206,18 @@ double MomentNewton<dim>::friction(const DistributedVector &v, const Distributed
 {
   double sum = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
-    sum += space.discs[k].radius * (space.moment(v, k) + length * space.moment(step, k)).norm();
+    if (const ContactMoment<dim> &moment = space.contact[k]; moment.is_friction())
+      sum += moment.weight * (space.moment(v, k) + length * space.moment(step, k)).norm();
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
 /** Exact line search from @p old to @p v where the energy, a convex function, rises between them. */
 template <int dim>
-bool MomentNewton<dim>::shorten(DistributedVector &v, const DistributedVector &old) const
+bool MomentNewton<dim>::shorten(DistributedVector &v, const DistributedVector &old,
+                                const double load) const
 {
+  if (space.n_pressures > 0 && (penetrates(old, load) || penetrates(v, load)))
+    return false;
   DistributedVector step = v, product = v;
   step -= old;
   matrix.multiply(product, step);
@@ -183,21 +248,26 @@ double MomentNewton<dim>::error(const double gap)
   DistributedVector rest = r, correction = r;
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k))
-      space.add_moment(rest, k, -space.discs[k].radius * projected(lambda[k]));
+      space.add_moment(rest, k, -space.contact[k].weight * admissible(k));
   matrix.precondition(correction, rest);
-  for (unsigned int k = 0; k < c.size(); ++k) // a disc that stuck until now is none of its unknowns
+  for (unsigned int k = 0; k < c.size(); ++k) // what was held until now is none of its unknowns
     if (acts(k) && space.moment(correction, k).norm() == 0)
-      space.add_moment(correction, k, space.moment(rest, k) * ((dim - 1) / trace(matrix.block(k))));
+      space.add_moment(correction, k, space.moment(rest, k) / stiffness(k));
   return std::sqrt(std::max(0., rest * correction) + 2 * gap);
 }
 
 template <int dim>
-unsigned int MomentNewton<dim>::n_slipping(const std::vector<DiscState<dim>> &states) const
+void MomentNewton<dim>::count(const std::vector<MomentState<dim>> &states,
+                              NewtonReport &report) const
 {
-  unsigned int n = 0;
-  for (const DiscState<dim> &state : states)
-    n += !state.sticks;
-  return Utilities::MPI::sum(n, space.communicator());
+  unsigned int slipping = 0, pressing = 0;
+  for (unsigned int k = 0; k < c.size(); ++k)
+    if (space.contact[k].is_friction())
+      slipping += !states[k].is_held;
+    else
+      pressing += states[k].is_held;
+  report.n_slipping = Utilities::MPI::sum(slipping, space.communicator());
+  report.n_pressing = Utilities::MPI::sum(pressing, space.communicator());
 }
 
 /** Can the iteration end? Brings the estimated error up to date where it is asked for. */
@@ -205,9 +275,8 @@ template <int dim>
 bool MomentNewton<dim>::is_exact(const NewtonSettings &settings, const Residual &now,
                                  NewtonReport &report)
 {
-  const double load = system.f.l2_norm();
-  report.residual = load > 0 ? now.norm / load : 0;
-  const bool is_small = now.norm <= settings.residual * load;
+  report.residual = now.load > 0 ? now.norm / now.load : 0;
+  const bool is_small = now.norm <= settings.residual * now.load;
   const bool knows_error = matrix.n_setups > 0 && (is_small || settings.error > 0);
   report.error = knows_error ? error(now.gap) : 0;
   return is_small || (knows_error && report.error <= settings.error);
@@ -225,64 +294,66 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::augment(DistributedVecto
 }
 
 template <int dim>
-NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<Tangential<dim>> &start,
+NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactVector<dim>> &start,
                                       const NewtonSettings &settings,
                                       const std::function<void(const NewtonReport &)> &heard)
 {
   const bool warm =
-      Utilities::MPI::max(start.size(), space.communicator()) > 0 || space.n_discs == 0;
+      Utilities::MPI::max(start.size(), space.communicator()) > 0 || space.n_multipliers() == 0;
   lambda = start;
   lambda.resize(c.size());
   for (unsigned int k = 0; warm && k < c.size(); ++k)
-    for (const unsigned int unknown : space.discs[k].unknowns)
-      if (acts(k) && lambda[k].norm() < 1 - 1e-3)
-        v.local_element(unknown) = 0;
+    if (const ContactMoment<dim> &moment = space.contact[k];
+        acts(k) && (moment.is_friction() ? lambda[k].norm() < 1 - 1e-3 : lambda[k][0] > 0))
+      space.set_moment(v, k, moment.gap);
   const unsigned int cg_before = matrix.n_steps, setups_before = matrix.n_setups;
   NewtonReport report;
   Residual now = residual(v, warm);
   for (unsigned int updates = 0; !is_exact(settings, now, report);)
   {
-    const bool all_stick = !warm && report.steps == 0;
-    const auto disc_states = states(all_stick);
-    report.n_slipping = n_slipping(disc_states);
+    const bool all_held = !warm && report.steps == 0;
+    const auto moment_states = states(all_held);
+    count(moment_states, report);
     report.cg_steps = matrix.n_steps - cg_before;
     report.setups = matrix.n_setups - setups_before;
     heard(report);
     report.is_cut_off = report.steps >= settings.maximum_steps;
-    if (report.is_cut_off || (!warm && space.n_discs > many_discs))
+    if (report.is_cut_off || (!warm && space.n_discs + space.n_pressures > many_moments<dim>))
     {
       if (updates++ == maximum_updates)
         give_up(report);
       now = augment(v, report);
       continue;
     }
-    matrix.linearise(disc_states);
+    matrix.linearise(moment_states);
     const DistributedVector old = v;
-    matrix.solve(v, right_hand_side(disc_states),
-                 linear_tolerance(settings, now.norm, report.steps));
-    if (report.steps > 0 && shorten(v, old))
+    hold(v, moment_states);
+    matrix.solve(v, right_hand_side(moment_states), linear_tolerance(settings, now, report.steps));
+    if (report.steps > 0 && shorten(v, old, now.load))
       ++report.line_searches;
     previous = now.norm;
     ++report.steps;
     now = residual(v, false);
   }
-  report.n_slipping = n_slipping(states(false));
+  count(states(false), report);
   report.cg_steps = matrix.n_steps - cg_before;
   report.setups = matrix.n_setups - setups_before;
   report.fell_back = matrix.fell_back;
   start.resize(c.size());
-  for (unsigned int k = 0; k < c.size(); ++k) // feasible: |lambda| = 1 where a disc slips
-    start[k] = acts(k) ? projected(z[k]) : Tangential<dim>();
+  for (unsigned int k = 0; k < c.size();
+       ++k) // feasible: |lambda| = 1 where a disc slips, 0 where contact is open
+    start[k] = acts(k) ? space.contact[k].projected(z[k]) : ContactVector<dim>();
   return report;
 }
 
 /** Eisenstat and Walker's rule (1996): the better the last step, the more exact the next. */
 template <int dim>
-double MomentNewton<dim>::linear_tolerance(const NewtonSettings &settings, const double now,
+double MomentNewton<dim>::linear_tolerance(const NewtonSettings &settings, const Residual &now,
                                            const unsigned int step) const
 {
-  const double eta = step == 0 ? 0.1 : std::clamp(0.9 * std::pow(now / previous, 2), 1e-3, 0.1);
-  return std::max(eta * now, 0.3 * settings.residual * system.f.l2_norm());
+  const double eta =
+      step == 0 ? 0.1 : std::clamp(0.9 * std::pow(now.norm / previous, 2), 1e-3, 0.1);
+  return std::max(eta * now.norm, 0.3 * settings.residual * now.load);
 }
 
 template class MomentNewton<2>;

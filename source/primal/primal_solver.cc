@@ -58,8 +58,7 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
   if (pull > 1e-3 * (pull + press))
     result.push_back("bilateral contact pulls with a force of " + to_string(pull) +
                      " where it presses with " + to_string(press) +
-                     ": a body free to lift off would open a gap, which the plane's unilateral "
-                     "contact can follow");
+                     ": a body free to lift off needs unilateral contact");
   return result;
 }
 
@@ -87,10 +86,10 @@ struct PrimalSolver<dim>::Stages
   typename MomentSpace<dim>::Mesh mesh;
   const BoxTables<dim> tables;
   std::unique_ptr<const MomentSpace<dim>> space;
-  DistributedVector u;                 ///< on the current mesh, from the one before
-  std::vector<Tangential<dim>> lambda; ///< likewise; empty before the first step
-  StageTimes times;                    ///< of the current step
-  History history;                     ///< of the finished steps
+  DistributedVector u;                    ///< on the current mesh, from the one before
+  std::vector<ContactVector<dim>> lambda; ///< likewise; empty before the first step
+  StageTimes times;                       ///< of the current step
+  History history;                        ///< of the finished steps
   std::function<void(const Progress &)> about_to = [](const Progress &) {};
 
   Stages(const Scene<dim> &scene, MPI_Comm communicator)
@@ -217,10 +216,9 @@ Energies PrimalSolver<dim>::Stages::energies(const PrimalSystem<dim> &system,
                                              const DistributedVector &v) const
 {
   double coupling = 0;
-  for (unsigned int k = 0; k < space->discs.size(); ++k)
-    for (unsigned int s = 0; s < dim - 1; ++s)
-      coupling +=
-          space->discs[k].radius * lambda[k][s] * v.local_element(space->discs[k].unknowns[s]);
+  for (unsigned int k = 0; k < space->contact.size(); ++k)
+    coupling +=
+        space->contact[k].weight * lambda[k] * (space->moment(v, k) - space->contact[k].gap);
   coupling = Utilities::MPI::sum(coupling, space->communicator());
   const double a = system.energy_product(u), potential = 0.5 * a - system.work(u),
                friction = friction_work(*space, u);
@@ -239,10 +237,7 @@ double root_of_sum(const std::vector<double> &squares, MPI_Comm communicator)
 template <int dim>
 double PrimalSolver<dim>::Stages::total_estimate() const
 {
-  double sum = 0;
-  for (const auto *part : {&estimate.volume, &estimate.jumps, &estimate.neumann, &estimate.contact})
-    sum += std::accumulate(part->begin(), part->end(), 0.);
-  return std::sqrt(Utilities::MPI::sum(sum, space->communicator()));
+  return std::sqrt(Utilities::MPI::sum(std::pow(estimate.total(), 2), space->communicator()));
 }
 
 template <int dim>
@@ -254,6 +249,9 @@ PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton)
   step.estimate_jumps = root_of_sum(estimate.jumps, space->communicator());
   step.estimate_neumann = root_of_sum(estimate.neumann, space->communicator());
   step.estimate_contact = root_of_sum(estimate.contact, space->communicator());
+  step.estimate_normal = root_of_sum(estimate.normal, space->communicator());
+  step.estimate_penetration = root_of_sum(estimate.penetration, space->communicator());
+  step.estimate_tension = root_of_sum(estimate.tension, space->communicator());
   step.total_estimate = total_estimate();
   check_finite("the error indicator", step.total_estimate);
   step.energies = step_energies;
@@ -267,6 +265,7 @@ PrimalReport<dim> PrimalSolver<dim>::Stages::report(const NewtonReport &newton)
   {
     StageTimer timer(times.recover);
     step.contact = contact_points(*space, u, lambda);
+    step.penetrations = penetrations(*space, u);
   }
   step.newton = newton;
   step.times = std::exchange(times, {});

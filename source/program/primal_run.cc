@@ -41,7 +41,7 @@ template <int dim>
 void print_row(const PrimalReport<dim> &step)
 {
   std::cout << std::setw(4) << step.number << std::setw(10) << step.n_cells << std::setw(11)
-            << step.space.n_free << std::setw(12) << (dim - 1) * step.space.n_discs << std::setw(3)
+            << step.space.n_free << std::setw(12) << step.space.n_multipliers() << std::setw(3)
             << step.space.tables.degree << std::scientific << std::setprecision(3) << std::setw(12)
             << step.total_estimate << std::setprecision(1) << std::setw(10)
             << step.relative_estimate << std::setprecision(3) << std::setw(12)
@@ -54,7 +54,8 @@ void print_row(const PrimalReport<dim> &step)
 /** Does the primal path offer what the scene asks for, the bound of the error included where a limit needs it? */
 bool fits_primal_path(const Scene<2> &scene)
 {
-  if (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound)
+  if (scene.has_unilateral_contact() || // solved by nodes or multipliers, as the scene says
+      (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound))
     return false;
   try
   {

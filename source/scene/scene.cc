@@ -119,6 +119,7 @@ Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell
   {
     adaptivity.method = Method::hap2;
     adaptivity.start_degree = own_start_degree(Method::hap2);
+    solver.normal_contact = NormalContact::multiplier;
   }
 }
 

@@ -248,7 +248,7 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
         "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
         "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "
-        "points, the thesis's set."},
+        "points, the thesis's set; not in space and not with Path = primal."},
        {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
         "an integer from -20 to -1, best -2",
         "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "
@@ -329,6 +329,8 @@ void take_to_space(std::vector<Entry> &entries)
   change("Geometry/Graded towards", "",
          Patterns::List(point, 0, Patterns::List::max_int_value, ";"),
          "points \"x, y, z; x, y, z; ...\" or nothing");
+  change("Solver/Normal contact", "multiplier",
+         Patterns::Selection(joined(normal_contact_names, "|")), "multiplier");
   change("Adaptivity/Method", "hap2", Patterns::Selection(joined(method_names, "|")),
          "hup2, hup3, hup4, hap2, hap3 or hap4");
 }

@@ -122,6 +122,7 @@ void check_functions(const Scene<3> &scene)
       check_function(scene, section_of(boundary), "Displacement", component, points);
     for (const auto &component : boundary.traction)
       check_function(scene, section_of(boundary), "Traction", component, points);
+    check_function(scene, section_of(boundary), "Gap", boundary.gap, points);
     check_function(scene, section_of(boundary), "Friction bound", boundary.friction.bound, points,
                    false);
   }
@@ -162,6 +163,22 @@ double prescribed(const BoundaryCondition<3> &boundary, const unsigned int compo
   return displacement ? displacement->value(x) : std::numeric_limits<double>::quiet_NaN();
 }
 
+/** A support beside unilateral contact must not move the body into the foundation. */
+void check_gap(const Scene<3> &scene, const BoundaryCondition<3> &contact,
+               const BoundaryCondition<3> &support, const Point<3> &x)
+{
+  const double sign = contact.id % 2 == 0 ? -1. : 1.,
+               u_n = sign * prescribed(support, contact.id / 2, x);
+  if (!contact.is_unilateral() || std::isnan(u_n))
+    return;
+  const double gap = contact.gap_at(x);
+  if (u_n > gap + 1e-10 * std::max(std::abs(gap), std::abs(u_n)))
+    reject(scene, section_of(support), "Displacement",
+           "contradicts Boundary " + contact.name + "/Gap at their common point " + to_string(x) +
+               ", for u_n exceeds the gap by " + to_string(u_n - gap) +
+               "; let u_n <= u_0 there or free one component");
+}
+
 /** Two sides that meet in an edge must agree there. */
 void check_edge(const Scene<3> &scene, const BoundaryCondition<3> &one,
                 const BoundaryCondition<3> &two)
@@ -169,10 +186,13 @@ void check_edge(const Scene<3> &scene, const BoundaryCondition<3> &one,
   const double edge = scene.geometry.corners[0][two.id / 2],
                far_edge = scene.geometry.corners[7][two.id / 2];
   for (const Point<3> &x : sample_side(scene.geometry, one.id))
+  {
+    if (x[two.id / 2] != (two.id % 2 == 0 ? edge : far_edge))
+      continue;
+    check_gap(scene, one, two, x);
+    check_gap(scene, two, one, x);
     for (unsigned int c = 0; c < 3; ++c)
     {
-      if (x[two.id / 2] != (two.id % 2 == 0 ? edge : far_edge))
-        continue;
       const double a = prescribed(one, c, x), b = prescribed(two, c, x);
       if (std::abs(a - b) > 1e-10 * std::max(std::abs(a), std::abs(b))) // NaN: one is free
       {
@@ -183,6 +203,7 @@ void check_edge(const Scene<3> &scene, const BoundaryCondition<3> &one,
                    "; make both agree there or free one component");
       }
     }
+  }
 }
 
 /** u_c at @p x of the motion `a + b x (x - centre)/length`, by its six coefficients. */
@@ -312,11 +333,13 @@ void check_primal_path(const Scene<dim> &scene)
     if (boundary.friction.coefficient)
       reject(scene, section, "Friction coefficient",
              "is Coulomb's law, which " + why + " does not offer; give Friction bound, Tresca's");
-    if (boundary.is_unilateral())
-      reject(scene, section, "Contact",
-             "is not offered by " + why + "; set bilateral or tangential", "unilateral");
   }
-  if (scene.has_friction() && scene.solver.multiplier_offset != -2)
+  if (scene.has_unilateral_contact() && scene.solver.normal_contact == NormalContact::nodes)
+    reject(scene, "Solver", "Normal contact",
+           "is not offered by " + why + ", whose pressures are multipliers; set multiplier",
+           "nodes");
+  if ((scene.has_friction() || scene.has_unilateral_contact()) &&
+      scene.solver.multiplier_offset != -2)
     reject(scene, "Solver", "Multiplier degree offset",
            "is not offered by " + why + ", whose moments need -2; remove it");
   if (scene.solver.condition_number)

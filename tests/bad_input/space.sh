@@ -61,7 +61,7 @@ for method in pu hpa1 hpa2 hpa3; do
 done
 invalid "Start degree = 1" "2 to 8" -- "Adaptivity/Start degree=1"
 invalid "Coulomb" "Friction bound" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
-invalid "Contact = unilateral" "not offered by space" -- "Boundary bottom/Contact=unilateral"
+invalid "Normal contact = nodes" "not offered by space" "multiplier" -- "Boundary bottom/Contact=unilateral" "Solver/Normal contact=nodes"
 invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
 invalid "Condition number" "does not form" -- "Solver/Condition number=true"
 invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
@@ -73,6 +73,9 @@ invalid "rigid-body motion" -- "Boundary right/Displacement="
 invalid "contradicts" "common point" -- "Boundary top/Displacement=1; free; free"
 invalid "Traction" "that Displacement prescribes" -- "Boundary right/Traction=1; 0; 0"
 invalid "needs contact" -- "Boundary top/Friction bound=1"
+invalid "Gap" "at their common point" "u_n <= u_0" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=-0.1"
+invalid "Gap" "is not finite" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=1/(x - 4)"
+invalid "rigid-body motion" "unilateral" -- "Boundary bottom/Contact=unilateral" "Boundary right/Displacement=" "Boundary top/Displacement=0; free; 0"
 invalid "stands beside Contact" -- "Boundary bottom/Displacement=0; free; free"
 invalid "Friction bound" "g >= 0" -- "Boundary bottom/Friction bound=1 - x"
 invalid "million cells" -- "Geometry/Subdivisions=1000, 1000, 1000"
@@ -93,6 +96,7 @@ plane() {
 }
 plane "Method = hpa2" "the primal path does not offer" -- han-6-12
 plane "primal" "does not offer" -- ssnv128
+check 1 "Normal contact = nodes" "the primal path" "multiplier" -- "$hpvi" --output "$scratch/o" prm/han-6-12-unilateral.prm --set Solver/Path=primal --set Adaptivity/Method=hap2
 
 # --- several processes
 parallel() {

@@ -93,8 +93,36 @@ with tempfile.TemporaryDirectory() as scratch:
             assert (directory / f"solution-02.{rank}.vtu").stat().st_size > 1000
         assert "solution-02.pvtu" in (directory / "solution.pvd").read_text()
 
+    # Contact that opens: states and counts agree, and what opens is no part of the slipping area.
+    lifted = scratch / "lifted"
+    subprocess.run([HPVI, "--output", str(lifted), "prm/dome.prm", "--set", "Adaptivity/Maximum steps=2", "--set",
+                    "Solver/Primal tolerance=1e-11"], check=True, capture_output=True)
+    points, row = rows(lifted / "contact-02.csv"), rows(lifted / "convergence.csv")[-1]
+    states = [p["state"] for p in points]
+    assert set(states) == {"open", "slip", "stick"}, set(states)
+    assert int(row["pressing"]) == len(states) - states.count("open")
+    assert int(row["multipliers"]) == 3 * len(points)
+    for p in points:
+        pressure, gap = -float(p["normal_traction"]), float(p["gap"])
+        u_0 = 0.08 * (float(p["x"]) ** 2 + float(p["z"]) ** 2)
+        assert abs(gap - u_0 + float(p["normal_displacement"])) < 1e-12
+        assert pressure == 0 if p["state"] == "open" else pressure > 0 and abs(gap) < 3e-3, p
+    for part in ("normal", "penetration", "tension"):
+        assert float(row["estimate_" + part]) >= 0
+    squares = sum(float(row["estimate_" + part]) ** 2 for part in (
+        "volume", "jumps", "neumann", "contact", "normal", "penetration", "tension"))
+    assert abs(squares ** 0.5 / float(row["estimate"]) - 1) < 1e-12
+    summary = json.loads((lifted / "summary.json").read_text())
+    bottom = summary["contact"]["bottom"]
+    assert bottom["area"] > bottom["open_area"] > 2 and 0 < bottom["slipping_area"] < 2
+    assert 0 < bottom["largest_penetration"] < 0.01 and len(bottom["largest_penetration_at"]) == 3
+    assert abs(summary["forces"]["bottom"]["force"][1] + bottom["normal_resultant"]) < 1e-9
+    assert summary["balance"]["force"] < 1e-9 and summary["balance"]["moment"] < 1e-9
+
     # In the plane the path follows the multipliers of the first mesh, but not where it lacks what a scene asks for.
-    for n, extra, primal in ((1500, [], True), (150, [], False), (1500, ["Solver/Path=reduced"], False)):
+    opens = ["Boundary bottom/Contact=unilateral", "Solver/Normal contact=multiplier"]
+    for n, extra, primal in ((1500, [], True), (150, [], False), (1500, ["Solver/Path=reduced"], False),
+                             (1000, opens, False), (100, [*opens, "Solver/Path=primal"], True)):
         subprocess.run([HPVI, "--output", str(scratch / "plane"), "prm/han-6-12.prm", "--set", "Adaptivity/Method=hap2",
                         "--set", f"Geometry/Subdivisions={n}, 1", "--set", "Adaptivity/Maximum steps=1",
                         "--set", "Output/VTU=false", *(word for entry in extra for word in ("--set", entry))],

@@ -6,34 +6,64 @@
 
 #include <deal.II/lac/trilinos_solver.h>
 
+#include <limits>
+
 namespace
 {
 using namespace space;
 
-/** J of the last mesh: with `S = P A^-1 P'`, P picking moments, `max_F -1/2 (f - P'F)' A^-1 (f - P'F)`. */
+/** The unknowns of all moments of contact, one after the other, and what a force on them has to be. */
+struct ContactForces
+{
+  std::vector<unsigned int> unknowns;
+  std::vector<double> signs, gaps;
+  FeasibleSet feasible_set;
+};
+
+ContactForces contact_forces(const MomentSpace<3> &space)
+{
+  ContactForces result;
+  for (const ContactMoment<3> &moment : space.contact)
+  {
+    for (unsigned int s = 0; s < moment.n_unknowns(); ++s)
+    {
+      result.unknowns.push_back(moment.unknowns[s]);
+      result.signs.push_back(moment.sign);
+      result.gaps.push_back(moment.gap[s]);
+    }
+    if (moment.is_friction())
+      result.feasible_set.add_disc(moment.weight);
+    else
+      result.feasible_set.add_interval(0., std::numeric_limits<double>::infinity());
+  }
+  return result;
+}
+
+/**
+ * J of the last mesh: with `S = P A^-1 P'`, P picking moments, `max_F -1/2 (f - P'F)' A^-1 (f - P'F) - u_0'F` over
+ * frictions in their discs and pressures that are not negative.
+ */
 double dual_minimum(const MomentSpace<3> &space)
 {
   const PrimalSystem<3> system(space);
   SolverControl control;
   TrilinosWrappers::SolverDirect factor(control);
   factor.initialize(system.A);
-  const unsigned int n = 2 * space.discs.size();
-  const auto unknown = [&](const unsigned int i) { return space.discs[i / 2].unknowns[i % 2]; };
-  QuadraticProgram qp{LAPACKFullMatrix<double>(n), Vector<double>(n), FeasibleSet()};
+  const ContactForces forces = contact_forces(space);
+  const unsigned int n = forces.unknowns.size();
+  QuadraticProgram qp{LAPACKFullMatrix<double>(n), Vector<double>(n), forces.feasible_set};
   DistributedVector b = system.f, x = system.f;
   factor.solve(x, b);
   const double loads = system.f * x;
   for (unsigned int i = 0; i < n; ++i)
-    qp.d[i] = x.local_element(unknown(i));
+    qp.d[i] = forces.signs[i] * x.local_element(forces.unknowns[i]) - forces.gaps[i];
   for (unsigned int j = 0; j < n; ++j)
   {
     b = 0;
-    b.local_element(unknown(j)) = 1;
+    b.local_element(forces.unknowns[j]) = forces.signs[j];
     factor.solve(x, b);
     for (unsigned int i = 0; i < n; ++i)
-      qp.S(i, j) = x.local_element(unknown(i));
-    if (j % 2 == 0)
-      qp.feasible_set.add_disc(space.discs[j / 2].radius);
+      qp.S(i, j) = forces.signs[i] * x.local_element(forces.unknowns[i]);
   }
   Vector<double> F(n), SF(n);
   Mprgp::Settings settings;
@@ -74,5 +104,14 @@ TEST(Dense, DegreeThreeWithABoundThatVanishes)
   expect_dual_minimum(slab({{"Adaptivity/Maximum steps", "1"},
                             {"Adaptivity/Method", "hap3"},
                             {"Boundary bottom/Friction bound", "6*max(0, x - 1 - z)"}}));
+}
+
+TEST(Dense, UnilateralContact)
+{
+  for (const char *const method : {"hap2", "hap3"})
+    expect_dual_minimum(slab({{"Adaptivity/Maximum steps", "1"},
+                              {"Adaptivity/Method", method},
+                              {"Boundary bottom/Contact", "unilateral"},
+                              {"Boundary bottom/Gap", "0.004*x*z"}}));
 }
 } // namespace

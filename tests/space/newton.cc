@@ -18,7 +18,7 @@ void expect_fallback(const PrimalReport<dim> &step)
   MomentMatrix<dim> matrix(step.space, system);
   MomentNewton<dim> newton(step.space, system, matrix);
   DistributedVector v = step.space.owned_vector();
-  std::vector<Tangential<dim>> lambda;
+  std::vector<ContactVector<dim>> lambda;
   NewtonSettings settings;
   settings.residual = 1e-10;
   settings.maximum_steps = 1;

@@ -20,6 +20,7 @@ void expect_same_run(
     EXPECT_EQ(alone[k].n_cells, together[k].n_cells);
     EXPECT_EQ(alone[k].n_free, together[k].n_free);
     EXPECT_EQ(alone[k].n_slipping, together[k].n_slipping);
+    EXPECT_EQ(alone[k].n_pressing, together[k].n_pressing);
     EXPECT_NEAR(alone[k].lagrangian, together[k].lagrangian, 1e-10 * std::abs(alone[k].lagrangian));
     EXPECT_NEAR(alone[k].estimate, together[k].estimate, 1e-8 * alone[k].estimate);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
@@ -43,6 +44,21 @@ TEST(Ranks, Plane)
 {
   Scene<2> scene = read_scene<2>(
       "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "4"}});
+  scene.solver.primal_tolerance = 1e-11;
+  expect_same_run(scene);
+}
+
+TEST(Ranks, UnilateralContact)
+{
+  for (const char *const method : {"hap2", "hap3"})
+    expect_same_run(slab({{"Adaptivity/Method", method},
+                          {"Boundary bottom/Contact", "unilateral"},
+                          {"Boundary bottom/Gap", "0.004*x*z"},
+                          {"Adaptivity/Maximum steps", "2"}}));
+  Scene<2> scene =
+      read_scene<2>("prm/han-6-12-unilateral.prm", {{"Adaptivity/Method", "hap3"},
+                                                    {"Solver/Normal contact", "multiplier"},
+                                                    {"Adaptivity/Maximum steps", "4"}});
   scene.solver.primal_tolerance = 1e-11;
   expect_same_run(scene);
 }
@@ -79,7 +95,7 @@ TEST(Ranks, MostWithoutContact)
   unsigned int without = 0;
   expect_same_run<3>(
       scene, [&](const PrimalReport<3> &step)
-      { without = Utilities::MPI::sum(step.space.discs.empty() ? 1U : 0U, MPI_COMM_WORLD); });
+      { without = Utilities::MPI::sum(step.space.contact.empty() ? 1U : 0U, MPI_COMM_WORLD); });
   EXPECT_GE(without + 1, Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
 }
 

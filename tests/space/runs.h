@@ -33,6 +33,7 @@ struct Step
   std::size_t n_cells, n_free;
   unsigned int n_slipping, n_contact_points;
   double lagrangian, energy, estimate, norm;
+  unsigned int n_pressing = 0;
 };
 
 template <int dim>
@@ -52,7 +53,7 @@ std::vector<Step> steps_of(
             steps.push_back({step.n_cells, step.space.n_free, step.newton.n_slipping,
                              static_cast<unsigned int>(step.contact.size()),
                              step.energies.lagrangian, step.energies.energy, step.total_estimate,
-                             step.energies.norm});
+                             step.energies.norm, step.newton.n_pressing});
             look(step);
           });
   return steps;

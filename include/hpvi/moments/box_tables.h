@@ -65,6 +65,9 @@ public:
   /** The index in #quarters of the part of @p face that lies on the side @p above of each axis. */
   static unsigned int part(unsigned int face, const std::array<bool, dim> &above);
 
+  /** Another table on a face, with @p n_gauss points in each direction. */
+  BoxTable<dim> face_table(unsigned int face, unsigned int n_gauss) const;
+
   /** psi_k at a point of the unit face whose coordinates along the axes of the body are @p x. */
   double psi(unsigned int k, unsigned int face, const dealii::Point<dim> &x) const;
 
@@ -72,7 +75,7 @@ public:
   dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law,
                                        const dealii::Tensor<1, dim> &size) const;
 
-  /** T of `u = T v` on a cell: @p moments[face] says where v has moments for inner nodes. */
+  /** T of `u = T v` on a cell: @p moments[dim face + component] says where v has moments for inner nodes. */
   dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &moments) const;
 
 private:

@@ -38,8 +38,8 @@ private:
   using Cell = typename MomentSpace<dim>::Cell;
   using Matrix = dealii::FullMatrix<double>;
 
-  /** Cells of one size, material and set of faces with friction share K and T'KT. */
-  const Matrix &stiffness(const Cell &cell, const std::vector<bool> &friction_faces) const;
+  /** Cells of one size, material and set of components with moments share K and T'KT. */
+  const Matrix &stiffness(const Cell &cell, const std::vector<bool> &moment_components) const;
   CellField<dim> body_load(const Cell &cell) const;
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;

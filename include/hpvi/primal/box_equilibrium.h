@@ -16,7 +16,7 @@ namespace hpvi
 template <int dim>
 Equilibrium<dim> equilibrium(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
                              const DistributedVector &u,
-                             const std::vector<Tangential<dim>> &lambda);
+                             const std::vector<ContactVector<dim>> &lambda);
 } // namespace hpvi
 
 #endif

@@ -15,7 +15,7 @@ namespace hpvi
  */
 template <int dim>
 ErrorEstimate estimate_error(const MomentSpace<dim> &space, const DistributedVector &u,
-                             const std::vector<Tangential<dim>> &lambda);
+                             const std::vector<ContactVector<dim>> &lambda);
 } // namespace hpvi
 
 #endif

@@ -20,6 +20,7 @@ struct NewtonReport
   unsigned int augmented_steps = 0; ///< of the augmented Lagrangian
   bool is_cut_off = false;          ///< Newton's method was, and that took its place
   unsigned int n_slipping = 0;      ///< discs, of all processes
+  unsigned int n_pressing = 0;      ///< moments on which a pressure acts, likewise
   double residual = 0;              ///< relative to the load vector
   double error = 0;                 ///< estimated, in the energy norm
 
@@ -36,14 +37,17 @@ struct NewtonSettings
 };
 
 /**
- * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|` over v, m_k its moments at disc k, by a semismooth
- * Newton method: with `r = f - A v`, `lambda_k = r_k/G_k` and `z_k = lambda_k + c_k m_k` the
- * condition is `lambda = P(z)`, P the projection onto unit discs. Where |z| <= 1 a disc
- * sticks, m = 0; elsewhere with n = z/|z| the next v solves
+ * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|` over v, m_k its moments at disc k, under `m_k <= u_0` where a
+ * pressure acts, by a semismooth Newton method: with `r = f - A v`, `lambda_k = r_k/G_k` and
+ * `z_k = lambda_k + c_k (m_k - u_0)` the condition is `lambda = P(z)`, P the projection onto unit
+ * discs and half lines. Where |z| <= 1 a disc sticks, m = 0, and where z > 0 a pressure holds m = u_0 (the
+ * primal-dual active set of Hintermueller, Ito and Kunisch 2002, doi:10.1137/S1052623401383558); elsewhere, with
+ * n = z/|z| of a disc that slips and n = 0 where contact is open, the next v solves
  *
  *     (A + sum_k H_k) v = f - sum_k G_k n_k,    H_k = G_k c_k/(|z_k| - 1) (I - n_k n_k'),
  *
- * symmetric and positive. A step that raises the energy is shortened to its minimum along the step.
+ * symmetric and positive. A step between two admissible fields that raises the energy is shortened to its minimum along
+ * the step; where one of them penetrates the foundation energies do not compare.
  * Hueber, Stadler and Wohlmuth (2008) have the same function of lambda and u with multipliers as unknowns;
  * here they are gone, because moments make the matrix of contact diagonal.
  *
@@ -57,40 +61,50 @@ public:
                MomentMatrix<dim> &matrix);
 
   /**
-   * Starts where v and lambda are, or where @p lambda is empty with all discs sticking, and stops where
+   * Starts where v and lambda are, or where @p lambda is empty with all discs sticking and all contact closed, and stops where
    * @p settings are met; @p heard is told the steps so far. The error is estimated from the residual
    * rho of all equations under `lambda = P(z)` and the gap of friction, as of strongly convex functions:
-   * `|v - u_N|_a^2 <= rho' A^-1 rho + 2 sum_k (G_k |m_k| - lambda_k m_k)`, with the preconditioner for A^-1.
+   * `|v - u_N|_a^2 <= rho' A^-1 rho + 2 sum_k (G_k |m_k| - lambda_k m_k)`, with the preconditioner for A^-1. Contact
+   * adds `2 G_k p_k |m_k - u_0|` with p = P(z), and where it is penetrated A's diagonal times the depth squared.
    * Collective. Throws NumericalFailure where the augmented Lagrangian gives up as well.
    */
   NewtonReport solve(
-      DistributedVector &v, std::vector<Tangential<dim>> &lambda, const NewtonSettings &settings,
+      DistributedVector &v, std::vector<ContactVector<dim>> &lambda, const NewtonSettings &settings,
       const std::function<void(const NewtonReport &)> &heard = [](const NewtonReport &) {});
 
 private:
   struct Residual
   {
-    double norm = 0, energy = 0, gap = 0;
+    double norm = 0, gap = 0;
+    double load =
+        0; ///< to which the norm is compared: of the load vector or, if that is larger, of pressures' forces
   };
 
-  bool acts(unsigned int disc) const; ///< no friction acts where g = 0
+  bool acts(unsigned int k) const; ///< no friction acts where g = 0
+  double stiffness(unsigned int k) const;
+  ContactVector<dim> distance(const DistributedVector &v, unsigned int k) const;
+  ContactVector<dim> admissible(unsigned int k) const;
+  double gap(const DistributedVector &v, unsigned int k) const;
   Residual residual(const DistributedVector &v, bool keep_lambda);
-  DistributedVector off_discs() const;
-  std::vector<DiscState<dim>> states(bool all_stick) const;
-  DistributedVector right_hand_side(const std::vector<DiscState<dim>> &states) const;
+  DistributedVector off_contact() const;
+  std::vector<MomentState<dim>> states(bool all_held) const;
+  void hold(DistributedVector &v, const std::vector<MomentState<dim>> &states) const;
+  bool penetrates(const DistributedVector &v, double force) const;
+  DistributedVector right_hand_side(const std::vector<MomentState<dim>> &states) const;
   double friction(const DistributedVector &v, const DistributedVector &step, double length) const;
-  bool shorten(DistributedVector &v, const DistributedVector &old) const;
+  bool shorten(DistributedVector &v, const DistributedVector &old, double load) const;
   double error(double gap);
-  double linear_tolerance(const NewtonSettings &settings, double now, unsigned int step) const;
+  double linear_tolerance(const NewtonSettings &settings, const Residual &now,
+                          unsigned int step) const;
   bool is_exact(const NewtonSettings &settings, const Residual &now, NewtonReport &report);
   Residual augment(DistributedVector &v, NewtonReport &report);
-  unsigned int n_slipping(const std::vector<DiscState<dim>> &states) const;
+  void count(const std::vector<MomentState<dim>> &states, NewtonReport &report) const;
 
   const MomentSpace<dim> &space;
   const PrimalSystem<dim> &system;
   MomentMatrix<dim> &matrix;
-  std::vector<double> c; ///< of each disc [1/length]
-  std::vector<Tangential<dim>> lambda, z;
+  std::vector<double> c; ///< of each moment [1/length; of a pressure stress/length]
+  std::vector<ContactVector<dim>> lambda, z;
   double previous = 0;                                ///< norm of the residual before the last step
   DistributedVector r;                                ///< f - A v of the last residual()
   std::unique_ptr<AugmentedLagrangian<dim>> fallback; ///< where it is needed

@@ -31,13 +31,15 @@ struct PrimalReport
   const ErrorEstimate &estimate; ///< of the cells of this process
   dealii::types::global_dof_index n_cells = 0;
   double estimate_volume = 0, estimate_jumps = 0, estimate_neumann = 0, estimate_contact = 0;
+  double estimate_normal = 0, estimate_penetration = 0, estimate_tension = 0;
   double total_estimate = 0;  ///< eta
   double scaled_estimate = 0; ///< as StepReport has it, like the next
   double relative_estimate = 0;
   Energies energies{};
   Equilibrium<dim> equilibrium{};
   double peak_memory = 0; ///< that the processes have had so far, their sum [bytes]
-  std::vector<MomentPoint<dim>> contact{}; ///< on the first process alone
+  std::vector<MomentPoint<dim>> contact{};      ///< on the first process alone
+  std::vector<Penetration<dim>> penetrations{}; ///< by boundary
   NewtonReport newton{};
   StageTimes times{};                  ///< of the first process
   double seconds = 0;                  ///< since the start of the run, without output

@@ -20,19 +20,19 @@ public:
 
   /** The arguments must live until the mesh is refined. */
   Transfer(Mesh &mesh, const MomentSpace<dim> &space, const DistributedVector &u,
-           const std::vector<Tangential<dim>> &lambda);
+           const std::vector<ContactVector<dim>> &lambda);
 
   /** Of the new @p space: u with neighbours, lambda by discs. Collective. */
   void unpack(const MomentSpace<dim> &space, DistributedVector &u,
-              std::vector<Tangential<dim>> &lambda);
+              std::vector<ContactVector<dim>> &lambda);
 
 private:
   using Cell = typename dealii::Triangulation<dim>::cell_iterator;
 
   static void take_multiplier(const MomentSpace<dim> &space, const Cell &cell, const Cell &parent,
-                              const std::vector<bool> &parent_faces,
+                              const std::vector<bool> &parent_components,
                               const std::vector<double> &values,
-                              std::vector<Tangential<dim>> &lambda);
+                              std::vector<ContactVector<dim>> &lambda);
 
   Mesh &mesh;
   unsigned int handle;

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contact that may open: pressures at the Gauss points of contact faces, on the primal path.
+#include "runs.h"
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/primal/transfer.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace space;
+
+/** prm/slab.prm, free to leave the plane, which lies @p gap below it. */
+Scene<3> lifted_slab(const Overrides &overrides = {}, const std::string &gap = "")
+{
+  Overrides all{{"Boundary bottom/Contact", "unilateral"},
+                {"Boundary bottom/Gap", gap},
+                {"Adaptivity/Maximum steps", "2"}};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return slab(all);
+}
+
+/** A block as high as 1 that its top moves down by @p shift, smooth walls on two sides, cells that are no cubes, hanging nodes. */
+Scene<3> pressed_block(const unsigned int degree, const double shift, const double gap)
+{
+  Scene<3> scene;
+  scene.materials[0].young = 7;
+  scene.materials[0].poisson = 0.3;
+  scene.geometry.corners = box_corners(Point<3>(0, 0, 0), Point<3>(2, 1, 3));
+  scene.geometry.subdivisions = {{2, 1, 2}};
+  scene.geometry.graded_towards = {Point<3>(2, 0, 0)};
+  scene.geometry.grading_levels = 2;
+  scene.adaptivity.start_degree = degree;
+  scene.adaptivity.maximum_steps = 1;
+  scene.solver.primal_tolerance = 1e-12;
+  scene.boundary("left").contact = Contact::bilateral;
+  scene.boundary("front").contact = Contact::bilateral;
+  scene.boundary("top").displacement[1] = expression<3>(-shift);
+  scene.boundary("bottom").contact = Contact::unilateral;
+  scene.boundary("bottom").gap = expression<3>(gap);
+  return scene;
+}
+
+/** Uniaxial stress: p = E (shift - gap)/height, or none. */
+void expect_pressure(const Scene<3> &scene, const double expected)
+{
+  steps_of<3>(scene,
+              [&](const PrimalReport<3> &step)
+              {
+                for (const MomentPoint<3> &point : step.contact)
+                  if (scene.boundaries[point.boundary].is_unilateral())
+                  {
+                    EXPECT_NEAR(point.normal_traction, -expected, 1e-9);
+                    EXPECT_EQ(point.mode(), expected > 0 ? ContactMode::slip : ContactMode::open);
+                    if (expected > 0)
+                    {
+                      EXPECT_NEAR(point.gap, 0, 1e-12);
+                    }
+                    else
+                    {
+                      EXPECT_GT(point.gap, 1e-3);
+                    }
+                  }
+                const double strain = expected / scene.materials[0].young;
+                EXPECT_NEAR(step.energies.energy, 0.5 * expected * strain * 6, 1e-11);
+                EXPECT_LT(step.total_estimate, 1e-9);
+                EXPECT_EQ(step.newton.n_pressing, expected > 0 ? step.space.n_pressures : 0);
+                for (const auto &force : step.equilibrium.reactions)
+                  if (force.boundary == "bottom")
+                  {
+                    EXPECT_NEAR(force.force[1], 6 * expected, 1e-9);
+                  }
+              });
+}
+
+TEST(Unilateral, BlockPressedUniformly)
+{
+  for (const unsigned int degree : {2U, 3U, 4U})
+    expect_pressure(pressed_block(degree, 0.05, 0.02), 7 * 0.03);
+}
+
+TEST(Unilateral, BlockThatDoesNotReachTheFoundation)
+{
+  expect_pressure(pressed_block(3, 0.01, 0.02), 0);
+}
+
+/** Interference alone: the load vector is zero. */
+TEST(Unilateral, FoundationThatPushesTheBlockUp)
+{
+  expect_pressure(pressed_block(2, 0, -0.04), 7 * 0.04);
+}
+
+/** In the plane the reduced path has the same moments and pressures. */
+void expect_reduced_path(const Scene<2> &scene)
+{
+  std::vector<std::vector<ContactMode>> modes;
+  std::vector<Step> reduced;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        reduced.push_back({step.solution.displacement_space.degrees().size(),
+                           step.solution.displacement_space.n_free_dofs(), 0, 0,
+                           step.energies.lagrangian, step.energies.energy, step.estimate.total(),
+                           step.energies.norm});
+        modes.emplace_back();
+        for (const ContactPoint<2> &point : step.contact[0].points)
+          modes.back().push_back(point.mode());
+      });
+  unsigned int k = 0;
+  steps_of<2>(scene,
+              [&](const PrimalReport<2> &step)
+              {
+                ASSERT_LT(k, reduced.size());
+                EXPECT_EQ(step.n_cells, reduced[k].n_cells);
+                EXPECT_EQ(step.space.n_free, reduced[k].n_free);
+                EXPECT_NEAR(step.energies.lagrangian, reduced[k].lagrangian,
+                            1e-9 * std::abs(reduced[k].lagrangian));
+                EXPECT_NEAR(step.energies.norm, reduced[k].norm, 1e-9 * reduced[k].norm);
+                EXPECT_NEAR(step.total_estimate, reduced[k].estimate, 1e-7 * reduced[k].estimate);
+                ASSERT_EQ(step.contact.size(), modes[k].size());
+                for (unsigned int i = 0; i < modes[k].size(); ++i)
+                  EXPECT_EQ(step.contact[i].mode(), modes[k][i]) << step.contact[i].x;
+                ++k;
+              });
+  EXPECT_EQ(k, reduced.size());
+}
+
+Scene<2> opening_plane(const Overrides &overrides)
+{
+  Overrides all{{"Solver/Normal contact", "multiplier"}, {"Adaptivity/Maximum steps", "4"}};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  Scene<2> scene = read_scene<2>("prm/han-6-12-unilateral.prm", all);
+  scene.solver.primal_tolerance = 1e-12;
+  return scene;
+}
+
+TEST(Unilateral, BothPathsAgreeInThePlane)
+{
+  for (const char *const method : {"hap2", "hap3", "hup4"})
+    expect_reduced_path(opening_plane({{"Adaptivity/Method", method}}));
+}
+
+TEST(Unilateral, BothPathsAgreeOnACurvedFoundationWithoutFriction)
+{
+  expect_reduced_path(
+      opening_plane({{"Adaptivity/Method", "hap3"},
+                     {"Boundary bottom/Friction bound", ""},
+                     {"Adaptivity/Maximum steps", "3"}, // then p4est refines one cell more
+                     {"Boundary bottom/Gap", "0.002*(x - 4)*(x - 2)*exp(x/4) + 0.02*(4 - x)"}}));
+}
+
+/** Plane strain: a slab of one layer with u_z = 0 on both sides. */
+TEST(Unilateral, SlabIsPlaneStrain)
+{
+  for (const char *const method : {"hup2", "hup3"})
+  {
+    const Scene<2> plane = opening_plane({{"Adaptivity/Method", method},
+                                          {"Material/Plane", "strain"},
+                                          {"Adaptivity/Maximum steps", "2"}});
+    const Scene<3> scene = lifted_slab({{"Adaptivity/Method", method},
+                                        {"Geometry/Subdivisions", "4, 4, 1"},
+                                        {"Geometry/Upper corner", "4, 4, 0.75"},
+                                        {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
+                                        {"Boundary front/Displacement", "free; free; 0"},
+                                        {"Boundary back/Displacement", "free; free; 0"}});
+    std::vector<double> flat;
+    AdaptiveSolver<2>(plane).run([&](const StepReport<2> &step)
+                                 { flat.push_back(step.energies.lagrangian); });
+    const auto thick = steps_of<3>(scene);
+    for (unsigned int k = 0; k < flat.size(); ++k)
+      EXPECT_NEAR(thick[k].lagrangian / 0.75, flat[k], 1e-9 * std::abs(flat[k]));
+  }
+}
+
+/** y and z changed about: the foundation lies in front, or, mirrored, behind. */
+TEST(Unilateral, TurnedSlabsAgree)
+{
+  const auto turned = [](const std::string &side, const std::string &depth, const std::string &sign)
+  {
+    return slab({{"Geometry/Upper corner", "4, 2, 4"},
+                 {"Geometry/Subdivisions", "4, 2, 4"},
+                 {"Boundary left/Traction", "1.5*(5 - " + depth + "); 0.5; " + sign + "0.75"},
+                 {"Boundary bottom/Contact", "none"},
+                 {"Boundary bottom/Friction bound", ""},
+                 {"Boundary " + side + "/Contact", "unilateral"},
+                 {"Boundary " + side + "/Gap", "0.003*x*y"},
+                 {"Boundary " + side + "/Friction bound", "4.5"},
+                 {"Adaptivity/Maximum steps", "2"}});
+  };
+  const auto upright = steps_of<3>(lifted_slab({}, "0.003*x*z")),
+             front = steps_of<3>(turned("front", "z", "-")),
+             back = steps_of<3>(turned("back", "(4 - z)", ""));
+  for (unsigned int k = 0; k < upright.size(); ++k)
+    for (const auto *other : {&front[k], &back[k]})
+    {
+      EXPECT_EQ(upright[k].n_free, other->n_free);
+      EXPECT_EQ(upright[k].n_slipping, other->n_slipping);
+      EXPECT_NEAR(upright[k].lagrangian, other->lagrangian, 1e-10 * std::abs(other->lagrangian));
+    }
+}
+
+/** p >= 0, m <= u_0 and p (m - u_0) = 0 at every point, some of which press and some not. */
+void expect_complementarity(const PrimalReport<3> &step)
+{
+  const DistributedVector v = step.space.moments(step.u);
+  unsigned int n_open = 0, n_pressing = 0;
+  for (unsigned int k = 0; k < step.space.contact.size(); ++k)
+  {
+    const ContactMoment<3> &moment = step.space.contact[k];
+    if (moment.is_friction())
+      continue;
+    const auto point = std::find_if(step.contact.begin(), step.contact.end(),
+                                    [&](const auto &p) { return p.x.distance(moment.x) < 1e-12; });
+    ASSERT_NE(point, step.contact.end());
+    const double pressure = -point->normal_traction,
+                 distance = moment.gap[0] - step.space.moment(v, k)[0];
+    EXPECT_GE(pressure, 0);
+    EXPECT_GE(distance, -1e-12);
+    EXPECT_LE(pressure * distance, 1e-12);
+    ++(pressure > 0 ? n_pressing : n_open);
+    EXPECT_EQ(pressure == 0, point->mode() == ContactMode::open);
+  }
+  EXPECT_GT(n_open, 0);
+  EXPECT_GT(n_pressing, 0);
+  EXPECT_EQ(n_pressing, step.newton.n_pressing);
+}
+
+/** Of all forces by boundary, and that of the foundation by its pressures. */
+void expect_balance(const PrimalReport<3> &step)
+{
+  EXPECT_LT(step.equilibrium.force_imbalance, 1e-9);
+  EXPECT_LT(step.equilibrium.moment_imbalance, 1e-9);
+  double press = 0;
+  for (const MomentPoint<3> &point : step.contact)
+    press -= point.area * point.normal_traction;
+  for (const auto &force : step.equilibrium.reactions)
+    if (force.boundary == "bottom")
+    {
+      EXPECT_NEAR(force.force[1], press, 1e-9);
+    }
+}
+
+TEST(Unilateral, ComplementarityAndBalance)
+{
+  for (const char *const method : {"hap2", "hap3", "hap4"})
+    steps_of<3>(lifted_slab({{"Adaptivity/Method", method}, {"Geometry/Subdivisions", "2, 2, 1"}},
+                            "0.05*x*z"),
+                [](const PrimalReport<3> &step)
+                {
+                  expect_complementarity(step);
+                  expect_balance(step);
+                });
+}
+
+/** Cut off after one step the augmented Lagrangian ends where Newton's method does. */
+TEST(Unilateral, AugmentedLagrangianAgrees)
+{
+  steps_of<3>(lifted_slab({}, "0.004*x*z"),
+              [](const PrimalReport<3> &step)
+              {
+                PrimalSystem<3> system(step.space);
+                MomentMatrix<3> matrix(step.space, system);
+                MomentNewton<3> newton(step.space, system, matrix);
+                DistributedVector v = step.space.owned_vector();
+                std::vector<ContactVector<3>> lambda;
+                NewtonSettings settings;
+                settings.residual = 1e-10;
+                settings.maximum_steps = 1;
+                const NewtonReport report = newton.solve(v, lambda, settings);
+                EXPECT_TRUE(report.augmented_steps > 3);
+                EXPECT_EQ(report.n_slipping, step.newton.n_slipping);
+                EXPECT_EQ(report.n_pressing, step.newton.n_pressing);
+                DistributedVector difference = step.space.displacement(v);
+                difference -= step.u;
+                EXPECT_LT(difference.l2_norm(), 1e-7 * step.u.l2_norm());
+              });
+}
+
+/** What degree p - 2 = 1 holds in each direction: a friction of two components, or a pressure. */
+ContactVector<3> bilinear(const ContactMoment<3> &moment)
+{
+  const double a = moment.x[0] - 0.5 * moment.x[2] + 0.1 * moment.x[0] * moment.x[2];
+  return moment.is_friction() ? ContactVector<3>({a, 1 - a}) : ContactVector<3>({2 + a, 0.});
+}
+
+/** Children take the polynomials of their parent, pressures as well as frictions, from cells that persist and that do not. */
+TEST(Unilateral, TransferKeepsPolynomials)
+{
+  const Scene<3> scene = lifted_slab({{"Adaptivity/Method", "hap3"}});
+  const BoxTables<3> tables(3);
+  MomentSpace<3>::Mesh mesh(MPI_COMM_SELF);
+  make_mesh(scene, static_cast<Triangulation<3> &>(mesh));
+  const MomentSpace<3> coarse(scene, mesh, tables);
+  std::vector<ContactVector<3>> lambda;
+  for (const ContactMoment<3> &moment : coarse.contact)
+    lambda.push_back(bilinear(moment));
+  mesh.begin_active()->set_refine_flag();
+  mesh.last_active()->set_refine_flag();
+  mesh.prepare_coarsening_and_refinement();
+  DistributedVector u = coarse.ghosted_vector();
+  Transfer<3> transfer(mesh, coarse, u, lambda);
+  mesh.execute_coarsening_and_refinement();
+  const MomentSpace<3> fine(scene, mesh, tables);
+  transfer.unpack(fine, u, lambda);
+  ASSERT_EQ(lambda.size(), fine.contact.size());
+  ASSERT_GT(fine.contact.size(), coarse.contact.size());
+  for (unsigned int k = 0; k < lambda.size(); ++k)
+    EXPECT_LT((lambda[k] - bilinear(fine.contact[k])).norm(), 1e-12);
+}
+
+/** Where no tolerance is named, what is left is small beside the indicator. */
+TEST(Unilateral, StopsWhereTheEstimatedErrorSaysSo)
+{
+  Scene<3> scene = lifted_slab({{"Adaptivity/Maximum steps", "3"}}, "0.004*x*z");
+  const auto exact = steps_of<3>(scene);
+  scene.solver.primal_tolerance = 0;
+  unsigned int k = 0;
+  steps_of<3>(scene,
+              [&](const PrimalReport<3> &step)
+              {
+                EXPECT_LE(step.newton.error, 1e-2 * step.scaled_estimate);
+                EXPECT_LE(std::abs(step.energies.lagrangian - exact[k].lagrangian),
+                          std::pow(step.newton.error, 2) + 1e-8);
+                ++k;
+              });
+}
+} // namespace
