@@ -21,9 +21,8 @@ using namespace hpvi;
 class Machine
 {
 public:
-  const std::filesystem::path root =
-      std::filesystem::path(::testing::TempDir()) /
-      ("hpvi-memory-test-" + std::to_string(std::random_device()()));
+  const std::filesystem::path root = std::filesystem::path(::testing::TempDir()) /
+                                     ("hpvi-memory-test-" + std::to_string(std::random_device()()));
 
   Machine()
   {
