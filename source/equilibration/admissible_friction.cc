@@ -217,7 +217,7 @@ try
   if (!add_conditions(program))
     return false;
   for (unsigned int k = 0; k < free.size(); ++k)
-    for (unsigned int i = 0, n = 2 * free[k]->h.size(); i <= n; ++i)
+    for (unsigned int i = 0, n = free[k]->h.size(); i <= n; ++i)
       add_bounds(k, 0.5 - 0.5 * std::cos(numbers::PI * i / n), program);
   // Exchange: the extremes that stand out become points as well, and move towards those of the minimum.
   bool stands_out = true;

@@ -737,7 +737,7 @@ void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::ve
   add_pressure(strip, fixed, h, conditions);
   InequalityProgram program(strip.H(), h);
   for (const Condition &condition : conditions)
-    for (unsigned int i = 0, n = 2 * condition.trace->legendre.m(); i <= n; ++i)
+    for (unsigned int i = 0, n = condition.trace->legendre.m(); i <= n; ++i)
       condition.add_to(program, strip, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
   if (!program.solve())
     return;
