@@ -68,13 +68,16 @@ def write(name, head, rows):
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
-def chart(name, x, y, curves, log_y=True):
+def chart(name, x, y, curves, log_y=True, ticks=None):
     figure, axes = plt.subplots(figsize=(6.6, 4.2), layout="constrained")
     for marker, (label, points) in zip("os^Dvx", curves.items()):
         axes.loglog(*zip(*points), marker + "-", label=label)
     if not log_y:
         axes.set_yscale("linear")
         axes.set_ylim(bottom=0)
+    for axis, values in zip((axes.xaxis, axes.yaxis), ticks or ()):  # of less than a decade or two
+        axis.set_ticks(values, [f"{value:g}" for value in values])
+        axis.set_ticks([], minor=True)
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     axes.grid(alpha=0.3)
@@ -155,7 +158,8 @@ def crossover():
         table.append([n, round(cpu["reduced"], 3), round(cpu["primal"], 3), round(ratio, 2)])
     write("crossover.csv", ["multipliers", "reduced_cpu_seconds", "primal_cpu_seconds", "step_over_factorisations"], table)
     chart("crossover.png", "multipliers", "CPU time of a run [s]",
-          {"reduced path": [(r[0], r[1]) for r in table], "primal path": [(r[0], r[2]) for r in table]})
+          {"reduced path": [(r[0], r[1]) for r in table], "primal path": [(r[0], r[2]) for r in table]},
+          ticks=([250, 500, 1000, 2000], [0.3, 0.5, 1, 2, 3]))
     for row in table:
         print(*row)
 

@@ -90,7 +90,7 @@ try
                 step.solution,
                 [&](const unsigned int face, const unsigned int end)
                 { return friction.part(face, end).coefficients(); },
-                cache);
+                {}, cache);
             const auto sums = squares(step.solution, stress);
             double eta_square = 0;
             for (const double square : stress.squares)
