@@ -86,13 +86,13 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
   const bool is_moved = solution.scene.has_unilateral_contact();
   const double w = is_moved ? norm(correction) : 0.,
                gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap());
-  Vector<double> v;
+  double change = 0;
   if (is_moved)
   {
-    v = correction.unknowns();
+    Vector<double> v(correction.unknowns());
     v *= -1.;
+    change = energy_change(solution, discretisation, v);
   }
-  const double change = v.all_zero() ? 0. : energy_change(solution, discretisation, v);
   result.energy = std::pow(result.stress + w + data.lift + result.oscillation, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
