@@ -22,7 +22,7 @@ namespace hpvi
  *     sum_f int g psi_a l_a = sum_f int psi_a z_N,   |l_a| <= 1,   l_a continuous at a.
  *
  * The first is possible because z_N does no more work on psi_a than g where the Gauss points of z_N see
- * all of g: always for constant g. Faces on which it does as much slip everywhere, and there l_a = +-1. Of
+ * all of g: always for constant g. Faces that slip at all of them have l_a = +-1, with the same work where g is constant. Of
  * all others, l_a minimises
  *
  *     h/(2 mu p) int psi_a (g l_a - z_N)^2 - 2 int psi_a g l_a u_Nt,
@@ -44,7 +44,7 @@ public:
 
   /**
    * The largest of `|sum_f int g psi_a l_a - int psi_a z_N|`, relative to int psi_a g: above round-off
-   * only where z_N does more work than g lets it, because g varies between the Gauss points. No stress
+   * only where z_N does other work than g, because that varies between the Gauss points. No stress
    * near sigma(u_N) is in balance with l* then.
    */
   double imbalance() const;

@@ -54,7 +54,7 @@ bool has_transition(const ContactFace<dim> &face, const dealii::Vector<double> &
 
 /**
  * Degree of friction and pressure of an equilibrated stress on a contact face: p, and more where stick and slip, or
- * contact and gap, share it, because no polynomial within its bounds is near what tractions do there.
+ * contact and gap, share it, because no polynomial within its bounds is near what tractions do there, and where g varies.
  */
 template <int dim>
 unsigned int traction_degree(const ContactFace<dim> &face, const dealii::Vector<double> &z,
