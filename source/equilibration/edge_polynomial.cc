@@ -2,7 +2,7 @@
 #include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/stresses/legendre.h>
 
-#include <boost/math/tools/toms748_solve.hpp>
+#include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,18 +19,49 @@ double normalisation(const unsigned int i)
   return std::sqrt(i + 0.5);
 }
 
-/** Where a function with values of different signs at @p left and @p right passes zero. */
-template <class F>
-double zero_between(const F &function, const double left, const double right, const double at_left,
-                    const double at_right)
+/** `P_{i+1} = up t P_i - down P_{i-1}` */
+struct Recurrence
 {
-  std::uintmax_t patience = 100;
-  const auto bracket =
-      boost::math::tools::toms748_solve(function, left, right, at_left, at_right,
-                                        boost::math::tools::eps_tolerance<double>(50), patience);
-  return 0.5 * (bracket.first + bracket.second);
-}
+  double up, down;
+};
+
+const std::array<Recurrence, legendre::n_roots> recurrences = []
+{
+  std::array<Recurrence, legendre::n_roots> result;
+  for (unsigned int i = 0; i < legendre::n_roots; ++i)
+    result[i] = {(2. * i + 1.) / (i + 1.), i / (i + 1.)};
+  return result;
+}();
 } // namespace
+
+/** Where it passes zero between two points with values of different signs. */
+double EdgePolynomial::zero_between(const double left, const double right, const double at_left,
+                                    const double at_right) const
+{
+  const auto with_slope = [this](const double s)
+  {
+    const double t = 2. * s - 1.;
+    double value = 0., slope = 0., before = 0., last = 1., slope_before = 0., last_slope = 0.;
+    for (unsigned int i = 0; i < terms.size(); ++i)
+    {
+      value += terms[i] * last;
+      slope += terms[i] * last_slope;
+      const double next = recurrences[i].up * t * last - recurrences[i].down * before,
+                   next_slope = recurrences[i].up * (t * last_slope + last) -
+                                recurrences[i].down * slope_before;
+      before = last;
+      last = next;
+      slope_before = last_slope;
+      last_slope = next_slope;
+    }
+    return std::make_pair(value, 2. * slope);
+  };
+  constexpr int bits = 26; // Newton's last step doubles them
+  std::uintmax_t patience = 100;
+  return boost::math::tools::newton_raphson_iterate(
+      with_slope, left + (right - left) * at_left / (at_left - at_right), left, right, bits,
+      patience);
+}
 
 EdgePolynomial::EdgePolynomial(const std::vector<double> &coefficients) : terms(coefficients)
 {
@@ -62,7 +93,7 @@ double EdgePolynomial::operator()(const double s) const
   for (unsigned int i = 0; i < terms.size(); ++i)
   {
     sum += terms[i] * last;
-    const double next = ((2. * i + 1.) * t * last - i * before) / (i + 1.);
+    const double next = recurrences[i].up * t * last - recurrences[i].down * before;
     before = last;
     last = next;
   }
@@ -92,6 +123,21 @@ double EdgePolynomial::largest() const
   for (const double coefficient : terms)
     sum += std::abs(coefficient);
   return sum;
+}
+
+std::pair<double, double> EdgePolynomial::enclosure() const
+{
+  const double n_points = 4. * terms.size();
+  double least = 0., most = 0.;
+  for (unsigned int k = 0; k < n_points; ++k)
+  {
+    const double value = (*this)(0.5 - 0.5 * std::cos(numbers::PI * (k + 0.5) / n_points));
+    least = k == 0 ? value : std::min(least, value);
+    most = k == 0 ? value : std::max(most, value);
+  }
+  const double centre = (least + most) / 2.,
+               reach = (most - least) / 2. / std::cos(numbers::PI / 8.);
+  return {centre - reach, centre + reach};
 }
 
 /** With respect to s, from `(2i + 1) P_i = P_{i+1}' - P_{i-1}'`. */
@@ -132,7 +178,7 @@ std::vector<double> EdgePolynomial::zeros() const
   {
     const double at_right = (*this)(right);
     if (at_left * at_right < 0.)
-      result.push_back(zero_between(*this, left, right, at_left, at_right));
+      result.push_back(zero_between(left, right, at_left, at_right));
     if (at_right != 0.)
     {
       left = right;
@@ -146,6 +192,14 @@ Vector<double> legendre_basis(const unsigned int n, const double s)
 {
   const std::vector<double> values = legendre::values(n, 2. * s - 1.);
   return Vector<double>(values.begin(), values.end());
+}
+
+bool varies(const FrictionRule &friction)
+{
+  const std::vector<double> &g = friction.values;
+  return std::any_of(g.begin(), g.end(),
+                     [&](const double value)
+                     { return std::abs(value - g[0]) > 1e-10 * std::abs(g[0]); });
 }
 
 template <int dim>
@@ -168,11 +222,7 @@ unsigned int traction_degree(const ContactFace<dim> &face, const Vector<double> 
   const auto presses = [&](const unsigned int i) { return z[i] > 0.; };
   const auto n_pressing = std::count_if(face.pressures.begin(), face.pressures.end(), presses);
   const bool ends = n_pressing > 0 && n_pressing < std::ptrdiff_t(face.pressures.size());
-  const std::vector<double> &g = face.friction.values;
-  const bool varies = std::any_of(g.begin(), g.end(),
-                                  [&](const double value)
-                                  { return std::abs(value - g[0]) > 1e-10 * std::abs(g[0]); });
-  return face.degree + (ends || varies || has_transition(face, z, space) ? more : 0);
+  return face.degree + (ends || varies(face.friction) || has_transition(face, z, space) ? more : 0);
 }
 
 template <int dim>

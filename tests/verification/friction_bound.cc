@@ -131,6 +131,35 @@ TEST(EdgePolynomial, FindsAllZerosAndExtremes)
   EXPECT_TRUE(EdgePolynomial::constant(1.).zeros().empty());
 }
 
+/** Extremes reach a bound to round-off, and enclosures are never narrower than values, nor half as wide again. */
+TEST(EdgePolynomial, KnowsItsRange)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> between(-1., 1.);
+  for (unsigned int n = 1; n <= 20; ++n)
+    for (unsigned int repeat = 0; repeat < 20; ++repeat)
+    {
+      std::vector<double> coefficients(n);
+      for (double &coefficient : coefficients)
+        coefficient = between(random);
+      const EdgePolynomial polynomial(coefficients);
+      double most = polynomial(0.), least = most, sampled = most;
+      for (const double s : polynomial.extremes())
+      {
+        most = std::max(most, polynomial(s));
+        least = std::min(least, polynomial(s));
+      }
+      for (unsigned int k = 0; k <= 20000; ++k)
+        sampled = std::max(sampled, polynomial(k / 20000.));
+      EXPECT_NEAR(sampled, most, 1e-5 * polynomial.largest());
+      EXPECT_LE(sampled, most + 1e-14 * polynomial.largest());
+      const auto [below, above] = polynomial.enclosure();
+      EXPECT_LE(below, least + 1e-14);
+      EXPECT_GE(above, most - 1e-14);
+      EXPECT_LE(above - below, 1.1 * (most - least) + 1e-14);
+    }
+}
+
 /** The basis is orthonormal over [-1,1], the first one 2^{-1/2}. */
 TEST(EdgePolynomial, CountsInOrthonormalPolynomials)
 {

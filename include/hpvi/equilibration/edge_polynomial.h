@@ -32,6 +32,12 @@ public:
 
   double largest() const; ///< no less than the largest of its absolute values over [0,1]
 
+  /**
+   * Numbers between which all its values over [0,1] are, from those at m = 4n Chebyshev points: in between, a polynomial of
+   * degree below n is less than `1/cos(n pi/(2 m))` times larger (Ehlich and Zeller, DOI 10.1007/BF01111276).
+   */
+  std::pair<double, double> enclosure() const;
+
   /** Where it changes sign in (0,1), ascending: between those of its derivative, so that none is missed. */
   std::vector<double> zeros() const;
 
@@ -40,12 +46,16 @@ public:
 
 private:
   EdgePolynomial derivative() const;
+  double zero_between(double left, double right, double at_left, double at_right) const;
 
   std::vector<double> terms; ///< coefficients of P_i(2s - 1), P_i(1) = 1
 };
 
 /** L_0 to L_{n-1} at s. */
 dealii::Vector<double> legendre_basis(unsigned int n, double s);
+
+/** Is g another number elsewhere on the face? */
+bool varies(const FrictionRule &friction);
 
 /** Are there both points that stick and points that slip? */
 template <int dim>
