@@ -129,6 +129,39 @@ Side FaceIntegrals<dim>::side(const unsigned int end) const
   return result;
 }
 
+/** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */
+double constant_part(const std::vector<Side *> &sides)
+{
+  double work = 0, limit = 0;
+  for (const Side *side : sides)
+  {
+    work += side->work;
+    limit += side->limit;
+  }
+  return std::max(-1., std::min(1., work / limit));
+}
+
+/** Bring l into [-1,1] by as much of the constant as it takes, which changes none of its conditions. */
+void shrink(const std::vector<Side *> &sides)
+{
+  const double c = constant_part(sides);
+  double part = 0;
+  for (const Side *side : sides)
+    for (const double s : side->l.extremes())
+      if (const double value = side->l(s); std::abs(value) > 1. + round_off)
+        part = std::max(part, (std::abs(value) - 1.) / std::abs(value - c));
+  if (part == 0)
+    return;
+  for (Side *side : sides)
+  {
+    std::vector<double> coefficients = side->l.coefficients();
+    for (double &coefficient : coefficients)
+      coefficient *= 1. - part;
+    coefficients[0] += part * c * std::sqrt(2.);
+    side->l = EdgePolynomial(coefficients);
+  }
+}
+
 /** The quadratic program for those sides of one patch that no forced slip determines. */
 class PatchProgram
 {
@@ -143,6 +176,7 @@ private:
   InequalityProgram start() const;
   bool add_conditions(InequalityProgram &program) const;
   void add_bounds(unsigned int side, double s, InequalityProgram &program) const;
+  void read(const InequalityProgram &program);
 
   const std::vector<Side *> &sides, &free;
   std::vector<unsigned int> first; ///< unknown of each free side; their number
@@ -210,12 +244,27 @@ void PatchProgram::add_bounds(const unsigned int side, const double s,
   program.add_inequality(values, -1.);
 }
 
+void PatchProgram::read(const InequalityProgram &program)
+{
+  const auto begin = program.minimiser().begin();
+  for (unsigned int k = 0; k < free.size(); ++k)
+    free[k]->l = EdgePolynomial({begin + first[k], begin + first[k + 1]});
+}
+
 bool PatchProgram::solve()
 try
 {
   InequalityProgram program = start();
-  if (!add_conditions(program))
+  if (!add_conditions(program) || !program.solve())
     return false;
+  read(program);
+  if (std::all_of(free.begin(), free.end(),
+                  [](const Side *side)
+                  {
+                    const auto [least, most] = side->l.enclosure();
+                    return least >= -1. && most <= 1.;
+                  }))
+    return true; // as where the body sticks well
   for (unsigned int k = 0; k < free.size(); ++k)
     for (unsigned int i = 0, n = free[k]->h.size(); i <= n; ++i)
       add_bounds(k, 0.5 - 0.5 * std::cos(numbers::PI * i / n), program);
@@ -225,57 +274,23 @@ try
   {
     if (!program.solve())
       return false;
+    read(program);
     stands_out = false;
     for (unsigned int k = 0; k < free.size(); ++k)
-    {
-      const auto begin = program.minimiser().begin();
-      free[k]->l = EdgePolynomial({begin + first[k], begin + first[k + 1]});
       for (const double s : free[k]->l.extremes())
         if (std::abs(free[k]->l(s)) > 1. + 0.5 * round_off)
         {
           stands_out = true;
           add_bounds(k, s, program);
         }
-    }
   }
+  if (stands_out)
+    shrink(sides);
   return true;
 }
 catch (const NumericalFailure &) // g is zero up to round-off
 {
   return false;
-}
-
-/** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */
-double constant_part(const std::vector<Side *> &sides)
-{
-  double work = 0, limit = 0;
-  for (const Side *side : sides)
-  {
-    work += side->work;
-    limit += side->limit;
-  }
-  return std::max(-1., std::min(1., work / limit));
-}
-
-/** Bring l into [-1,1] by as much of the constant as it takes, which changes none of its conditions. */
-void shrink(const std::vector<Side *> &sides)
-{
-  const double c = constant_part(sides);
-  double part = 0;
-  for (const Side *side : sides)
-    for (const double s : side->l.extremes())
-      if (const double value = side->l(s); std::abs(value) > 1. + round_off)
-        part = std::max(part, (std::abs(value) - 1.) / std::abs(value - c));
-  if (part == 0)
-    return;
-  for (Side *side : sides)
-  {
-    std::vector<double> coefficients = side->l.coefficients();
-    for (double &coefficient : coefficients)
-      coefficient *= 1. - part;
-    coefficients[0] += part * c * std::sqrt(2.);
-    side->l = EdgePolynomial(coefficients);
-  }
 }
 
 /** Find l on the one or two sides of a patch, and what work it leaves undone. */
@@ -297,7 +312,6 @@ void distribute(const std::vector<Side *> &sides)
     if (!PatchProgram(sides, sides).solve())
       for (Side *side : sides)
         side->l = EdgePolynomial::constant(constant_part(sides));
-  shrink(sides);
   double missing = 0, limit = 0;
   for (const Side *side : sides)
   {

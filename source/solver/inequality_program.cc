@@ -57,14 +57,16 @@ InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<d
 
 bool InequalityProgram::add_equality(Vector<double> row, const double value)
 {
-  rows.push_back({std::move(row), value, true});
+  const double length = row.l2_norm();
+  rows.push_back({std::move(row), value, length, true});
   is_in.push_back(false);
   return take_in(rows.size() - 1);
 }
 
 void InequalityProgram::add_inequality(Vector<double> row, const double least)
 {
-  rows.push_back({std::move(row), least, false});
+  const double length = row.l2_norm();
+  rows.push_back({std::move(row), least, length, false});
   is_in.push_back(false);
 }
 
@@ -88,7 +90,7 @@ unsigned int InequalityProgram::most_violated() const
   for (unsigned int i = 0; i < rows.size(); ++i)
     if (!is_in[i] && !rows[i].is_equality)
     {
-      const double violation = -slack(rows[i], round_off) / rows[i].coefficients.l2_norm();
+      const double violation = -slack(rows[i], round_off) / rows[i].length;
       if (violation > worst)
       {
         worst = violation;

@@ -41,6 +41,7 @@ private:
   {
     dealii::Vector<double> coefficients;
     double bound;
+    double length; ///< of the coefficients
     bool is_equality;
   };
 
