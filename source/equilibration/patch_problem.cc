@@ -13,6 +13,9 @@ namespace
 {
 constexpr unsigned int none = numbers::invalid_unsigned_int;
 
+/** Pivots of conditions that others imply, relative to the largest. */
+constexpr double dependent = 1e-11;
+
 /** One component of the traction on an edge as data of a cell: `r_row += weight R t`. */
 struct Block
 {
@@ -51,6 +54,7 @@ public:
         first_unknown[e][c] = component.is_unknown ? n : none;
         n += component.is_unknown ? component.n : 0;
       }
+    blocks.reserve(cells.size());
     for (const PatchCell &cell : cells)
       blocks.push_back(blocks_of(cell));
   }
@@ -61,7 +65,10 @@ private:
   unsigned int place(unsigned int edge) const;
   std::vector<Block> blocks_of(const PatchCell &cell) const;
   EquilibrationCache::Signature signature() const;
+  EquilibrationCache::Signature form(const std::vector<unsigned int> &present) const;
   void factorise(PatchFactor &factor) const;
+  std::vector<unsigned int> independent_conditions(const PatchFactor &factor) const;
+  bool choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const;
   void add_energy(const PatchCell &cell, const std::vector<Block> &parts, double scale,
                   PatchFactor &factor) const;
   void add_conditions(const PatchCell &cell, const std::vector<Block> &parts, unsigned int first,
@@ -190,11 +197,67 @@ void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block
   }
 }
 
-/** H and C; then, with `W = L^-1 C`, as many conditions as `W'W` has rank. */
+/** What tells which conditions imply the others: the signature without degrees, those of p = 2 excepted. */
+EquilibrationCache::Signature PatchProblem::form(const std::vector<unsigned int> &present) const
+{
+  EquilibrationCache::Signature key(present.begin(), present.end());
+  for (const PatchEdge &edge : edges)
+    for (const StressEdge::Component &component : edge.edge->components)
+      key.push_back(component.is_unknown ? -1 - long(std::min(component.n, 4U)) : -1);
+  for (const PatchCell &cell : cells)
+    for (unsigned int face = 0; face < 4; ++face)
+    {
+      const unsigned int e = place(cell.cell->edges[face]);
+      key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
+    }
+  return key;
+}
+
+/** Places of as many conditions as `C'H^-1 C` has rank: patches have motions and corners in common. */
+std::vector<unsigned int> PatchProblem::independent_conditions(const PatchFactor &factor) const
+{
+  const unsigned int m = factor.present.size();
+  std::vector<double> W(factor.conditions), S(m * m);
+  solve_triangular('N', n, m, {factor.H.data(), n}, W.data(), n);
+  multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
+  return PivotedCholesky(m, S, dependent).order;
+}
+
+/** `W = L^-1 C` of some conditions and the factor of W'W; false: they depend on one another. */
+bool PatchProblem::choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const
+{
+  const unsigned int rank = conditions.size();
+  factor.chosen = conditions;
+  factor.W.clear();
+  factor.W.reserve(std::size_t(rank) * n);
+  for (const unsigned int k : conditions)
+    factor.W.insert(factor.W.end(), &factor.conditions[std::size_t(k) * n],
+                    &factor.conditions[std::size_t(k) * n] + n);
+  solve_triangular('N', n, rank, {factor.H.data(), n}, factor.W.data(), n);
+  factor.S.resize(rank * rank);
+  multiply('T', 'N', rank, rank, n, 1., {factor.W.data(), n}, {factor.W.data(), n}, 0.,
+           factor.S.data(), rank);
+  if (!cholesky(rank, factor.S.data(), rank))
+    return false;
+  double least = 1., largest = 0.;
+  for (unsigned int i = 0; i < rank; ++i)
+  {
+    const double pivot = factor.S[i * rank + i];
+    least = i == 0 ? pivot : std::min(least, pivot);
+    largest = std::max(largest, pivot);
+  }
+  return least * least > 0.1 * dependent * largest * largest;
+}
+
+/** H and C, and the conditions that imply all. */
 void PatchProblem::factorise(PatchFactor &factor) const
 {
   factor.H.assign(std::size_t(n) * n, 0.);
   unsigned int first = 0;
+  for (const PatchCell &cell : cells)
+    first += cell.element.n_conditions;
+  factor.conditions.reserve(std::size_t(first) * n);
+  first = 0;
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
     add_energy(cells[k], blocks[k], cells[k].area / cells[0].area, factor);
@@ -202,16 +265,11 @@ void PatchProblem::factorise(PatchFactor &factor) const
     first += cells[k].element.n_conditions;
   }
   AssertThrow(cholesky(n, factor.H.data(), n), ExcInternalError());
-  const unsigned int m = factor.present.size();
-  std::vector<double> W(factor.conditions), S(m * m);
-  solve_triangular('N', n, m, {factor.H.data(), n}, W.data(), n);
-  multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
-  PivotedCholesky chosen(m, S, 1e-11); // patches have motions and corners in common
-  factor.W.reserve(chosen.order.size() * n);
-  for (const unsigned int k : chosen.order)
-    factor.W.insert(factor.W.end(), &W[k * n], &W[k * n] + n);
-  factor.chosen = std::move(chosen.order);
-  factor.S = std::move(chosen.L);
+  const auto [known, is_new] = cache.independent_conditions.try_emplace(form(factor.present));
+  if (!is_new && choose(known->second, factor))
+    return;
+  known->second = independent_conditions(factor);
+  AssertThrow(choose(known->second, factor), ExcInternalError());
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
@@ -259,9 +317,9 @@ std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vecto
   solve_triangular('N', n, 1, {factor.H.data(), n}, x.data(), n);
   for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
   {
-    std::vector<double> mu;
-    for (const unsigned int k : factor.chosen)
-      mu.push_back(right[factor.present[k]]);
+    std::vector<double> mu(rank);
+    for (unsigned int i = 0; i < rank; ++i)
+      mu[i] = right[factor.present[factor.chosen[i]]];
     multiply('T', 'N', rank, 1, n, -1., {factor.W.data(), n}, {x.data(), n}, 1., mu.data(), rank);
     for (const char op : {'N', 'T'})
       solve_triangular(op, rank, 1, {factor.S.data(), rank}, mu.data(), rank);
@@ -283,6 +341,7 @@ double PatchProblem::solve()
   if (is_new)
     factorise(factor);
   std::vector<double> g(n), right;
+  right.reserve(8 * cells.size());
   for (unsigned int k = 0; k < cells.size(); ++k)
     add_data(cells[k], blocks[k], cells[k].area / cells[0].area, g, right);
   const std::vector<double> x = minimise(factor, std::move(g), right);

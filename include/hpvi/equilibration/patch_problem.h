@@ -42,6 +42,8 @@ struct EquilibrationCache
   };
   std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
+  /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
+  std::map<Signature, std::vector<unsigned int>> independent_conditions;
 
   /** Drops macro elements and patches that have not been used since the last call. */
   void drop_unused();
