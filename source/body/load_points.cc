@@ -13,17 +13,16 @@ namespace
 {
 constexpr unsigned int most = 64;
 
-/** Moments with 1, s, s^2 in each of @p d directions, largest value and smallest. */
+/** Moments with 1, s, s^2 in each of d directions, largest value and smallest. */
 struct Sample
 {
-  std::vector<double> moments;
+  std::array<double, 9> moments{}; ///< three in one dimension
   double largest = -1e300, smallest = 1e300;
 
   template <int d, class Load>
   static Sample take(const QGauss<1> &gauss, const Load &load)
   {
     Sample result;
-    result.moments.assign(d == 1 ? 3 : 9, 0.);
     const unsigned int n = gauss.size();
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = 0; b < (d == 1 ? 1 : n); ++b)
@@ -35,9 +34,13 @@ struct Sample
         const double value = load(s);
         result.largest = std::max(result.largest, value);
         result.smallest = std::min(result.smallest, value);
-        for (unsigned int k = 0; k < result.moments.size(); ++k)
-          result.moments[k] += gauss.weight(a) * (d == 1 ? 1. : gauss.weight(b)) * value *
-                               std::pow(s[0], k % 3) * (d == 1 ? 1. : std::pow(s[d - 1], k / 3));
+        double across = gauss.weight(a) * (d == 1 ? 1. : gauss.weight(b)) * value;
+        for (unsigned int j = 0; j < (d == 1 ? 1 : 3); ++j, across *= s[d - 1])
+        {
+          double moment = across;
+          for (unsigned int i = 0; i < 3; ++i, moment *= s[0])
+            result.moments[3 * j + i] += moment;
+        }
       }
     return result;
   }
