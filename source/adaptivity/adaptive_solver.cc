@@ -14,8 +14,10 @@
 #include <hpvi/base/one_thread.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
+#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/evaluation/unseen_contact.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -54,6 +56,7 @@ struct AdaptiveSolver<dim>::Stages
   ErrorBounds error_bounds;
   std::string no_bound; ///< why the current step has none
   std::unique_ptr<const Discretisation<dim>> discretisation;
+  std::unique_ptr<const LinearSolver> kept_factor; ///< of it, for a bound that needs it once more
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
   AlgebraicError algebraic;      ///< of the current step
@@ -164,6 +167,10 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   times.qp += reduced.seconds;
   times.recover += timer.wall_time() - reduced.seconds;
   keep_start(reduced.z, motions ? motions->in_basis(reduced.motion) : Vector<double>());
+  if (scene.error_bound && scene.no_error_bound().empty() &&
+      std::any_of(contact_space.faces().begin(), contact_space.faces().end(),
+                  [](const auto &face) { return varies(face.friction); }))
+    kept_factor = std::move(solver);
   return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
 
@@ -202,7 +209,8 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.bound);
-  const ErrorBound result = error_bounds.compute(solution, *discretisation);
+  const ErrorBound result = error_bounds.compute(solution, *discretisation, kept_factor.get());
+  kept_factor.reset();
   no_bound = std::isfinite(result.total) ? result.flaw : "it is not finite";
   return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }

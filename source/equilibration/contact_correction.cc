@@ -193,9 +193,12 @@ void free_neighbours(std::vector<std::optional<Opening>> &openings)
       openings[k]->mode = Opening::partly;
 }
 
-double largest_value(const EdgePolynomial &polynomial)
+/** Or zero, if none is above that, or all are round-off. */
+double largest_value(const EdgePolynomial &polynomial, const double round_off)
 {
-  double result = polynomial(0.);
+  double result = 0.;
+  if (polynomial.largest() <= round_off || polynomial.enclosure().second <= 0.)
+    return result;
   for (const double s : polynomial.extremes())
     result = std::max(result, polynomial(s));
   return result;
@@ -463,7 +466,7 @@ double Search<dim>::penetration(const Vector<double> &w,
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {
-      const double height = largest_value(openings[k]->penetration.rest(w));
+      const double height = largest_value(openings[k]->penetration.rest(w), tolerance);
       result = std::max(result, height);
       for (unsigned int end = 0; end < 2; ++end)
       {
@@ -600,7 +603,7 @@ bool Search<dim>::is_near_pressure(const unsigned int face) const
        other < std::min<std::size_t>(face + 3, faces.size()); ++other)
     if (openings[other] && openings[other]->mode != Opening::open)
       return true;
-  return largest_value(EdgePolynomial(openings[face]->penetration.u)) > tolerance;
+  return largest_value(EdgePolynomial(openings[face]->penetration.u), tolerance) > tolerance;
 }
 
 /**

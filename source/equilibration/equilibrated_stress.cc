@@ -115,7 +115,8 @@ void add(Modes<2> &sum, const Modes<2> &part)
 } // namespace
 
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
-                                       const Parts &pressure, EquilibrationCache &cache)
+                                       const Parts &pressure, EquilibrationCache &cache,
+                                       const Solution<2> *const measured)
     : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
       pressure(pressure), cache(cache), vertex_patches(solution, has_distorted_cells(solution))
 {
@@ -131,6 +132,8 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
     set_data();
   }
   solve_patches();
+  if (measured)
+    measure_from(*measured);
   measure();
   cache.drop_unused();
 }
@@ -261,27 +264,30 @@ double EquilibratedStress::missed_force(const unsigned int index) const
   if (macro_stresses)
     return macro_stresses->missed_force(index);
   const Cell &cell = cells[index];
-  if (cell.force.empty())
+  const Modes<2> &modes = cell.force;
+  if (modes.n == 0)
     return 0.;
   const unsigned int m = cell.element->m;
-  const Modes<2> modes = load(index, {{1., 0., 0., 0.}}); // of -F
   const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
-  const QGauss<2> gauss(cell.n_force + 2);
-  double sum = 0;
+  const QGauss<1> &gauss = solution.tables.gauss(modes.n + 2);
+  std::vector<std::vector<double>> L;
   for (unsigned int q = 0; q < gauss.size(); ++q)
-  {
-    Tensor<1, 2> F, projected;
-    for (unsigned int c = 0; c < 2; ++c)
-      if (solution.scene.body_force[c])
-        F[c] = solution.scene.body_force[c]->value(map.point(gauss.point(q)));
-    const auto Li = legendre::values(modes.n, 2 * gauss.point(q)[0] - 1),
-               Lj = legendre::values(modes.n, 2 * gauss.point(q)[1] - 1);
-    for (unsigned int k = 0; k < 2; ++k)
-      for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
-        for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
-          projected[k] -= modes(k, i, j) * Li[i] * Lj[j];
-    sum += gauss.weight(q) * (F - cell.B * projected / cell.h).norm_square();
-  }
+    L.push_back(legendre::values(modes.n, 2 * gauss.point(q)[0] - 1));
+  double sum = 0;
+  for (unsigned int a = 0; a < gauss.size(); ++a)
+    for (unsigned int b = 0; b < gauss.size(); ++b)
+    {
+      Tensor<1, 2> F, projected;
+      for (unsigned int c = 0; c < 2; ++c)
+        if (solution.scene.body_force[c])
+          F[c] = solution.scene.body_force[c]->value(
+              map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+      for (unsigned int k = 0; k < 2; ++k)
+        for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
+          for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
+            projected[k] -= modes(k, i, j) * L[a][i] * L[b][j];
+      sum += gauss.weight(a) * gauss.weight(b) * (F - cell.B * projected / cell.h).norm_square();
+    }
   return std::sqrt(sum) * 2 * cell.h;
 }
 
@@ -396,6 +402,8 @@ void EquilibratedStress::set_cells()
           m, cell.B, solution.scene.material_of(iterator), marked[index]);
     cell.element = element.get();
     set_stress(index, solution);
+    if (solution.scene.has_body_force())
+      set_force(index);
     Batch &batch = batches[cell.element];
     cell.place = batch.cells.size();
     cell.first_hat = batch.n_hats;
@@ -438,49 +446,42 @@ void EquilibratedStress::set_stress(const unsigned int index, const Solution<2> 
       }
     }
   }
-  if (!solution.scene.has_body_force() || !cell.force.empty())
-    return;
-  const CellMap<2> map = map_of<2>(iterator);
-  cell.n_force = body_force_points(solution.scene, map, p, solution.tables);
-  for (const Point<2> &point : solution.tables.gradients(p, cell.n_force).points)
-  {
-    Tensor<1, 2> F;
-    for (unsigned int c = 0; c < 2; ++c)
-      if (solution.scene.body_force[c])
-        F[c] = solution.scene.body_force[c]->value(map.point(point));
-    const Tensor<1, 2> f = cell.h * (inverse * F);
-    cell.force.insert(cell.force.end(), {f[0], f[1]});
-  }
 }
 
-/** -psi F by the quadrature of the loads, psi from its coefficients, so that its moments with rigid motions are the same. */
-Modes<2> EquilibratedStress::load(const unsigned int index,
-                                  const std::array<double, n_bilinear> &c) const
+/**
+ * Interpolated at the points of the loads, so that psi F has the moments with rigid motions that the discrete
+ * equations have.
+ */
+void EquilibratedStress::set_force(const unsigned int index)
 {
-  const Cell &cell = cells[index];
-  const unsigned int n = cell.n_force, n_modes = std::min(n, cell.element->m);
-  Modes<2> result(cell.force.empty() ? 0 : n_modes);
-  if (cell.force.empty())
-    return result;
-  const FullMatrix<double> &project = cache.legendre.projection(n_modes, n);
+  Cell &cell = cells[index];
+  const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
+  const unsigned int p = solution.displacement_space.degrees()[index],
+                     n = body_force_points(solution.scene, map, p, solution.tables);
   const QGauss<1> &gauss = solution.tables.gauss(n);
+  const Tensor<2, 2> inverse = invert(cell.B);
+  std::array<FullMatrix<double>, 2> values{{FullMatrix<double>(n, n), FullMatrix<double>(n, n)}};
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int b = 0; b < n; ++b)
+    {
+      Tensor<1, 2> F;
+      for (unsigned int c = 0; c < 2; ++c)
+        if (solution.scene.body_force[c])
+          F[c] = solution.scene.body_force[c]->value(
+              map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+      const Tensor<1, 2> f = -cell.h * (inverse * F);
+      for (unsigned int k = 0; k < 2; ++k)
+        values[k](a, b) = f[k];
+    }
+  const FullMatrix<double> &project = cache.legendre.projection(n, n);
+  FullMatrix<double> half(n, n), modes(n, n);
+  cell.force = Modes<2>(n);
   for (unsigned int k = 0; k < 2; ++k)
   {
-    FullMatrix<double> values(n, n), half(n_modes, n), modes(n_modes, n_modes);
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
-      {
-        const double xi = 2 * gauss.point(a)[0] - 1, eta = 2 * gauss.point(b)[0] - 1;
-        values(a, b) =
-            -(c[0] + c[1] * xi + c[2] * eta + c[3] * xi * eta) * cell.force[2 * (b * n + a) + k];
-      }
-    project.mmult(half, values);
+    project.mmult(half, values[k]);
     half.mTmult(modes, project);
-    for (unsigned int a = 0; a < n_modes; ++a)
-      for (unsigned int b = 0; b < n_modes; ++b)
-        result(k, a, b) = modes(a, b);
+    std::copy(&modes(0, 0), &modes(0, 0) + n * n, &cell.force.coefficients[k * n * n]);
   }
-  return result;
 }
 
 /**
@@ -497,19 +498,19 @@ void EquilibratedStress::set_data(const unsigned int index, double *const r) con
                                    cells[index].B, material)
                              : cells[index].sigma;
   const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma);
-  const auto add_column = [&](const unsigned int k, const Modes<3> &product, Modes<2> divergence)
+  const Modes<2> &force = cells[index].force, force_xi = times(0, force);
+  const auto add_column =
+      [&](const unsigned int k, const Modes<3> &product, Modes<2> divergence, const Modes<2> &load)
   {
-    std::array<double, n_bilinear> psi{};
-    psi[k] = 1.;
-    add(divergence, load(index, psi));
+    add(divergence, load);
     element.residual(product, divergence, r + std::size_t(k) * element.n_data);
   };
-  add_column(0, sigma, Modes<2>(sigma.n));
-  add_column(1, times_xi, row(0, sigma));
-  add_column(2, times_eta, row(1, sigma));
+  add_column(0, sigma, Modes<2>(sigma.n), force);
+  add_column(1, times_xi, row(0, sigma), force_xi);
+  add_column(2, times_eta, row(1, sigma), times(1, force));
   Modes<2> both = row(0, times_eta);
   add(both, row(1, times_xi));
-  add_column(3, times(1, times_xi), both);
+  add_column(3, times(1, times_xi), both, times(1, force_xi));
 }
 
 /** `matrix' r` for r of each hat function, n_rows each. */
@@ -561,7 +562,7 @@ void EquilibratedStress::set_own_data(const unsigned int index)
 {
   const Cell &cell = cells[index];
   const std::size_t n = cell.element->n_data;
-  cell.element->residual(cell.sigma, load(index, {{1., 0., 0., 0.}}),
+  cell.element->residual(cell.sigma, cell.force,
                          &batches.at(cell.element).r[n * n_bilinear * cell.place]);
 }
 
@@ -588,7 +589,14 @@ void EquilibratedStress::solve_patches()
   {
     patch.clear();
     edges.clear();
-    for (const auto &[index, hat] : hats)
+    auto ordered = hats;
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [&](const auto &a, const auto &b)
+                     {
+                       return vertex_patches.cells()[a.first].hats[a.second].values >
+                              vertex_patches.cells()[b.first].hats[b.second].values;
+                     });
+    for (const auto &[index, hat] : ordered)
     {
       patch.push_back(patch_cell(index, hat));
       const VertexPatches::Cell &cell = vertex_patches.cells()[index];
@@ -598,17 +606,13 @@ void EquilibratedStress::solve_patches()
         const unsigned int e = cell.edges[face];
         const bool first = psi[vertex_of_face[face][0]] != 0;
         const StressEdge &edge = vertex_patches.edges()[e];
-        if (first || psi[vertex_of_face[face][1]] != 0) // linear along an edge that hangs here
+        if ((first || psi[vertex_of_face[face][1]] != 0) && // linear along an edge that hangs here
+            std::none_of(edges.begin(), edges.end(),
+                         [&](const PatchEdge &other) { return other.index == e; }))
           edges.push_back(
               {e, &edge, edge.at_boundary() ? &known[e][first ? 0 : 1] : nullptr, &sums[e]});
       }
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const PatchEdge &a, const PatchEdge &b) { return a.index < b.index; });
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                            [](const PatchEdge &a, const PatchEdge &b)
-                            { return a.index == b.index; }),
-                edges.end());
     defect = std::max(defect, solve_patch(patch, edges, cache));
   }
   double largest = 0;
@@ -700,7 +704,6 @@ void EquilibratedStress::measure_from(const Solution<2> &other)
     set_stress(index, other);
     set_own_data(index);
   }
-  measure();
 }
 
 bool EquilibratedStress::has_macro_cells() const

@@ -128,12 +128,14 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
 // difference move $u_N$; near the stress of what they make of it there is one.
 std::optional<Solution<2>> moved(const Solution<2> &solution,
                                  const Discretisation<2> &discretisation,
-                                 const AdmissibleFriction<2> &friction)
+                                 const AdmissibleFriction<2> &friction,
+                                 const LinearSolver *const factor)
 {
   if (friction.imbalance() <= tolerable)
     return std::nullopt;
   const Vector<double> forces = discretisation.unknowns.collect(friction.missing_forces(solution));
-  Vector<double> u = discretisation.unknowns.expand(discretisation.factor().solve(forces));
+  Vector<double> u = discretisation.unknowns.expand(factor ? factor->solve(forces)
+                                                           : discretisation.factor().solve(forces));
   discretisation.condensation.extend(u);
   u += solution.u;
   return Solution<2>(solution.scene, solution.spaces, u, solution.z);
@@ -154,20 +156,19 @@ std::vector<double> ErrorBound::indicators() const
 // and with the loads; a correction $w$ for what $u_N$ does where it should stick; and what data
 // leave. The energy of $u_N - w$ is known for a $w$ in $V_N$ alone.
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,
-                                const Discretisation<2> &discretisation)
+                                const Discretisation<2> &discretisation,
+                                const LinearSolver *const factor)
 {
   const AdmissibleFriction<2> friction(solution);
   const AdmissiblePressure<2> pressure(solution);
-  const std::optional<Solution<2>> balanced = moved(solution, discretisation, friction);
-  EquilibratedStress stress(
+  const std::optional<Solution<2>> balanced = moved(solution, discretisation, friction, factor);
+  const EquilibratedStress stress(
       balanced ? *balanced : solution,
       [&](const unsigned int face, const unsigned int end)
       { return friction.part(face, end).coefficients(); },
       [&](const unsigned int face, const unsigned int end)
       { return pressure.part(face, end).coefficients(); },
-      cache);
-  if (balanced)
-    stress.measure_from(solution);
+      cache, balanced ? &solution : nullptr);
   const ContactCorrection<2> correction(solution, discretisation, friction, pressure, &bubbles);
   const DataError data(solution, stress);
   ErrorBound result;

@@ -24,16 +24,11 @@ public:
 
   /**
    * @p friction: l with `lam* = sum psi l`, psi the hat function that is 1 at the end; @p pressure: t with
-   * `s_n = -sum t` on faces with unilateral contact, which are not asked for elsewhere.
+   * `s_n = -sum t` on faces with unilateral contact, which are not asked for elsewhere. @p measured: the u_N from which
+   * the distance is measured, and to which s is nearest inside cells; another one than that with which s is in balance.
    */
   EquilibratedStress(const Solution<2> &solution, const Parts &friction, const Parts &pressure,
-                     EquilibrationCache &cache);
-
-  /**
-   * Measure from another displacement than that with which s is in balance, and take what is free of s inside
-   * cells nearest to that.
-   */
-  void measure_from(const Solution<2> &other);
+                     EquilibrationCache &cache, const Solution<2> *measured = nullptr);
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
   double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
@@ -73,8 +68,7 @@ private:
     dealii::Tensor<2, 2> B;
     double h; ///< of the element [length]
     Modes<3> sigma;
-    std::vector<double> force;     ///< F in the frame, at the points of the loads; empty: none
-    unsigned int n_force = 0;      ///< these points per direction
+    Modes<2> force; ///< -F in the frame, from the points of the loads; without modes: none
     unsigned int place, first_hat; ///< in its batch
   };
 
@@ -103,7 +97,7 @@ private:
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);
   void set_own_data(unsigned int cell);
-  Modes<2> load(unsigned int cell, const std::array<double, n_bilinear> &psi) const;
+  void set_force(unsigned int cell);
   void set_data(unsigned int cell, double *r) const;
   std::vector<double> on_hats(const Batch &batch, const std::vector<double> &matrix,
                               unsigned int n_data, unsigned int n_rows) const;
@@ -112,6 +106,7 @@ private:
   void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;
   std::vector<double> data_of(unsigned int cell) const;
   std::vector<double> macro_tractions(unsigned int cell) const;
+  void measure_from(const Solution<2> &other);
   void measure();
 
   const Solution<2> &solution;
