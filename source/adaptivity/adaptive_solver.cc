@@ -14,8 +14,8 @@
 #include <hpvi/base/one_thread.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
-#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
 #include <cmath>

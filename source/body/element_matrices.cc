@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/polynomial.h>
 #include <hpvi/body/element_matrices.h>
 
 #include <cmath>
@@ -38,7 +39,42 @@ std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const Cel
     }
   return P;
 }
+
+/** lambda times the products of what the projection takes away from div v, on a parallelogram. */
+template <int dim>
+void subtract_oscillations(const CellMap<dim> &map, const unsigned int degree, const double lambda,
+                           const ShapeTables<dim> &tables, FullMatrix<double> &K)
+{
+  const ShapeTable<dim> &table = tables.gradients(degree, degree + 1);
+  const LocalNumbering &numbering = tables.numbering(degree);
+  const unsigned int n_points = table.points.size();
+  const Tensor<2, dim> J = map.jacobian(table.points[0]), inverse = invert(J);
+  FullMatrix<double> divergence(n_points, K.m()), modes = oscillating_modes(table, degree);
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (unsigned int i = 0; i < K.m(); ++i)
+      for (unsigned int r = 0; r < dim; ++r)
+        divergence(q, i) += table.weights[q] * inverse[r][numbering.component[i]] *
+                            table.derivatives(q * table.rows_per_point + r, numbering.shape[i]);
+  FullMatrix<double> D(modes.m(), K.m()), products(K.m(), K.m());
+  modes.mmult(D, divergence);
+  D.Tmmult(products, D);
+  K.add(-lambda * std::abs(determinant(J)), products);
+}
 } // namespace
+
+template <int dim>
+FullMatrix<double> oscillating_modes(const ShapeTable<dim> &table, const unsigned int degree)
+{
+  static_assert(dim == 2, "products of two polynomials");
+  const auto L = Polynomials::Legendre::generate_complete_basis(degree);
+  FullMatrix<double> result((degree + 1) * (degree + 2) / 2, table.points.size());
+  unsigned int mode = 0;
+  for (unsigned int i = 0; i <= degree; ++i)
+    for (unsigned int j = degree - i; j <= degree; ++j, ++mode)
+      for (unsigned int q = 0; q < table.points.size(); ++q)
+        result(mode, q) = L[i].value(table.points[q][0]) * L[j].value(table.points[q][1]);
+  return result;
+}
 
 template <int dim>
 unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree)
@@ -62,8 +98,9 @@ unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree
 }
 
 template <int dim>
-ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables)
-    : scene(scene), tables(tables)
+ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                                      const Volume volume)
+    : volume(volume), scene(scene), tables(tables)
 {
 }
 
@@ -98,7 +135,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
 {
   const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
   const LocalNumbering &numbering = tables.numbering(degree);
-  const HookesLaw<dim> law(scene.materials[material]);
+  const Material &hooke = scene.materials[material];
+  const HookesLaw<dim> law(hooke);
   const unsigned int n = numbering.shape.size();
   FullMatrix<double> K(n, n);
   for (unsigned int row = 0; row < n; ++row)
@@ -109,6 +147,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
       K(row, column) = law.stiffness(
           [&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
     }
+  if (volume == Volume::projected && hooke.is_nearly_incompressible(dim))
+    subtract_oscillations(map, degree, hooke.lambda(dim), tables, K);
   return K;
 }
 
@@ -119,5 +159,6 @@ unsigned int ElementMatrices<dim>::n_boundary(const unsigned int degree) const
 }
 
 template unsigned int stiffness_points(const CellMap<2> &, unsigned int);
+template FullMatrix<double> oscillating_modes(const ShapeTable<2> &, unsigned int);
 template class ElementMatrices<2>;
 } // namespace hpvi

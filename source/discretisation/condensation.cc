@@ -27,9 +27,16 @@ void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
 } // namespace
 
 template <int dim>
-CondensedElements<dim>::CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables)
-    : matrices(scene, tables), interior_loads(scene.has_body_force())
+CondensedElements<dim>::CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                                          const Volume volume)
+    : matrices(scene, tables, volume), interior_loads(scene.has_body_force())
 {
+}
+
+template <int dim>
+Volume CondensedElements<dim>::volume() const
+{
+  return matrices.volume;
 }
 
 template <int dim>

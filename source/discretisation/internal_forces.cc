@@ -30,10 +30,14 @@ class Batch
 {
 public:
   Batch(const Material &material, const DisplacementSpace<dim> &space,
-        const ShapeTables<dim> &tables, const unsigned int degree, const unsigned int n_gauss)
-      : law(material), space(space), table(tables.gradients(degree, n_gauss)),
-        numbering(tables.numbering(degree)), n_rows(table.derivatives.m())
+        const ShapeTables<dim> &tables, const unsigned int degree, const unsigned int n_gauss,
+        const Volume volume)
+      : law(material), lambda(material.lambda(dim)), space(space),
+        table(tables.gradients(degree, n_gauss)), numbering(tables.numbering(degree)),
+        n_rows(table.derivatives.m())
   {
+    if (volume == Volume::projected && material.is_nearly_incompressible(dim))
+      modes = oscillating_modes(table, degree);
   }
 
   void add(const unsigned int cell, const CellMap<dim> &map, const Vector<double> &u,
@@ -82,6 +86,7 @@ private:
   {
     double energy = 0;
     Tensor<2, dim> J, inverse;
+    const std::vector<double> oscillating = oscillating_volume(map, value);
     for (unsigned int q = 0; q < table.points.size(); ++q)
     {
       if (q == 0 || !map.is_affine())
@@ -95,7 +100,9 @@ private:
           reference[c][r] = value[c * n_rows + q * dim + r];
       const Tensor<2, dim> gradient = reference * inverse;
       const double weight = table.weights[q] * std::abs(determinant(J));
-      const Tensor<2, dim> sigma = weight * Tensor<2, dim>(law.stress(gradient));
+      Tensor<2, dim> sigma = weight * Tensor<2, dim>(law.stress(gradient));
+      if (!oscillating.empty())
+        sigma -= weight * lambda * oscillating[q] * Tensor<2, dim>(unit_symmetric_tensor<dim>());
       energy += scalar_product(sigma, gradient);
       const Tensor<2, dim> pulled = sigma * transpose(inverse);
       for (unsigned int c = 0; c < dim; ++c)
@@ -105,11 +112,29 @@ private:
     return energy;
   }
 
+  /** What the projection takes away from div u at the points of a cell; empty: nothing. */
+  std::vector<double> oscillating_volume(const CellMap<dim> &map, const double *const value) const
+  {
+    if (modes.m() == 0)
+      return {};
+    const Tensor<2, dim> inverse = invert(map.jacobian(table.points[0]));
+    Vector<double> weighted(table.points.size()), result(weighted), amplitudes(modes.m());
+    for (unsigned int q = 0; q < weighted.size(); ++q)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < dim; ++r)
+          weighted[q] += table.weights[q] * value[c * n_rows + q * dim + r] * inverse[r][c];
+    modes.vmult(amplitudes, weighted);
+    modes.Tvmult(result, amplitudes);
+    return {result.begin(), result.end()};
+  }
+
   const HookesLaw<dim> law;
+  const double lambda;
   const DisplacementSpace<dim> &space;
   const ShapeTable<dim> &table;
   const LocalNumbering &numbering;
   const unsigned int n_rows; ///< of the table of derivatives, points times dim
+  FullMatrix<double> modes;  ///< that are projected away
   std::vector<unsigned int> cells;
   std::vector<CellMap<dim>> maps;
   std::vector<double> coefficients, values; ///< by columns: cell after cell, component by component
@@ -118,7 +143,8 @@ private:
 
 template <int dim>
 InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                               const ShapeTables<dim> &tables, const Vector<double> &u)
+                               const ShapeTables<dim> &tables, const Vector<double> &u,
+                               const Volume volume)
 {
   InternalForces result;
   result.forces.reinit(space.n_dofs());
@@ -129,10 +155,11 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
       const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
       const CellMap<dim> map = map_of<dim>(cell);
       const unsigned int n_gauss = stiffness_points(map, p);
-      const auto batch = batches
-                             .try_emplace({{cell->material_id(), p, n_gauss}},
-                                          scene.material_of(cell), space, tables, p, n_gauss)
-                             .first;
+      const auto batch =
+          batches
+              .try_emplace({{cell->material_id(), p, n_gauss}}, scene.material_of(cell), space,
+                           tables, p, n_gauss, volume)
+              .first;
       batch->second.add(index, map, u, result);
     }
   for (auto &batch : batches)
@@ -141,5 +168,5 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
 }
 
 template InternalForces internal_forces(const Scene<2> &, const DisplacementSpace<2> &,
-                                        const ShapeTables<2> &, const Vector<double> &);
+                                        const ShapeTables<2> &, const Vector<double> &, Volume);
 } // namespace hpvi

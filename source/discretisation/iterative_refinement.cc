@@ -67,8 +67,8 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
                                                   double &energy_product) const
 {
   const Spaces<dim> &spaces = *discretisation.spaces;
-  const InternalForces internal =
-      internal_forces(discretisation.scene, spaces.displacement_space, *spaces.tables, u);
+  const InternalForces internal = internal_forces(discretisation.scene, spaces.displacement_space,
+                                                  *spaces.tables, u, elements.volume());
   energy_product = internal.energy_product;
   Vector<double> r(discretisation.system.loads());
   r -= internal.forces;
@@ -135,7 +135,7 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector
   {
     const double curvature =
         internal_forces(discretisation.scene, discretisation.spaces->displacement_space,
-                        *discretisation.spaces->tables, p)
+                        *discretisation.spaces->tables, p, elements.volume())
             .energy_product;
     if (!(curvature > 0.))
       break;

@@ -28,6 +28,7 @@ struct Side
   EdgePolynomial l;
   double missing = 0; ///< this face's share of the work that g l_a leaves undone
   double slip = 0;    ///< 1 or -1 where all Gauss points of z_N slip that way
+  bool leans = false; ///< is the end of slip on the face?
 
   /**
    * 1 or -1 where no other l does the work of z_N, or the face slips everywhere; else 0. There l below 1 would cost
@@ -35,7 +36,7 @@ struct Side
    */
   double forced() const
   {
-    if (slip != 0.)
+    if (slip != 0. || leans)
       return slip;
     return std::abs(work) < (1. - 10. * round_off) * limit ? 0. : work < 0. ? -1. : 1.;
   }
@@ -72,7 +73,7 @@ public:
         n(traction_degree(face, solution.z, solution.contact_space) + 1),
         rule(traction_rule(face, n - 1, solution.tables)),
         weight(face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree)),
-        leans(has_transition(face, solution.z, solution.contact_space)),
+        leans(may_have_transition(number, solution.z, solution.contact_space)),
         gauss(solution.tables.gauss(face.n_multipliers + 1)),
         z(EdgePolynomial::through({solution.z.begin() + face.first_multiplier,
                                    solution.z.begin() + face.first_multiplier + face.n_multipliers},
@@ -81,7 +82,8 @@ public:
     if (leans)
       u_t = edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
                        solution.u);
-    slip = common_slip(face, solution);
+    else
+      slip = common_slip(face, solution);
   }
 
   Side side(unsigned int end) const;
@@ -102,8 +104,9 @@ private:
 template <int dim>
 Side FaceIntegrals<dim>::side(const unsigned int end) const
 {
-  Side result{number, end, 0.,  0., Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
-              {},     0.,  slip};
+  Side result{
+      number, end, 0.,   0.,   Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
+      {},     0.,  slip, leans};
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0];

@@ -235,7 +235,7 @@ double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
   std::vector<double> cuts = v.zeros();
   cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
   std::sort(cuts.begin(), cuts.end());
-  // l* has degree p + 5, v up to p + 4; the rest is for g.
+  // l* has degree p + 5, v up to p + 8; the rest is for g.
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 8);
   double result = 0;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
@@ -252,11 +252,18 @@ double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
   return result;
 }
 
-/** How many degrees edge bubbles have beyond the cell's. Measured: eight bring nothing more. */
-constexpr unsigned int n_bubbles = 4;
+/**
+ * How many degrees edge bubbles have beyond the cell's. Measured: with eight the bound is a twentieth lower near
+ * incompressibility, where it is harder to move in one cell; elsewhere by up to a twentieth, not worth their matrices.
+ */
+template <int dim>
+unsigned int bubbles_on(const ContactFace<dim> &face, const Scene<dim> &scene)
+{
+  return scene.material_of(face.cell).is_nearly_incompressible(dim) ? 8 : 4;
+}
 
 /** Coefficients of P_{p+1+i} - P_{p-1+i}, which vanish at both ends: (p + 1 + n_bubbles) x n_bubbles. */
-FullMatrix<double> bubble_coefficients(const unsigned int p)
+FullMatrix<double> bubble_coefficients(const unsigned int p, const unsigned int n_bubbles)
 {
   FullMatrix<double> result(p + 1 + n_bubbles, n_bubbles);
   for (unsigned int i = 0; i < n_bubbles; ++i)
@@ -414,7 +421,8 @@ void Search<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &di
   const unsigned int cell = face.cell->active_cell_index(), first = A.n();
   if (std::find(cell_of_bubble.begin(), cell_of_bubble.end(), cell) != cell_of_bubble.end())
     return;
-  const FullMatrix<double> coefficients = bubble_coefficients(face.degree);
+  const unsigned int n_bubbles = bubbles_on(face, solution.scene);
+  const FullMatrix<double> coefficients = bubble_coefficients(face.degree, n_bubbles);
   const unsigned int n_nodes = coefficients.m();
   FullMatrix<double> at_nodes(dim * n_nodes, directions.size() * n_bubbles);
   for (unsigned int node = 0; node < n_nodes; ++node)
@@ -549,9 +557,28 @@ void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
     best = std::move(next);
 }
 
+/** @p cells and those that share unknowns with them. */
+template <int dim>
+std::vector<bool> with_neighbours(const std::vector<bool> &cells,
+                                  const DisplacementSpace<dim> &space,
+                                  const Unknowns<dim> &unknowns, const unsigned int n_unknowns)
+{
+  std::vector<bool> touched(n_unknowns), result(cells);
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    if (cells[cell])
+      for (const auto dof : space.cell_dofs(cell))
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+          touched[unknown] = true;
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    for (const auto dof : space.cell_dofs(cell))
+      for (const auto &[unknown, weight] : unknowns.terms(dof))
+        result[cell] = result[cell] || touched[unknown];
+  return result;
+}
+
 /**
  * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
- * more cells would change its energy by a few hundredths.
+ * more cells would change its energy by a few hundredths. A body that keeps its volume needs more room to move.
  */
 template <int dim>
 std::vector<Role> Search<dim>::roles() const
@@ -562,6 +589,8 @@ std::vector<Role> Search<dim>::roles() const
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (!faces[k].friction.vanishes() || is_near_pressure(k))
       is_at_contact[faces[k].cell->active_cell_index()] = true;
+  if (solution.scene.is_nearly_incompressible())
+    is_at_contact = with_neighbours(is_at_contact, solution.displacement_space, unknowns, A.n());
   for (unsigned int cell = 0; cell < is_at_contact.size(); ++cell)
     if (!is_at_contact[cell])
       for (const auto dof : solution.displacement_space.cell_dofs(cell))
@@ -692,7 +721,7 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
   return result;
 }
 
-/** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w. */
+/** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w: l* of degree p + 5 times up to p + 8. */
 template <int dim>
 void Search<dim>::add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                                const Vector<double> &fixed, Vector<double> &h,
@@ -701,7 +730,7 @@ void Search<dim>::add_friction(const RestrictedEnergy &strip, const std::vector<
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (nearby[k])
     {
-      const FrictionRule &rule = faces[k].friction;
+      const FrictionRule rule = traction_rule(faces[k], faces[k].degree + 5, solution.tables);
       for (unsigned int q = 0; q < rule.points.size(); ++q)
         h.add(faces[k].length * rule.weights[q] * rule.values[q] *
                   (slips[k].direction - friction.value(k, rule.points[q])),
@@ -719,7 +748,7 @@ void Search<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<doubl
     if (is_near_pressure(k))
     {
       const Trace &trace = openings[k]->penetration;
-      const QGauss<1> &gauss = solution.tables.gauss(faces[k].degree + 1);
+      const QGauss<1> &gauss = solution.tables.gauss(faces[k].degree + 7);
       for (unsigned int q = 0; q < gauss.size(); ++q)
       {
         const double s = gauss.point(q)[0];

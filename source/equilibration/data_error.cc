@@ -282,10 +282,9 @@ double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress
 } // namespace
 
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
-    : oscillation(stress.squares.size())
+    : oscillation(stress.squares.size()), lifts(oscillation.size())
 {
   const VertexPatches &patches = stress.patches();
-  std::vector<double> lifts(oscillation.size());
   for (unsigned int e = 0; e < patches.edges().size(); ++e)
   {
     const StressEdge &edge = patches.edges()[e];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/load_points.h>
-#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,26 +53,7 @@ Modes<n_components> times(const unsigned int variable, const Modes<n_components>
   return result;
 }
 
-bool has_distorted_cells(const Solution<2> &solution)
-{
-  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-    if (!map_of<2>(cell).is_affine())
-      return true;
-  return false;
-}
-
-/** From nu = 0.476 on; with less the whole of sigma gave bounds that were lower by a hundredth. */
-bool hardly_changes_volume(const Material &material)
-{
-  return material.lambda(2) > 20. * material.mu();
-}
-
-/**
- * Without the modes of the pressure lambda div u_N that the stable pair Q_p, P_{p-1} would not have. They oscillate,
- * count little in the energy of sigma, and would count much in that of psi sigma,
- * whose deviator has to carry what grad psi makes of them. On a parallelogram they do no work on psi times a rigid motion,
- * the divergence of which has modes 1, xi, eta, xi^2 and eta^2, so that patches keep their balance.
- */
+/** The stress of a displacement whose discrete equations know but the projection of div u (Volume::projected). */
 Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, const Tensor<2, 2> &B,
                                       const Material &material)
 {
@@ -80,7 +61,7 @@ Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, cons
   const Tensor<2, 2> to_trace = transpose(B) * B, unit = invert(to_trace);
   for (unsigned int i = 0; i < sigma.n; ++i)
     for (unsigned int j = 0; j < sigma.n; ++j)
-      if (i + j > std::max(2U, p - 1) || (p == 2 && i == 1 && j == 1))
+      if (i + j >= p)
       {
         const double trace = sigma(0, i, j) * to_trace[0][0] + sigma(1, i, j) * to_trace[1][1] +
                              2 * sigma(2, i, j) * to_trace[0][1];
@@ -116,9 +97,10 @@ void add(Modes<2> &sum, const Modes<2> &part)
 
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
                                        const Parts &pressure, EquilibrationCache &cache,
-                                       const Solution<2> *const measured)
+                                       const Solution<2> *const measured, const Volume volume)
     : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
-      pressure(pressure), cache(cache), vertex_patches(solution, has_distorted_cells(solution))
+      pressure(pressure), cache(cache), volume(volume),
+      vertex_patches(solution, has_distorted_cells(solution))
 {
   known.resize(vertex_patches.edges().size());
   for (unsigned int e = 0; e < known.size(); ++e)
@@ -492,7 +474,7 @@ void EquilibratedStress::set_data(const unsigned int index, double *const r) con
 {
   const StressElement &element = *cells[index].element;
   const Material &material = solution.scene.material_of(vertex_patches.cells()[index].iterator);
-  const Modes<3> sigma = hardly_changes_volume(material)
+  const Modes<3> sigma = volume == Volume::projected && material.is_nearly_incompressible(2)
                              ? without_oscillating_pressure(
                                    cells[index].sigma, solution.displacement_space.degrees()[index],
                                    cells[index].B, material)
@@ -551,9 +533,6 @@ void EquilibratedStress::set_data()
       set_data(index, &batch.r[std::size_t(n) * n_bilinear * cells[index].place]);
     batch.gradients = on_hats(batch, element->edge_energy(), n, element->n_edges);
     batch.defects = on_hats(batch, element->conditions(), n, element->n_conditions());
-    for (const unsigned int index : batch.cells)
-      if (hardly_changes_volume(solution.scene.material_of(vertex_patches.cells()[index].iterator)))
-        set_own_data(index);
   }
 }
 

@@ -14,6 +14,7 @@
 // penetrate. The first term is the distance of two stresses, the second what the discrete friction misses of the law, and the third pays for
 // $w$, which takes the oscillation of $u_N$ around zero away where the body sticks. The proof, and
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/admissible_friction.h>
 #include <hpvi/equilibration/contact_correction.h>
 #include <hpvi/equilibration/data_error.h>
@@ -44,6 +45,15 @@ double norm(const ContactCorrection<2> &correction)
   return std::sqrt(std::max(0., sum(correction.energy()))); // round-off
 }
 
+/** No less than |d - w|_a: w is along the contact boundary, d elsewhere, so that the cells of both are few. */
+double distance_from_admissible(const ContactCorrection<2> &correction, const DataError &data)
+{
+  double square = 0;
+  for (unsigned int cell = 0; cell < data.lifts.size(); ++cell)
+    square += std::pow(std::sqrt(std::max(0., correction.energy()[cell])) + data.lifts[cell], 2);
+  return std::sqrt(square);
+}
+
 // @sect3{By cell}
 //
 // A bound is one number, but its square is a sum over cells: a second indicator to mark by, without
@@ -63,7 +73,7 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 // @sect3{In the energy norm}
 //
 // The general form, with $O$ for the oscillation of loads and $d$ for displacements outside the
-// space: $O + (\eta^2 + 2\,\mathrm{gap} + (|w|_a + |d|_a + O)^2)^{1/2}$.
+// space: $O + (\eta^2 + 2\,\mathrm{gap} + (b + O)^2)^{1/2}$ with $b \ge |d - w|_a$.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                const ContactCorrection<2> &correction, const DataError &data)
 {
@@ -74,8 +84,9 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
   result.oscillation = std::sqrt(std::inner_product(
       data.oscillation.begin(), data.oscillation.end(), data.oscillation.begin(), 0.));
   result.data = data.lift;
-  result.total = result.oscillation + std::sqrt(eta_square + 2 * gap +
-                                                std::pow(w + result.data + result.oscillation, 2));
+  const double b = distance_from_admissible(correction, data);
+  result.total =
+      result.oscillation + std::sqrt(eta_square + 2 * gap + std::pow(b + result.oscillation, 2));
 }
 
 /** Of U = u_N - w + d; w, in V_N, is none but where u_N may penetrate. */
@@ -85,6 +96,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
 {
   const bool is_moved = solution.scene.has_unilateral_contact();
   const double w = is_moved ? norm(correction) : 0.,
+               b = is_moved ? distance_from_admissible(correction, data) : data.lift,
                gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap());
   double change = 0;
   if (is_moved)
@@ -93,7 +105,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
     v *= -1.;
     change = energy_change(solution, discretisation, v);
   }
-  result.energy = std::pow(result.stress + w + data.lift + result.oscillation, 2) / 2 + gap;
+  result.energy = std::pow(result.stress + b + result.oscillation, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift;
@@ -154,21 +166,33 @@ std::vector<double> ErrorBound::indicators() const
 //
 // Tractions along the contact that keep their bounds everywhere; a stress in equilibrium with them
 // and with the loads; a correction $w$ for what $u_N$ does where it should stick; and what data
-// leave. The energy of $u_N - w$ is known for a $w$ in $V_N$ alone.
+// leave. Near incompressibility the pressure of $u_N$ oscillates, and a stress in equilibrium with it is far from
+// that of the solution; the stress and tractions are those of a mixed method then. The energy of $u_N - w$ is known
+// for a $w$ in $V_N$ alone.
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,
-                                const Discretisation<2> &discretisation,
-                                const LinearSolver *const factor)
+                                const Discretisation<2> &discretisation, const LinearSolver *factor)
+try
 {
-  const AdmissibleFriction<2> friction(solution);
-  const AdmissiblePressure<2> pressure(solution);
-  const std::optional<Solution<2>> balanced = moved(solution, discretisation, friction, factor);
+  std::optional<Solution<2>> stable;
+  if (solution.scene.is_nearly_incompressible() && !has_distorted_cells(solution))
+  {
+    if (!mixed)
+      mixed = std::make_unique<MixedProblem<2>>(solution.scene);
+    stable.emplace(mixed->solve(solution));
+    factor = nullptr;
+  }
+  const Solution<2> &start = stable ? *stable : solution;
+  const AdmissibleFriction<2> friction(start);
+  const AdmissiblePressure<2> pressure(start);
+  const std::optional<Solution<2>> balanced =
+      moved(start, stable ? mixed->discretisation() : discretisation, friction, factor);
   const EquilibratedStress stress(
-      balanced ? *balanced : solution,
+      balanced ? *balanced : start,
       [&](const unsigned int face, const unsigned int end)
       { return friction.part(face, end).coefficients(); },
       [&](const unsigned int face, const unsigned int end)
       { return pressure.part(face, end).coefficients(); },
-      cache, balanced ? &solution : nullptr);
+      cache, balanced || stable ? &solution : nullptr, stable ? Volume::projected : Volume::full);
   const ContactCorrection<2> correction(solution, discretisation, friction, pressure, &bubbles);
   const DataError data(solution, stress);
   ErrorBound result;
@@ -181,6 +205,12 @@ ErrorBound ErrorBounds::compute(const Solution<2> &solution,
     set_energy(result, solution, discretisation, correction, data);
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, pressure, stress, correction, data);
+  return result;
+}
+catch (const NumericalFailure &failure)
+{
+  ErrorBound result;
+  result.flaw = std::string("a problem that the bound needs is not solved: ") + failure.what();
   return result;
 }
 } // namespace hpvi

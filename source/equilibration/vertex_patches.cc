@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/edge_polynomial.h>
 #include <hpvi/equilibration/vertex_patches.h>
+#include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,14 @@
 namespace hpvi
 {
 using namespace dealii;
+
+bool has_distorted_cells(const Solution<2> &solution)
+{
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    if (!map_of<2>(cell).is_affine())
+      return true;
+  return false;
+}
 
 VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_macro_cells)
     : has_macro_cells(has_macro_cells)

@@ -174,6 +174,14 @@ bool Scene<dim>::has_body_force() const
 }
 
 template <int dim>
+bool Scene<dim>::is_nearly_incompressible() const
+{
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material &material)
+                     { return material.is_nearly_incompressible(dim); });
+}
+
+template <int dim>
 bool Scene<dim>::has_load_history() const
 {
   return loading.steps > 0 || loading.at;

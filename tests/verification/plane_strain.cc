@@ -3,6 +3,8 @@
 #include "discretisation.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/equilibration/mixed_problem.h>
 #include <hpvi/evaluation/contact_traces.h>
 
 #include <complex>
@@ -45,6 +47,138 @@ TEST(HookesLaw, IsTheInverseOfTheEngineeringOne)
       EXPECT_NEAR(material.kolosov(),
                   plane == PlaneModel::strain ? 3 - 4 * nu : (3 - nu) / (1 + nu), 1e-13);
     }
+}
+
+// ---------------------------------------------------------------- changes of volume
+
+/** Least squares by powers of total degree below p, on the reference cell: values at points with weights. */
+Vector<double> projected(const Vector<double> &values, const QGauss<2> &gauss, const unsigned int p)
+{
+  std::vector<Vector<double>> powers;
+  for (unsigned int i = 0; i < p; ++i)
+    for (unsigned int j = 0; i + j < p; ++j)
+    {
+      Vector<double> power(gauss.size());
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        power[q] = std::pow(2 * gauss.point(q)[0] - 1, i) * std::pow(2 * gauss.point(q)[1] - 1, j);
+      powers.push_back(power);
+    }
+  const unsigned int n = powers.size();
+  FullMatrix<double> normal(n, n);
+  Vector<double> right(n), amplitudes(n), result(gauss.size());
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      right[i] += gauss.weight(q) * powers[i][q] * values[q];
+      for (unsigned int j = 0; j < n; ++j)
+        normal(i, j) += gauss.weight(q) * powers[i][q] * powers[j][q];
+    }
+  normal.gauss_jordan();
+  normal.vmult(amplitudes, right);
+  for (unsigned int i = 0; i < n; ++i)
+    result.add(amplitudes[i], powers[i]);
+  return result;
+}
+
+/** `int 2 mu eps : eps + lambda (Pi div u)^2` of one cell. */
+double projected_energy(const Solution<2> &solution, const unsigned int index,
+                        const CellMap<2> &map)
+{
+  const unsigned int p = solution.displacement_space.degrees()[index];
+  const QGauss<2> gauss(12);
+  const Material &material = solution.scene.materials[0];
+  const ShapeTable<2> table = tabulate<2>(p, gauss.get_points(), gauss.get_weights(), false);
+  const std::vector<double> d = evaluate(table.derivatives, solution.coefficients(index));
+  const Tensor<2, 2> J = map.jacobian({0.5, 0.5});
+  Vector<double> divergence(gauss.size());
+  double result = 0;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    Tensor<2, 2> reference;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int j = 0; j < 2; ++j)
+        reference[c][j] = d[(c * gauss.size() + q) * 2 + j];
+    const SymmetricTensor<2, 2> strain = symmetrize(reference * invert(J));
+    divergence[q] = trace(strain);
+    result += gauss.weight(q) * determinant(J) * 2 * material.mu() * (strain * strain);
+  }
+  const Vector<double> kept = projected(divergence, gauss, p);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    result += gauss.weight(q) * determinant(J) * material.lambda(2) * kept[q] * kept[q];
+  return result;
+}
+
+/** Volume::projected in matrices and in forces from strains, against an integral of the definition. */
+TEST(ChangeOfVolume, IsThatOfPolynomialsOfDegreeBelowP)
+{
+  const Scene<2> scene =
+      shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
+                                 {"Geometry/Corners", "1, 0; 3, 1; 2.5, 2; 0.5, 1"},
+                                 {"Material/Plane", "strain"},
+                                 {"Material/Poisson's ratio", "0.4999"}});
+  std::mt19937 random(3);
+  const RandomMesh mesh(scene, 2, 1, 2, 6);
+  const Laboratory lab(scene, mesh);
+  const Solution<2> field = lab.random_field(random);
+  const ElementMatrices<2> matrices(scene, lab.tables, Volume::projected);
+  double energy = 0;
+  for (const auto &cell : lab.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int index = cell->active_cell_index();
+    const CellMap<2> map = map_of<2>(cell);
+    const double own = projected_energy(field, index, map);
+    Vector<double> local(lab.displacement_space.cell_dofs(index).size());
+    for (unsigned int i = 0; i < local.size(); ++i)
+      local[i] = field.u[lab.displacement_space.cell_dofs(index)[i]];
+    const FullMatrix<double> K =
+        matrices.stiffness(map, lab.displacement_space.degrees()[index], cell->material_id());
+    EXPECT_NEAR(K.matrix_norm_square(local), own, 1e-8 * own);
+    energy += own;
+  }
+  const InternalForces forces =
+      internal_forces(scene, lab.displacement_space, lab.tables, field.u, Volume::projected);
+  EXPECT_NEAR(forces.energy_product, energy, 1e-8 * energy);
+  EXPECT_NEAR(forces.forces * field.u, energy, 1e-8 * energy);
+  EXPECT_GT(internal_forces(scene, lab.displacement_space, lab.tables, field.u).energy_product,
+            1.1 * energy);
+}
+
+/** The mixed method does not lock: with p = 2 shear is as near as with nu = 0.3, where the usual one is far off. */
+TEST(MixedProblem, DoesNotLock)
+{
+  const auto shear_error = [](const std::string &nu, const bool is_mixed)
+  {
+    const Scene<2> scene = shipped_scene("plane-strain", {{"Material/Poisson's ratio", nu}});
+    const RandomMesh mesh(scene, 2, 1, 2, 2);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> usual = lab.solve();
+    const Solution<2> solution = is_mixed ? MixedProblem<2>(scene).solve(usual) : usual;
+    double error = 0, norm = 0;
+    const QGauss<2> gauss(12);
+    for (const auto &cell : lab.displacement_space.dof_handler().active_cell_iterators())
+    {
+      const CellMap<2> map = map_of<2>(cell);
+      const Tensor<2, 2> J = map.jacobian({0.5, 0.5});
+      const ShapeTable<2> table = tabulate<2>(2, gauss.get_points(), gauss.get_weights(), false);
+      const std::vector<double> d =
+          evaluate(table.derivatives, solution.coefficients(cell->active_cell_index()));
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        Tensor<2, 2> reference;
+        for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int j = 0; j < 2; ++j)
+            reference[c][j] = d[(c * gauss.size() + q) * 2 + j];
+        const Tensor<2, 2> exact = scene.exact_solution->gradient(map.point(gauss.point(q)));
+        error += gauss.weight(q) * determinant(J) *
+                 std::pow(deviator(symmetrize(reference * invert(J) - exact)).norm(), 2);
+        norm += gauss.weight(q) * determinant(J) * std::pow(deviator(symmetrize(exact)).norm(), 2);
+      }
+    }
+    return std::sqrt(error / norm);
+  };
+  const double far_from_it = shear_error("0.3", false);
+  EXPECT_LE(shear_error("0.499999", true), 2. * far_from_it);
+  EXPECT_GE(shear_error("0.499999", false), 3. * far_from_it);
 }
 
 // ---------------------------------------------------------------- patches

@@ -21,13 +21,34 @@ namespace hpvi
 template <int dim>
 unsigned int stiffness_points(const CellMap<dim> &map, unsigned int degree);
 
+/**
+ * How a(.,.) counts changes of volume in nearly incompressible materials: div v itself, or its projection onto P_{p-1} of
+ * each cell, in reference coordinates. Then u is that of the stable mixed pair Q_p, P_{p-1}, the pressure
+ * eliminated (Bernardi and Maday, DOI 10.1142/S0218202599000208); for parallelograms only.
+ */
+enum class Volume
+{
+  full,
+  projected
+};
+
+/**
+ * What the projection takes away from Q_p: products of Legendre polynomials of degree p and more, orthonormal on the
+ * unit cell, at the points of a table; modes x points.
+ */
+template <int dim>
+dealii::FullMatrix<double> oscillating_modes(const ShapeTable<dim> &table, unsigned int degree);
+
 /** Stiffness matrices of elements, each a function of the cell's map, degree and material. */
 template <int dim>
 class ElementMatrices
 {
 public:
   /** @p scene and @p tables must outlive this object. */
-  ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                  Volume volume = Volume::full);
+
+  const Volume volume;
 
   /** `K_ij = a(phi_j, phi_i)` over the cell, in deal.II's local numbering of FESystem(FE_Q(p), dim). */
   dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree,

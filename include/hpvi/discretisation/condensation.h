@@ -55,7 +55,10 @@ class CondensedElements
 {
 public:
   /** Both must outlive this object. */
-  CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                    Volume volume = Volume::full);
+
+  Volume volume() const;
 
   std::shared_ptr<const CondensedElement> get(const CellMap<dim> &map, unsigned int degree,
                                               dealii::types::material_id material);

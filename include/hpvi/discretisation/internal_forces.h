@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/vector.h>
 #include <hpvi/body/displacement_space.h>
+#include <hpvi/body/element_matrices.h>
 
 namespace hpvi
 {
@@ -23,7 +24,8 @@ struct InternalForces
  */
 template <int dim>
 InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                               const ShapeTables<dim> &tables, const dealii::Vector<double> &u);
+                               const ShapeTables<dim> &tables, const dealii::Vector<double> &u,
+                               Volume volume = Volume::full);
 } // namespace hpvi
 
 #endif

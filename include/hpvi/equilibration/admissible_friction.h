@@ -3,7 +3,7 @@
 #define hpvi_admissible_friction_h
 
 #include <hpvi/discretisation/solution.h>
-#include <hpvi/equilibration/edge_polynomial.h>
+#include <hpvi/stresses/edge_polynomial.h>
 
 #include <array>
 #include <vector>

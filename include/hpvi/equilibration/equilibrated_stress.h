@@ -26,9 +26,11 @@ public:
    * @p friction: l with `lam* = sum psi l`, psi the hat function that is 1 at the end; @p pressure: t with
    * `s_n = -sum t` on faces with unilateral contact, which are not asked for elsewhere. @p measured: the u_N from which
    * the distance is measured, and to which s is nearest inside cells; another one than that with which s is in balance.
+   * @p volume: how the discrete equations of the latter count changes of volume.
    */
   EquilibratedStress(const Solution<2> &solution, const Parts &friction, const Parts &pressure,
-                     EquilibrationCache &cache, const Solution<2> *measured = nullptr);
+                     EquilibrationCache &cache, const Solution<2> *measured = nullptr,
+                     Volume volume = Volume::full);
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
   double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
@@ -112,6 +114,7 @@ private:
   const Solution<2> &solution;
   const Parts friction, pressure;
   EquilibrationCache &cache;
+  const Volume volume;
   const VertexPatches vertex_patches;
   std::unique_ptr<const MacroStresses> macro_stresses; ///< or what follows, up to batches
   std::vector<Cell> cells;

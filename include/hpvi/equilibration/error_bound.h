@@ -2,10 +2,11 @@
 #ifndef hpvi_error_bound_h
 #define hpvi_error_bound_h
 
-#include <hpvi/discretisation/discretisation.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/equilibration/mixed_problem.h>
 #include <hpvi/stresses/edge_bubbles.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ namespace hpvi
  *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + |w|_a + |d|_a + O)^2/2 + gap(u_N - w).
  *
  * Where the friction bound varies so much that no admissible friction is in balance with u_N, s is near the stress of
- * u_N + x, x the displacement by what is missing; eta tells its distance from sigma(u_N) all the same. doc/bound.md
- * proves both.
+ * u_N + x, x the displacement by what is missing, and near incompressibility that of MixedProblem; eta tells its
+ * distance from sigma(u_N) all the same. doc/bound.md proves both.
  */
 struct ErrorBound
 {
@@ -52,7 +53,7 @@ struct ErrorBound
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
 
-/** Computes the bound step by step, with what it keeps between steps. */
+/** Computes the bounds of one scene step by step, with what it keeps between steps. */
 class ErrorBounds
 {
 public:
@@ -63,6 +64,7 @@ public:
 private:
   EquilibrationCache cache;
   EdgeBubbles<2> bubbles;
+  std::unique_ptr<MixedProblem<2>> mixed; ///< where a material is nearly incompressible
 };
 } // namespace hpvi
 

@@ -10,6 +10,9 @@
 
 namespace hpvi
 {
+/** Are there cells that are no parallelograms? */
+bool has_distorted_cells(const Solution<2> &solution);
+
 /** One edge of the mesh with the traction `s n` of an equilibrated stress on it. */
 struct StressEdge
 {

@@ -40,6 +40,12 @@ struct Material
     return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
   }
 
+  /** Is lambda above 20 mu, as from nu = 0.476 on? Below, mixed methods are no better than others. */
+  bool is_nearly_incompressible(const int dim) const
+  {
+    return lambda(dim) > 20. * mu();
+  }
+
   /** The largest c [stress] with `c eps : eps <= sigma(eps) : eps`. */
   double coercivity(int dim) const;
 

@@ -293,6 +293,9 @@ struct Scene
   double largest_mu() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
+
+  /** Is any of the materials? */
+  bool is_nearly_incompressible() const;
   bool has_load_history() const;
   bool has_contact() const;
   bool has_known_solution() const; ///< exact or reference: can the true error be measured?

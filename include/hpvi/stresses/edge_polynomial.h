@@ -63,6 +63,14 @@ bool has_transition(const ContactFace<dim> &face, const dealii::Vector<double> &
                     const ContactSpace<dim> &space);
 
 /**
+ * The same; but one Gauss point slips or sticks as a whole, so that the end of slip may be on either of two such faces that
+ * differ.
+ */
+template <int dim>
+bool may_have_transition(unsigned int number, const dealii::Vector<double> &z,
+                         const ContactSpace<dim> &space);
+
+/**
  * Degree of friction and pressure of an equilibrated stress on a contact face: p, and more where stick and slip, or
  * contact and gap, share it, because no polynomial within its bounds is near what tractions do there, and where g varies.
  */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/edge_polynomial.h>
+#include <hpvi/stresses/edge_polynomial.h>
 #include <hpvi/stresses/legendre.h>
 
 #include <boost/math/tools/roots.hpp>
@@ -202,14 +202,37 @@ bool varies(const FrictionRule &friction)
                      { return std::abs(value - g[0]) > 1e-10 * std::abs(g[0]); });
 }
 
+namespace
+{
+template <int dim>
+unsigned int n_slipping(const ContactFace<dim> &face, const Vector<double> &z,
+                        const ContactSpace<dim> &space)
+{
+  unsigned int result = 0;
+  for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
+    result += std::abs(z[i]) >= (1. - 1e-10) * space.multipliers()[i].bound;
+  return result;
+}
+} // namespace
+
 template <int dim>
 bool has_transition(const ContactFace<dim> &face, const Vector<double> &z,
                     const ContactSpace<dim> &space)
 {
-  unsigned int n_slipping = 0;
-  for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
-    n_slipping += std::abs(z[i]) >= (1. - 1e-10) * space.multipliers()[i].bound;
-  return n_slipping > 0 && n_slipping < face.n_multipliers;
+  const unsigned int n = n_slipping(face, z, space);
+  return n > 0 && n < face.n_multipliers;
+}
+
+template <int dim>
+bool may_have_transition(const unsigned int number, const Vector<double> &z,
+                         const ContactSpace<dim> &space)
+{
+  const std::vector<ContactFace<dim>> &faces = space.faces();
+  if (faces[number].n_multipliers != 1)
+    return has_transition(faces[number], z, space);
+  const auto slips = [&](const unsigned int k) { return n_slipping(faces[k], z, space) > 0; };
+  return (number > 0 && slips(number - 1) != slips(number)) ||
+         (number + 1 < faces.size() && slips(number + 1) != slips(number));
 }
 
 template <int dim>
@@ -264,6 +287,7 @@ EdgePolynomial edge_trace(const ContactFace<dim> &face, const Tensor<1, dim> &di
 
 template bool has_transition(const ContactFace<2> &, const Vector<double> &,
                              const ContactSpace<2> &);
+template bool may_have_transition(unsigned int, const Vector<double> &, const ContactSpace<2> &);
 template unsigned int traction_degree(const ContactFace<2> &, const Vector<double> &,
                                       const ContactSpace<2> &);
 template FrictionRule traction_rule(const ContactFace<2> &, unsigned int, const ShapeTables<2> &);
