@@ -568,7 +568,7 @@ void EquilibratedStress::solve_patches()
   {
     patch.clear();
     edges.clear();
-    auto ordered = hats;
+    auto ordered = hats; // by shape, not by number: patches of one shape share their factor
     std::stable_sort(ordered.begin(), ordered.end(),
                      [&](const auto &a, const auto &b)
                      {

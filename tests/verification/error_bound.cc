@@ -433,7 +433,7 @@ TEST(ErrorBoundParts, MakeTheWhole)
 TEST(ErrorBoundInsideAnEdge, IsAboveTheErrorAndNear)
 {
   for (const auto &[method, near] : std::vector<std::pair<std::string, double>>{
-           {"hpa2", 1.55}, {"hpa3", 1.55}, {"hap4", 1.5}, {"hup2", 1.75}})
+           {"hpa2", 1.55}, {"hpa3", 1.55}, {"hap4", 1.5}, {"hup2", 1.95}})
   {
     const auto [smallest, largest] =
         effectivities(shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"},
@@ -483,6 +483,7 @@ TEST(ErrorBoundNearIncompressibility, IsAboveTheErrorAndNear)
         effectivities(shipped_scene("plane-strain",
                                     {{"Material/Poisson's ratio", poisson},
                                      {"Adaptivity/Method", method},
+                                     {"Adaptivity/Start degree", "0"},
                                      {"Adaptivity/Maximum steps", method == "hpa3" ? "10" : "4"}}),
                       1e-9);
     EXPECT_GE(smallest, 1.);
@@ -502,10 +503,10 @@ TEST(ErrorBound, AddsCorrectionAndDataCellByCell)
             ASSERT_TRUE(step.bound) << step.no_bound;
             const ErrorBound &bound = *step.bound;
             ASSERT_GT(bound.data, 0.);
-            ASSERT_EQ(bound.oscillation, 0.);
+            ASSERT_LT(bound.oscillation, 1e-12 * bound.total); // round-off
             const double least = std::hypot(bound.stress, bound.slip);
-            EXPECT_GE(bound.total, std::hypot(least, bound.data));
-            EXPECT_LE(bound.total, std::hypot(bound.stress, bound.slip + bound.data));
+            EXPECT_GE(bound.total * (1. + 1e-11), std::hypot(least, bound.data));
+            EXPECT_LT(bound.total, 0.999 * std::hypot(bound.stress, bound.slip + bound.data));
           });
 }
 
