@@ -24,7 +24,7 @@ unsigned int stiffness_points(const CellMap<dim> &map, unsigned int degree);
 /**
  * How a(.,.) counts changes of volume in nearly incompressible materials: div v itself, or its projection onto P_{p-1} of
  * each cell, in reference coordinates. Then u is that of the stable mixed pair Q_p, P_{p-1}, the pressure
- * eliminated (Bernardi and Maday, DOI 10.1142/S0218202599000208); for parallelograms only.
+ * eliminated (Bernardi and Maday, M3AS 9, 1999); for parallelograms only.
  */
 enum class Volume
 {
