@@ -23,9 +23,10 @@ template <int dim>
 IterativeRefinement<dim>::IterativeRefinement(const Discretisation<dim> &discretisation,
                                               const CondensedElements<dim> &elements,
                                               const LinearSolver &solver,
-                                              const SchurComplement &schur_complement)
+                                              const SchurComplement &schur_complement,
+                                              const double tolerance)
     : discretisation(discretisation), elements(elements), solver(solver),
-      schur_complement(schur_complement)
+      schur_complement(schur_complement), tolerance(tolerance)
 {
 }
 
@@ -102,7 +103,7 @@ bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector
         work += r[dof] * weight * u[master];
     else
       work += r[dof] * u[dof];
-  return !(std::abs(work) <= 1e-10 * energy_product);
+  return !(std::abs(work) <= tolerance * energy_product);
 }
 
 template <int dim>

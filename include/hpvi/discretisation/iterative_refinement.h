@@ -43,10 +43,10 @@ template <int dim>
 class IterativeRefinement
 {
 public:
-  /** All must outlive this object. */
+  /** All must outlive this object. @p tolerance: the work of a residual, relative to a(u,u), that is left alone. */
   IterativeRefinement(const Discretisation<dim> &discretisation,
                       const CondensedElements<dim> &elements, const LinearSolver &solver,
-                      const SchurComplement &schur_complement);
+                      const SchurComplement &schur_complement, double tolerance = 1e-10);
 
   /**
    * The displacement, and the multiplier in @p reduced, which comes with the starting value. Where
@@ -70,6 +70,7 @@ private:
   const CondensedElements<dim> &elements;
   const LinearSolver &solver;
   const SchurComplement &schur_complement;
+  const double tolerance;
 };
 } // namespace hpvi
 
