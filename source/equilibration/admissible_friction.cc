@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/solver/inequality_program.h>
 
 #include <algorithm>
@@ -63,6 +64,32 @@ double common_slip(const ContactFace<dim> &face, const Solution<dim> &solution)
   return result;
 }
 
+/** z_N as a polynomial of degree p-2 along a face. */
+template <int dim>
+EdgePolynomial discrete_friction(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  const auto first = solution.z.begin() + face.first_multiplier;
+  return EdgePolynomial::through({first, first + face.n_multipliers},
+                                 solution.tables.gauss(face.n_multipliers));
+}
+
+/** What g l_a should be near: z_N; where that is one number, for p = 2, with the slope of -sigma_t(u_N). */
+template <int dim>
+EdgePolynomial wanted_friction(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  EdgePolynomial z = discrete_friction(face, solution);
+  if (face.n_multipliers > 1)
+    return z;
+  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
+  const ContactTraces<dim> traces(face, gauss.size(), solution);
+  std::vector<double> values;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    values.push_back(-traces.traction(q) * face.frame(gauss.point(q)[0]).tangent);
+  std::vector<double> coefficients = EdgePolynomial::through(values, gauss).coefficients();
+  coefficients[0] = z.coefficients()[0];
+  return EdgePolynomial(coefficients);
+}
+
 /** What a face adds to the patches of both its ends. */
 template <int dim>
 class FaceIntegrals
@@ -74,10 +101,8 @@ public:
         rule(traction_rule(face, n - 1, solution.tables)),
         weight(face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree)),
         leans(may_have_transition(number, solution.z, solution.contact_space)),
-        gauss(solution.tables.gauss(face.n_multipliers + 1)),
-        z(EdgePolynomial::through({solution.z.begin() + face.first_multiplier,
-                                   solution.z.begin() + face.first_multiplier + face.n_multipliers},
-                                  solution.tables.gauss(face.n_multipliers)))
+        gauss(solution.tables.gauss(face.n_multipliers + 1)), z(discrete_friction(face, solution)),
+        wanted(wanted_friction(face, solution))
   {
     if (leans)
       u_t = edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
@@ -96,7 +121,7 @@ private:
   const double weight;
   const bool leans;
   const QGauss<1> &gauss;
-  const EdgePolynomial z;
+  const EdgePolynomial z, wanted;
   EdgePolynomial u_t;
   double slip = 0; ///< of a Side
 };
@@ -122,12 +147,12 @@ Side FaceIntegrals<dim>::side(const unsigned int end) const
     // A little everywhere, so that l is determined where the hat or g is next to nothing.
     const double part = weight * ds * (hat(end, s) + 1e-3), share = part * g * g;
     const double small = 1e-6 * weight * ds * largest * largest;
-    const double lambda = g > 0. ? std::max(-1., std::min(1., z(s) / g)) : 0.;
+    const double lambda = g > 0. ? std::max(-1., std::min(1., wanted(s) / g)) : 0.;
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         result.H(i, j) += (share + small) * L[i] * L[j];
-    result.h.add(part * g * z(s) + small * lambda + (leans ? ds * hat(end, s) * g * u_t(s) : 0.),
-                 L);
+    result.h.add(
+        part * g * wanted(s) + small * lambda + (leans ? ds * hat(end, s) * g * u_t(s) : 0.), L);
   }
   return result;
 }

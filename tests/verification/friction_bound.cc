@@ -676,12 +676,13 @@ TEST(ContactCorrection, TakesAwayTheSlipOfStickingFaces)
   EXPECT_GE(n_sticking, 9u);
 }
 
-/** Measured: 0.02 to 1.03 of the true error squared where the transition is a vertex, up to 15 inside an edge. */
+/** Of the true error squared; p = 2 leaves more of it to the gap because its friction spares as much stress. */
 TEST(ContactCorrection, IsOfTheSizeOfTheErrorSquared)
 {
-  for (const auto &[transition, factor] :
-       std::vector<std::pair<std::string, double>>{{"0", 1.1}, {"0.1", 20.}})
-    for (const std::string method : {"hup2", "hap4", "hpa3"})
+  for (const auto &[transition, factors] : std::map<std::string, std::map<std::string, double>>{
+           {"0", {{"hup2", 1.2}, {"hap4", 0.65}, {"hpa3", 0.75}}},
+           {"0.1", {{"hup2", 6.}, {"hap4", 6.}, {"hpa3", 6.}}}})
+    for (const auto &[method, factor] : factors)
     {
       SCOPED_TRACE("transition at " + transition + ", " + method);
       const Scene<2> scene = shipped_scene("stick-slip", {{"Exact solution/Transition", transition},

@@ -25,11 +25,11 @@ namespace hpvi
  * all of g: always for constant g. Faces that slip at all of them have l_a = +-1, with the same work where g is constant. Of
  * all others, l_a minimises
  *
- *     h/(2 mu p) int psi_a (g l_a - z_N)^2 - 2 int psi_a g l_a u_Nt,
+ *     h/(2 mu p) int psi_a (g l_a - t)^2 - 2 int psi_a g l_a u_Nt,
  *
  * the second term on faces with both stick and slip alone: what a deviation of the friction costs in the
- * energy of the stress, up to a factor near 1, and what it spares in int g (|u_Nt| - l* u_Nt). Tresca's
- * law only.
+ * energy of the stress, up to a factor near 1, and what it spares in int g (|u_Nt| - l* u_Nt). t is z_N; where that is
+ * one number on the face, for p = 2, t has its mean, and varies like -sigma_t(u_N). Tresca's law only.
  */
 template <int dim>
 class AdmissibleFriction

@@ -38,16 +38,21 @@ public:
     return law.stress(reference * dealii::invert(map.jacobian(table.points[q])));
   }
 
-  /** n . (sigma n - G): what the plane exerts, without an applied traction G; positive pulls. */
-  double normal_traction(const unsigned int q) const
+  /** sigma n - G: what the plane exerts, without an applied traction G. */
+  dealii::Tensor<1, dim> traction(const unsigned int q) const
   {
     const dealii::Point<dim> x = map.point(table.points[q]);
-    const dealii::Tensor<1, dim> n = map.normal(face.face_no, table.points[q]);
-    dealii::Tensor<1, dim> traction = sigma(q) * n;
+    dealii::Tensor<1, dim> result = sigma(q) * map.normal(face.face_no, table.points[q]);
     for (unsigned int c = 0; c < dim; ++c)
       if (face.condition->traction[c])
-        traction[c] -= face.condition->traction[c]->value(x);
-    return n * traction;
+        result[c] -= face.condition->traction[c]->value(x);
+    return result;
+  }
+
+  /** Its part along n: positive pulls. */
+  double normal_traction(const unsigned int q) const
+  {
+    return traction(q) * map.normal(face.face_no, table.points[q]);
   }
 
 private:
