@@ -55,14 +55,24 @@ const Vector<double> &SchurComplement::d() const
 // the forward solution, and one backward substitution is all that the displacement costs.
 Vector<double> SchurComplement::displacement(const Vector<double> &z) const
 {
-  Vector<double> rest(y);
+  return backward(y, z);
+}
+
+Vector<double> SchurComplement::response(const Vector<double> &z) const
+{
+  return backward(Vector<double>(y.size()), z);
+}
+
+Vector<double> SchurComplement::backward(Vector<double> right_hand_side,
+                                         const Vector<double> &z) const
+{
   if (Y.m() > 0)
   {
     Vector<double> change(Y.m());
     Y.vmult(change, z);
     for (unsigned int k = 0; k < change.size(); ++k)
-      rest[rest.size() - change.size() + k] -= change[k];
+      right_hand_side[right_hand_side.size() - change.size() + k] -= change[k];
   }
-  return solver.backward(rest);
+  return solver.backward(right_hand_side);
 }
 } // namespace hpvi

@@ -162,12 +162,14 @@ Condensation<dim>::element(const unsigned int cell) const
 template <int dim>
 void Condensation<dim>::eliminate(Vector<double> &forces) const
 {
+  Vector<double> inside, boundary; // keep their memory from cell to cell
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
     if (elements[cell] && elements[cell]->extension.m() > 0)
     {
       const FullMatrix<double> &extension = elements[cell]->extension;
       const auto dofs = space.cell_dofs(cell);
-      Vector<double> inside(extension.m()), boundary(extension.n());
+      inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
+      boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
       for (unsigned int i = 0; i < inside.size(); ++i)
         inside[i] = forces[dofs[boundary.size() + i]];
       extension.Tvmult(boundary, inside);
@@ -179,12 +181,14 @@ void Condensation<dim>::eliminate(Vector<double> &forces) const
 template <int dim>
 void Condensation<dim>::extend(Vector<double> &u) const
 {
+  Vector<double> inside, boundary; // keep their memory from cell to cell
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
     if (elements[cell] && elements[cell]->extension.m() > 0)
     {
       const FullMatrix<double> &extension = elements[cell]->extension;
       const auto dofs = space.cell_dofs(cell);
-      Vector<double> inside(extension.m()), boundary(extension.n());
+      inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
+      boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
       for (unsigned int i = 0; i < boundary.size(); ++i)
         boundary[i] = u[dofs[i]];
       extension.vmult(inside, boundary);
@@ -214,12 +218,13 @@ template <class Solve>
 void Condensation<dim>::solve_inside(const Vector<double> &forces, const Solve &solve,
                                      Vector<double> &u) const
 {
+  Vector<double> inside; // keeps its memory from cell to cell
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
     if (elements[cell] && elements[cell]->extension.m() > 0)
     {
       const auto dofs = space.cell_dofs(cell);
       const unsigned int n_boundary = elements[cell]->extension.n();
-      Vector<double> inside(elements[cell]->extension.m());
+      inside.reinit(elements[cell]->extension.m(), /*omit_zeroing_entries=*/true);
       for (unsigned int i = 0; i < inside.size(); ++i)
         inside[i] = forces[dofs[n_boundary + i]];
       solve(*elements[cell], inside);

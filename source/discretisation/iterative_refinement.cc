@@ -35,31 +35,54 @@ Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
                                                AlgebraicError &error) const
 {
   const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
-  Vector<double> u, defect(contact_space.n_multipliers()), last;
-  for (unsigned int passes_left = 10;; --passes_left)
+  Vector<double> defect(contact_space.n_multipliers());
+  if (defect.size() > 0)
+    reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
+  Vector<double> x = schur_complement.displacement(reduced.z);
+  if (discretisation.free_motions)
+    x += discretisation.free_motions->at_unknowns(reduced.motion);
+  Vector<double> u = discretisation.displacement(x);
+  error = improve(reduced.z, u);
+  if (error.corrections == 0 || defect.size() == 0)
+    return u;
+  for (unsigned int passes_left = 9; passes_left > 0; --passes_left)
   {
-    if (defect.size() > 0)
-      reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
-    Vector<double> x = schur_complement.displacement(reduced.z);
-    if (discretisation.free_motions)
-      x += discretisation.free_motions->at_unknowns(reduced.motion);
-    u = discretisation.displacement(x);
-    error = improve(reduced.z, u);
-    if (error.corrections == 0 || defect.size() == 0)
-      return u;
-    if (last.size() > 0)
-    {
-      last -= reduced.z;
-      const double largest = std::max(contact_space.largest_bound(), reduced.z.linfty_norm());
-      error.multiplier = last.linfty_norm() == 0. ? 0. : last.linfty_norm() / largest;
-      if (error.multiplier <= 1e-9 || passes_left == 1)
-        return u;
-    }
-    last = reduced.z;
     defect += discretisation.spaces->contact_operator.moments(u);
     for (unsigned int i = 0; i < defect.size(); ++i)
       defect[i] -= contact_space.multipliers()[i].gap + reduced.moments[i];
+    const ReducedSolution last = reduced;
+    reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
+    u += displacement_between(last, reduced);
+    const unsigned int corrections = error.corrections;
+    error = improve(reduced.z, u, /*is_suspect=*/true);
+    error.corrections += corrections;
+    Vector<double> change(reduced.z);
+    change -= last.z;
+    const double largest = std::max(contact_space.largest_bound(), reduced.z.linfty_norm());
+    error.multiplier = change.linfty_norm() == 0. ? 0. : change.linfty_norm() / largest;
+    if (error.multiplier <= 1e-9)
+      break;
   }
+  return u;
+}
+
+/** What the difference of two solutions of the reduced problem does to u: its round-off is that of the difference. */
+template <int dim>
+Vector<double> IterativeRefinement<dim>::displacement_between(const ReducedSolution &from,
+                                                              const ReducedSolution &to) const
+{
+  Vector<double> z(to.z);
+  z -= from.z;
+  Vector<double> x = schur_complement.response(z);
+  if (discretisation.free_motions)
+  {
+    Vector<double> motion(to.motion);
+    motion -= from.motion;
+    x += discretisation.free_motions->at_unknowns(motion);
+  }
+  Vector<double> result = discretisation.unknowns.expand(x);
+  discretisation.condensation.extend(result);
+  return result;
 }
 
 /** `f - B' z - A u` for every displacement unknown; at supports that is minus their reaction. */
@@ -107,11 +130,13 @@ bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector
 }
 
 template <int dim>
-AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector<double> &u) const
+AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector<double> &u,
+                                                 const bool is_suspect) const
 {
   AlgebraicError error;
   Vector<double> r = residual(z, u, error.energy_product);
-  if (!(error.energy_product > round_off_energy(u)) || !contradicts(r, u, error.energy_product))
+  if (!(error.energy_product > round_off_energy(u)) ||
+      !(is_suspect || contradicts(r, u, error.energy_product)))
     return error;
 
   const Unknowns<dim> &unknowns = discretisation.unknowns;
@@ -129,9 +154,11 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector
   };
   Vector<double> answer = precondition(r), p(answer), best(u);
   double square = dot(r, answer), least = square;
-  const double exact = 1e-28 * error.energy_product;
-  const unsigned int most = 60, patience = 6;
-  for (unsigned int stalled = 0; least > exact && stalled < patience && error.corrections < most;
+  // Far from the solution a step may gain nothing and the next one much; near it that is round-off.
+  const auto patience = [&] { return least > 1e-20 * error.energy_product ? 6U : 1U; };
+  const double enough = 1e-24 * error.energy_product;
+  const unsigned int most = 60;
+  for (unsigned int stalled = 0; least > enough && stalled < patience() && error.corrections < most;
        ++error.corrections)
   {
     const double curvature =

@@ -357,4 +357,22 @@ TEST(HeldByContactTurned, DoesNotDependOnTheAxes)
       EXPECT_NEAR(one.z[i], other.z[i], 1e-8);
   }
 }
+/** A block that locks loses digits to its factorisation: the motion that corrections bring about puts it on its plane again. */
+TEST(CorrectedBody, StaysOnItsPlane)
+{
+  unsigned int n_corrected = 0;
+  for (const std::string normal : {"nodes", "multiplier"})
+    AdaptiveSolver<2>(shipped_scene("resting", {{"Material/Poisson's ratio", "0.4999"},
+                                                {"Solver/Normal contact", normal},
+                                                {"Adaptivity/Method", "hup2"},
+                                                {"Adaptivity/Maximum unknowns", "4000"},
+                                                {"Error/Bound", "false"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              n_corrected += step.algebraic.corrections > 0;
+              expect_complementary(step.solution);
+            });
+  EXPECT_GE(n_corrected, 4u);
+}
 } // namespace

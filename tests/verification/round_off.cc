@@ -202,6 +202,31 @@ TEST(IterativeRefinement, CorrectsASpoiltDisplacement)
   EXPECT_LE(spoilt.linfty_norm(), 1e-11 * solution.u.linfty_norm());
 }
 
+/** One step brings the solution of a body that locks to round-off; passes for the multiplier find next to nothing to do. */
+TEST(IterativeRefinement, TakesFewSteps)
+{
+  unsigned int n_corrected = 0;
+  for (const std::string name : {"plane-strain", "resting"}) // the second one has free motions
+    for (const auto &[nu, most] :
+         std::vector<std::pair<std::string, unsigned int>>{{"0.4999", 1}, {"0.499999", 4}})
+    {
+      const Scene<2> scene = shipped_scene(name, {{"Material/Poisson's ratio", nu},
+                                                  {"Adaptivity/Method", "hup2"},
+                                                  {"Adaptivity/Maximum unknowns", "4000"},
+                                                  {"Error/Bound", "false"}});
+      AdaptiveSolver<2>(scene).run(
+          [&](const StepReport<2> &step)
+          {
+            n_corrected += step.algebraic.corrections > 0;
+            EXPECT_EQ(step.algebraic.relative > 0., step.algebraic.corrections > 0);
+            EXPECT_LE(step.algebraic.corrections, most) << name << ' ' << nu;
+            EXPECT_LE(step.algebraic.relative, 1e-11) << name << ' ' << nu;
+            EXPECT_LE(step.algebraic.multiplier, 1e-9) << name << ' ' << nu;
+          });
+    }
+  EXPECT_GE(n_corrected, 12u);
+}
+
 /**
  * From one cell of 1000:1 on, by the default method: the spaces are nested, so J falls with every
  * step, and the tip comes to what beam theory says, less the clamp and more the shear.

@@ -40,7 +40,13 @@ public:
   /** `x = A^-1 (f - B' z)` */
   dealii::Vector<double> displacement(const dealii::Vector<double> &z) const;
 
+  /** `-A^-1 B' z`, what @p z adds to it */
+  dealii::Vector<double> response(const dealii::Vector<double> &z) const;
+
 private:
+  dealii::Vector<double> backward(dealii::Vector<double> right_hand_side,
+                                  const dealii::Vector<double> &z) const;
+
   const LinearSolver &solver;
   dealii::Vector<double> y;           ///< L^-1 f
   dealii::LAPACKFullMatrix<double> Y; ///< C^-1 B'

@@ -17,7 +17,7 @@ struct AlgebraicError
    */
   double relative = 0;
   double multiplier = 0;        ///< the last change of z_N that corrections asked for
-  unsigned int corrections = 0; ///< steps of conjugate gradients taken
+  unsigned int corrections = 0; ///< steps of conjugate gradients taken, of all passes
   double energy_product = 0;    ///< a(u_N,u_N), from strains
 
   double total() const
@@ -56,10 +56,16 @@ public:
    */
   dealii::Vector<double> solve(ReducedSolution &reduced, AlgebraicError &error) const;
 
-  /** Improve @p u, the solution for the multiplier @p z, and say how exact it is now. */
-  AlgebraicError improve(const dealii::Vector<double> &z, dealii::Vector<double> &u) const;
+  /**
+   * Improve @p u, the solution for the multiplier @p z, and say how exact it is now. @p is_suspect: correct
+   * whatever the work of the residual says.
+   */
+  AlgebraicError improve(const dealii::Vector<double> &z, dealii::Vector<double> &u,
+                         bool is_suspect = false) const;
 
 private:
+  dealii::Vector<double> displacement_between(const ReducedSolution &from,
+                                              const ReducedSolution &to) const;
   dealii::Vector<double> residual(const dealii::Vector<double> &z, const dealii::Vector<double> &u,
                                   double &energy_product) const;
   double round_off_energy(const dealii::Vector<double> &u) const;
