@@ -20,7 +20,7 @@ constexpr double round_off = 1e-14;
 /** One face of the patch of a vertex a: the data of l_a on it. */
 struct Side
 {
-  unsigned int face, end;
+  unsigned int face = 0, end = 0;
   double work = 0;        ///< int psi_a z_N
   double limit = 0;       ///< int psi_a g
   Vector<double> moments; ///< int psi_a g L_i
@@ -111,7 +111,7 @@ public:
       slip = common_slip(face, solution);
   }
 
-  Side side(unsigned int end) const;
+  std::array<Side, 2> sides() const; ///< by end
 
 private:
   const unsigned int number;
@@ -127,32 +127,39 @@ private:
 };
 
 template <int dim>
-Side FaceIntegrals<dim>::side(const unsigned int end) const
+std::array<Side, 2> FaceIntegrals<dim>::sides() const
 {
-  Side result{
-      number, end, 0.,   0.,   Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
-      {},     0.,  slip, leans};
+  std::array<Side, 2> result;
+  for (unsigned int end = 0; end < 2; ++end)
+    result[end] = {
+        number, end, 0.,   0.,   Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
+        {},     0.,  slip, leans};
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
-    const double s = gauss.point(q)[0];
-    result.work += face.length * gauss.weight(q) * hat(end, s) * z(s);
+    const double s = gauss.point(q)[0], work = face.length * gauss.weight(q) * z(s);
+    for (Side &side : result)
+      side.work += hat(side.end, s) * work;
   }
   const double largest = *std::max_element(rule.values.begin(), rule.values.end());
   for (unsigned int q = 0; q < rule.points.size(); ++q)
   {
     const double s = rule.points[q], g = rule.values[q], ds = face.length * rule.weights[q];
     const Vector<double> L = legendre_basis(n, s);
-    result.limit += ds * hat(end, s) * g;
-    result.moments.add(ds * hat(end, s) * g, L);
-    // A little everywhere, so that l is determined where the hat or g is next to nothing.
-    const double part = weight * ds * (hat(end, s) + 1e-3), share = part * g * g;
-    const double small = 1e-6 * weight * ds * largest * largest;
-    const double lambda = g > 0. ? std::max(-1., std::min(1., wanted(s) / g)) : 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        result.H(i, j) += (share + small) * L[i] * L[j];
-    result.h.add(
-        part * g * wanted(s) + small * lambda + (leans ? ds * hat(end, s) * g * u_t(s) : 0.), L);
+    const double t = wanted(s), slipped = leans ? u_t(s) : 0.,
+                 lambda = g > 0. ? std::max(-1., std::min(1., t / g)) : 0.,
+                 small = 1e-6 * weight * ds * largest * largest;
+    for (Side &side : result)
+    {
+      const double psi = hat(side.end, s);
+      side.limit += ds * psi * g;
+      side.moments.add(ds * psi * g, L);
+      // A little everywhere, so that l is determined where the hat or g is next to nothing.
+      const double part = weight * ds * (psi + 1e-3), share = part * g * g + small;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          side.H(i, j) += share * L[i] * L[j];
+      side.h.add(part * g * t + small * lambda + ds * psi * g * slipped, L);
+    }
   }
   return result;
 }
@@ -371,10 +378,9 @@ AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (!faces[k].friction.vanishes() && faces[k].n_multipliers > 0)
     {
-      const FaceIntegrals<dim> integrals(k, solution);
-      for (const unsigned int end : {0U, 1U})
-        sides[faces[k].cell->face(faces[k].face_no)->vertex_index(end)].push_back(
-            integrals.side(end));
+      for (Side &side : FaceIntegrals<dim>(k, solution).sides())
+        sides[faces[k].cell->face(faces[k].face_no)->vertex_index(side.end)].push_back(
+            std::move(side));
     }
   for (auto &[vertex, around] : sides)
   {

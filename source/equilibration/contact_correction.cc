@@ -343,7 +343,7 @@ private:
   std::vector<Role> roles() const;
   void add_normal_roles(std::vector<Role> &roles) const;
   Vector<double> fixed_displacement() const;
-  bool is_near_pressure(unsigned int face) const;
+  bool find_near_pressure(unsigned int face) const;
   double penetration(const Vector<double> &w, std::map<unsigned int, double> &heights) const;
   bool lift(Vector<double> &w) const;
   void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
@@ -370,6 +370,7 @@ private:
   std::vector<Slip> slips;
   std::vector<Trace> traces; ///< of u_t
   std::vector<std::optional<Opening>> openings;
+  std::vector<bool> is_near_pressure;       ///< by face
   BorderedMatrix A;                         ///< bordered by edge bubbles
   std::vector<unsigned int> cell_of_bubble; ///< by column of the border
   double tolerance = 0;                     ///< of penetrations: round-off
@@ -393,6 +394,8 @@ Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &di
     openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
     tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
   }
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    is_near_pressure.push_back(find_near_pressure(k));
   if (!bubbles)
     return;
   free_neighbours(slips);
@@ -502,6 +505,9 @@ bool Search<dim>::lift(Vector<double> &w) const
       const unsigned int n = faces[k].degree + 1;
       const auto face = faces[k].cell->face(faces[k].face_no);
       const double first = heights[face->vertex_index(0)], last = heights[face->vertex_index(1)];
+      if (first == 0. && last == 0.)
+        continue;
+      const Tensor<1, dim> normal = faces[k].frame(0.5).normal;
       const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
       const std::vector<unsigned int> &on_edge =
           solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
@@ -511,7 +517,7 @@ bool Search<dim>::lift(Vector<double> &w) const
           const double s = solution.tables.gauss_lobatto(n).point(j)[0];
           if (const auto dof = dofs[on_edge[c * n + j]];
               discretisation.unknowns.terms(dof).size() > 0)
-            u[dof] = faces[k].frame(0.5).normal[c] * (1. + 1e-10) * (first + s * (last - first));
+            u[dof] = normal[c] * (1. + 1e-10) * (first + s * (last - first));
         }
     }
   const Vector<double> lifted = discretisation.unknowns.coordinates(u);
@@ -587,7 +593,7 @@ std::vector<Role> Search<dim>::roles() const
   std::vector<Role> result(A.n(), Role::free);
   std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (!faces[k].friction.vanishes() || is_near_pressure(k))
+    if (!faces[k].friction.vanishes() || is_near_pressure[k])
       is_at_contact[faces[k].cell->active_cell_index()] = true;
   if (solution.scene.is_nearly_incompressible())
     is_at_contact = with_neighbours(is_at_contact, solution.displacement_space, unknowns, A.n());
@@ -612,7 +618,7 @@ void Search<dim>::add_normal_roles(std::vector<Role> &roles) const
 {
   for (const bool is_near : {false, true})
     for (unsigned int k = 0; k < faces.size(); ++k)
-      if (openings[k] && is_near == is_near_pressure(k))
+      if (openings[k] && is_near == is_near_pressure[k])
         for (const unsigned int unknown : openings[k]->penetration.unknowns)
           if (roles[unknown] != Role::fixed)
             roles[unknown] = is_near ? Role::free : Role::outside;
@@ -624,7 +630,7 @@ void Search<dim>::add_normal_roles(std::vector<Role> &roles) const
 
 /** Does a face press, or one of two on either side of it, or does it penetrate? */
 template <int dim>
-bool Search<dim>::is_near_pressure(const unsigned int face) const
+bool Search<dim>::find_near_pressure(const unsigned int face) const
 {
   if (!openings[face])
     return false;
@@ -712,7 +718,7 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
         if (roles[unknown] == Role::free)
           result.push_back(unknown);
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (is_near_pressure(k))
+    if (is_near_pressure[k])
       for (const unsigned int unknown : openings[k]->penetration.unknowns)
         if (roles[unknown] == Role::free)
           result.push_back(unknown);
@@ -745,7 +751,7 @@ void Search<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<doubl
                                Vector<double> &h, std::vector<Condition> &conditions) const
 {
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (is_near_pressure(k))
+    if (is_near_pressure[k])
     {
       const Trace &trace = openings[k]->penetration;
       const QGauss<1> &gauss = solution.tables.gauss(faces[k].degree + 7);
@@ -773,12 +779,11 @@ void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::ve
       condition.add_to(program, strip, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
   if (!program.solve())
     return;
-  take_better(best, strip.minimiser(program.minimiser()));
+  Vector<double> w = strip.minimiser(program.minimiser());
   // What has another sign between the points is worth more points.
   bool stands_out = true;
   for (unsigned int round = 0; stands_out && round < 10; ++round)
   {
-    const Vector<double> w = strip.minimiser(program.minimiser());
     stands_out = false;
     for (const Condition &condition : conditions)
     {
@@ -788,11 +793,11 @@ void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::ve
         if (condition.sign * rest(s) > round_off)
           stands_out = condition.add_to(program, strip, s) || stands_out;
     }
-    if (stands_out && program.solve())
-      take_better(best, strip.minimiser(program.minimiser()));
-    else
-      stands_out = false;
+    stands_out = stands_out && program.solve();
+    if (stands_out)
+      w = strip.minimiser(program.minimiser());
   }
+  take_better(best, w);
 }
 
 template <int dim>

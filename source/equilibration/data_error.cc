@@ -231,6 +231,34 @@ double boundary_work(const EquilibratedStress &stress, const unsigned int index,
          sum;
 }
 
+/** The parts of |delta(s) b(n)|_a^2 on a parallelogram: `along int b b + across int b' b' + mixed int b b'`. */
+struct ProductEnergies
+{
+  ProductEnergies(const CellMap<2> &map, const unsigned int face,
+                  const std::array<Vector<double>, 2> &delta,
+                  const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law)
+  {
+    const Tensor<2, 2> J = map.jacobian({0.5, 0.5}), inverse = invert(J);
+    const unsigned int s = face < 2 ? 1 : 0, n = 1 - s;
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        // int over the reference cell of d_k phi_c d_l phi_d, less its factor across
+        const auto energy = [&](const unsigned int k, const unsigned int l, const double product)
+        {
+          return determinant(J) * law.stiffness([&](const unsigned int i, const unsigned int j)
+                                                { return inverse[k][i] * inverse[l][j] * product; },
+                                                c, d);
+        };
+        along += energy(s, s, slope[c] * slope[d] / 2);
+        across += energy(n, n, delta[c] * delta[d] / 2);
+        mixed += energy(s, n, slope[c] * delta[d] / 2) + energy(n, s, delta[c] * slope[d] / 2);
+      }
+  }
+
+  double along = 0, across = 0, mixed = 0;
+};
+
 /** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
 double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress,
                    const unsigned int index, const MissedDisplacement &missed)
@@ -245,38 +273,13 @@ double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress
   if (!map.is_affine())
     return distorted_energy(map, face, delta, slope,
                             HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);
-  // d = delta(s) b(n), b = (1 - n)^q; reference directions along and across the face
-  const bool along_xi = face >= 2;
-  const Tensor<2, 2> inverse = invert(map.jacobian({0.5, 0.5}));
+  // d = delta(s) b(n), b = (1 - n)^q: of int b b, int b' b' and int b b' the energy is a linear function.
   const HookesLaw<2> law(solution.scene.material_of(iterator));
-  const double sign = face % 2 ? -1. : 1.;
+  const ProductEnergies parts(map, face, delta, slope, law);
   double best = std::numeric_limits<double>::infinity();
   for (unsigned int q = 1; q <= 60; ++q)
-  {
-    const double bb = 1. / (2 * q + 1), b1b1 = double(q) * q / (2 * q - 1), bb1 = -0.5 * sign;
-    double energy = 0;
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        // int over the reference cell of d_k phi_c d_l phi_d
-        std::array<std::array<double, 2>, 2> reference;
-        const unsigned int along = along_xi ? 0 : 1, across = 1 - along;
-        reference[along][along] = slope[c] * slope[d] / 2 * bb;
-        reference[across][across] = delta[c] * delta[d] / 2 * b1b1;
-        reference[along][across] = slope[c] * delta[d] / 2 * bb1;
-        reference[across][along] = delta[c] * slope[d] / 2 * bb1;
-        const auto products = [&](const unsigned int i, const unsigned int j)
-        {
-          double sum = 0;
-          for (unsigned int k = 0; k < 2; ++k)
-            for (unsigned int l = 0; l < 2; ++l)
-              sum += inverse[k][i] * inverse[l][j] * reference[k][l];
-          return sum * determinant(map.jacobian({0.5, 0.5}));
-        };
-        energy += law.stiffness(products, c, d);
-      }
-    best = std::min(best, energy);
-  }
+    best = std::min(best, parts.along / (2 * q + 1) + parts.across * q * q / (2 * q - 1) -
+                              0.5 * (face % 2 ? -1. : 1.) * parts.mixed);
   return best;
 }
 } // namespace
@@ -306,12 +309,15 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
   }
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
   {
+    lift += lifts[cell] * lifts[cell];
+    const double missed = stress.missed_force(cell);
+    if (oscillation[cell] == 0. && missed == 0.)
+      continue;
     const auto &iterator = patches.cells()[cell].iterator;
     const CellConstants shape(map_of<2>(iterator));
-    oscillation[cell] += shape.poincare() * stress.missed_force(cell);
+    oscillation[cell] += shape.poincare() * missed;
     oscillation[cell] *=
         shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
-    lift += lifts[cell] * lifts[cell];
   }
   lift = std::sqrt(lift);
 }

@@ -98,10 +98,18 @@ void add(Modes<2> &sum, const Modes<2> &part)
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
                                        const Parts &pressure, EquilibrationCache &cache,
                                        const Solution<2> *const measured, const Volume volume)
-    : squares(solution.displacement_space.degrees().size()), solution(solution), friction(friction),
-      pressure(pressure), cache(cache), volume(volume),
-      vertex_patches(solution, has_distorted_cells(solution))
+    : squares(solution.displacement_space.degrees().size()), solution(solution), cache(cache),
+      volume(volume), vertex_patches(solution, has_distorted_cells(solution))
 {
+  const auto &faces = solution.contact_space.faces();
+  contact_parts.resize(faces.size());
+  for (unsigned int face = 0; face < faces.size(); ++face)
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      contact_parts[face].friction[end] = friction(face, end);
+      if (faces[face].condition->is_unilateral())
+        contact_parts[face].pressure[end] = pressure(face, end);
+    }
   known.resize(vertex_patches.edges().size());
   for (unsigned int e = 0; e < known.size(); ++e)
     if (vertex_patches.edges()[e].at_boundary())
@@ -164,7 +172,8 @@ Tensor<1, 2> EquilibratedStress::friction_on(const StressEdge &edge, const unsig
                                              const double s, const double bound) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
-  return -outward(edge) * bound * legendre::evaluate(friction(edge.contact_face, end), 2 * s - 1) *
+  return -outward(edge) * bound *
+         legendre::evaluate(contact_parts[edge.contact_face].friction[end], 2 * s - 1) *
          face.frame(s).tangent;
 }
 
@@ -194,12 +203,9 @@ void EquilibratedStress::set_known_tractions(const unsigned int index)
       for (unsigned int q = 0; q < rule.points.size(); ++q)
         add_load(index, end, rule.points[q], rule.weights[q],
                  friction_on(edge, end, rule.points[q], rule.values[q]));
-      if (condition.is_unilateral())
-      {
-        const std::vector<double> t = pressure(edge.contact_face, end);
-        for (unsigned int i = 0; i < t.size(); ++i)
-          known[index][end][0][i] -= t[i];
-      }
+      const std::vector<double> &t = contact_parts[edge.contact_face].pressure[end];
+      for (unsigned int i = 0; i < t.size(); ++i)
+        known[index][end][0][i] -= t[i];
     }
     meet_ends(edge, end, prescribed_traction(index, end));
   }
@@ -212,14 +218,12 @@ Tensor<1, 2> EquilibratedStress::prescribed_traction(const unsigned int index, c
   if (edge.contact_face == numbers::invalid_unsigned_int)
     return result;
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
-  const double bound = face.friction_bound(face.point(s));
-  for (unsigned int end = 0; end < 2; ++end)
-  {
-    result += (end == 0 ? 1 - s : s) * friction_on(edge, end, s, bound);
-    if (face.condition->is_unilateral())
-      result -= legendre::evaluate(pressure(edge.contact_face, end), 2 * s - 1) * edge.normal;
-  }
-  return result;
+  const auto &[friction, pressure] = contact_parts[edge.contact_face];
+  const auto at = [s](const std::vector<double> &part)
+  { return legendre::evaluate(part, 2 * s - 1); };
+  const double l = (1 - s) * at(friction[0]) + s * at(friction[1]);
+  return result - outward(edge) * face.friction_bound(face.point(s)) * l * face.frame(s).tangent -
+         (at(pressure[0]) + at(pressure[1])) * edge.normal;
 }
 
 std::vector<std::pair<double, double>>

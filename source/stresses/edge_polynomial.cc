@@ -18,20 +18,6 @@ double normalisation(const unsigned int i)
 {
   return std::sqrt(i + 0.5);
 }
-
-/** `P_{i+1} = up t P_i - down P_{i-1}` */
-struct Recurrence
-{
-  double up, down;
-};
-
-const std::array<Recurrence, legendre::n_roots> recurrences = []
-{
-  std::array<Recurrence, legendre::n_roots> result;
-  for (unsigned int i = 0; i < legendre::n_roots; ++i)
-    result[i] = {(2. * i + 1.) / (i + 1.), i / (i + 1.)};
-  return result;
-}();
 } // namespace
 
 /** Where it passes zero between two points with values of different signs. */
@@ -46,9 +32,10 @@ double EdgePolynomial::zero_between(const double left, const double right, const
     {
       value += terms[i] * last;
       slope += terms[i] * last_slope;
-      const double next = recurrences[i].up * t * last - recurrences[i].down * before,
-                   next_slope = recurrences[i].up * (t * last_slope + last) -
-                                recurrences[i].down * slope_before;
+      const double next = legendre::recurrences[i].up * t * last -
+                          legendre::recurrences[i].down * before,
+                   next_slope = legendre::recurrences[i].up * (t * last_slope + last) -
+                                legendre::recurrences[i].down * slope_before;
       before = last;
       last = next;
       slope_before = last_slope;
@@ -93,7 +80,8 @@ double EdgePolynomial::operator()(const double s) const
   for (unsigned int i = 0; i < terms.size(); ++i)
   {
     sum += terms[i] * last;
-    const double next = recurrences[i].up * t * last - recurrences[i].down * before;
+    const double next =
+        legendre::recurrences[i].up * t * last - legendre::recurrences[i].down * before;
     before = last;
     last = next;
   }

@@ -12,12 +12,16 @@ using namespace dealii;
 
 std::vector<double> legendre::values(const unsigned int n, const double x)
 {
-  std::vector<double> P(n);
+  std::vector<double> L(n);
+  double before = 0, P = 1;
   for (unsigned int i = 0; i < n; ++i)
-    P[i] = i == 0 ? 1. : i == 1 ? x : ((2 * i - 1) * x * P[i - 1] - (i - 1) * P[i - 2]) / i;
-  for (unsigned int i = 0; i < n; ++i)
-    P[i] *= at_end(i, true);
-  return P;
+  {
+    L[i] = P * at_end(i, true);
+    const double next = recurrences[i].up * x * P - recurrences[i].down * before;
+    before = P;
+    P = next;
+  }
+  return L;
 }
 
 const std::array<double, legendre::n_roots> legendre::roots = []
@@ -25,6 +29,14 @@ const std::array<double, legendre::n_roots> legendre::roots = []
   std::array<double, n_roots> result;
   for (unsigned int i = 0; i < n_roots; ++i)
     result[i] = std::sqrt(2. * i + 1);
+  return result;
+}();
+
+const std::array<legendre::Recurrence, legendre::n_roots> legendre::recurrences = []
+{
+  std::array<Recurrence, n_roots> result;
+  for (unsigned int i = 0; i < n_roots; ++i)
+    result[i] = {(2. * i + 1.) / (i + 1.), i / (i + 1.)};
   return result;
 }();
 
@@ -39,7 +51,7 @@ double legendre::evaluate(const std::vector<double> &coefficients, const double 
   for (unsigned int i = 0; i < coefficients.size(); ++i)
   {
     sum += coefficients[i] * P * at_end(i, true);
-    const double next = ((2 * i + 1) * x * P - i * before) / (i + 1);
+    const double next = recurrences[i].up * x * P - recurrences[i].down * before;
     before = P;
     P = next;
   }

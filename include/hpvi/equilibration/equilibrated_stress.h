@@ -74,6 +74,12 @@ private:
     unsigned int place, first_hat; ///< in its batch
   };
 
+  /** What the contact prescribes, by end of a face; without pressure: none. */
+  struct ContactParts
+  {
+    std::array<std::vector<double>, 2> friction, pressure;
+  };
+
   /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
   static constexpr unsigned int n_bilinear = 4;
 
@@ -112,7 +118,7 @@ private:
   void measure();
 
   const Solution<2> &solution;
-  const Parts friction, pressure;
+  std::vector<ContactParts> contact_parts; ///< by contact face
   EquilibrationCache &cache;
   const Volume volume;
   const VertexPatches vertex_patches;

@@ -28,6 +28,13 @@ inline double root(const unsigned int i)
   return roots[i];
 }
 
+/** `P_{i+1} = up x P_i - down P_{i-1}` of Legendre polynomials with P_i(1) = 1: a table, because divisions are slow. */
+struct Recurrence
+{
+  double up, down;
+};
+extern const std::array<Recurrence, n_roots> recurrences;
+
 /** `L_i' = sum_j derivative(i, j) L_j`; not zero for j = i-1, i-3, ... alone. */
 inline double derivative(const unsigned int i, const unsigned int j)
 {
