@@ -56,7 +56,7 @@ struct AdaptiveSolver<dim>::Stages
   ErrorBounds error_bounds;
   std::string no_bound; ///< why the current step has none
   std::unique_ptr<const Discretisation<dim>> discretisation;
-  std::unique_ptr<const LinearSolver> kept_factor; ///< of it, for a bound that needs it once more
+  std::unique_ptr<LinearSolver> kept_factor; ///< of it, for a bound that needs it once more
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
   AlgebraicError algebraic;      ///< of the current step
@@ -144,12 +144,12 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   const ElasticSystem<dim> &system = discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
-  std::unique_ptr<const LinearSolver> solver;
+  std::unique_ptr<LinearSolver> solver;
   std::unique_ptr<const SchurComplement> schur_complement;
   begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
   {
     StageTimer timer(times.factor);
-    solver = std::make_unique<const LinearSolver>(discretisation->factor());
+    solver = std::make_unique<LinearSolver>(discretisation->factor());
     schur_complement =
         std::make_unique<const SchurComplement>(*solver, system.f, discretisation->contact_rows);
   }
@@ -168,8 +168,9 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   times.recover += timer.wall_time() - reduced.seconds;
   keep_start(reduced.z, motions ? motions->in_basis(reduced.motion) : Vector<double>());
   if (scene.error_bound && scene.no_error_bound().empty() &&
-      std::any_of(contact_space.faces().begin(), contact_space.faces().end(),
-                  [](const auto &face) { return varies(face.friction); }))
+      (scene.is_nearly_incompressible() ||
+       std::any_of(contact_space.faces().begin(), contact_space.faces().end(),
+                   [](const auto &face) { return varies(face.friction); })))
     kept_factor = std::move(solver);
   return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
@@ -209,8 +210,7 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.bound);
-  const ErrorBound result = error_bounds.compute(solution, *discretisation, kept_factor.get());
-  kept_factor.reset();
+  const ErrorBound result = error_bounds.compute(solution, *discretisation, std::move(kept_factor));
   no_bound = std::isfinite(result.total) ? result.flaw : "it is not finite";
   return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }

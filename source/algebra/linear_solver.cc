@@ -51,7 +51,9 @@ struct LinearSolver::Factor
   Factor(const Factor &) = delete;
   Factor &operator=(const Factor &) = delete;
 
-  void compute(cholmod_sparse *matrix, const std::vector<int> &is_kept, double more_bytes);
+  void analyse(cholmod_sparse *matrix, const std::vector<unsigned int> &kept, double more_bytes);
+  void compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept, double more_bytes,
+               const std::vector<Stabilisation> &stabilisation);
   void check() const;
   LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
   Vector<double> solve(int system, const Vector<double> &right_hand_side);
@@ -83,14 +85,20 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 // CAMD is a minimum degree ordering under constraints: group by group, here all unknowns but those
 // kept, then these. Dense blocks of columns, supernodes, make the factorisation one of dense
 // algebra. Its size is known after the symbolic analysis, and is compared with what memory is left
-// before anything is allocated.
-void LinearSolver::Factor::compute(cholmod_sparse *matrix, const std::vector<int> &is_kept,
+// before anything is allocated. Another matrix on the same mesh needs none of that again.
+void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const std::vector<unsigned int> &kept,
                                    const double more_bytes)
 {
-  permutation.resize(matrix->nrow);
-  std::vector<int> groups(is_kept);
+  const std::size_t n = matrix->nrow;
+  std::vector<int> groups(n, 0);
+  if (kept.size() < n) // else all are in one group, and CAMD wants its number to be below n
+    for (const unsigned int unknown : kept)
+      groups[unknown] = 1;
+  permutation.resize(n);
   cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
   check();
+  for (std::size_t k = n - kept.size(); k < n; ++k)
+    order.push_back(std::lower_bound(kept.begin(), kept.end(), permutation[k]) - kept.begin());
 
   // The order is taken as it is: a postordering could move kept unknowns away from the end.
   common.nmethods = 1;
@@ -103,8 +111,6 @@ void LinearSolver::Factor::compute(cholmod_sparse *matrix, const std::vector<int
   const double bytes = sizeof(double) * (double(L->xsize) + double(L->maxcsize)) +
                        (sizeof(double) + sizeof(int)) * double(matrix->nzmax);
   require_memory(bytes + more_bytes, "the factorisation of " + std::to_string(L->n) + " unknowns");
-  cholmod_factorize(matrix, L, &common);
-  check();
 }
 
 // @sect3{When it fails}
@@ -247,6 +253,33 @@ struct SparseMatrix
 };
 } // namespace
 
+/** Factors A with what stabilises it. */
+void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+                                   const double more_bytes,
+                                   const std::vector<Stabilisation> &stabilisation)
+{
+  cholmod_sparse matrix = as_cholmod(A);
+  SparseMatrix sum(common);
+  for (const Stabilisation &term : stabilisation)
+  {
+    const SymmetricMatrix PP = square(term.P, A.n());
+    cholmod_sparse last = sum.matrix ? *sum.matrix : matrix, added = as_cholmod(PP);
+    double one[2] = {1., 0.}, stiffness[2] = {term.stiffness, 0.};
+    cholmod_sparse *const next = cholmod_add(&last, &added, one, stiffness, /*values=*/true,
+                                             /*sorted=*/false, &common);
+    cholmod_free_sparse(&sum.matrix, &common);
+    sum.matrix = next;
+    check();
+  }
+  cholmod_sparse *const whole = sum.matrix ? sum.matrix : &matrix;
+  if (!L)
+    analyse(whole, kept, more_bytes);
+  cholmod_factorize(whole, L, &common);
+  check();
+  if (!order.empty())
+    C = trailing_block(order.size());
+}
+
 // @sect3{The constructor}
 //
 // The solver is complete when it stands: ordering, factor, trailing block, and the order in which
@@ -256,34 +289,17 @@ LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned 
     : factor(std::make_unique<Factor>())
 {
   const OneThread one_thread;
-  const unsigned int n = A.n(), n_kept = kept.size();
-  if (n == 0)
-    return;
-  std::vector<int> is_kept(n, 0);
-  if (n_kept < n) // else all are in one group, and CAMD wants its number to be below n
-    for (const unsigned int unknown : kept)
-      is_kept[unknown] = 1;
-  cholmod_sparse matrix = as_cholmod(A);
-  SparseMatrix sum(factor->common);
-  for (const Stabilisation &term : stabilisation)
-  {
-    const SymmetricMatrix PP = square(term.P, n);
-    cholmod_sparse last = sum.matrix ? *sum.matrix : matrix, added = as_cholmod(PP);
-    double one[2] = {1., 0.}, stiffness[2] = {term.stiffness, 0.};
-    cholmod_sparse *const next = cholmod_add(&last, &added, one, stiffness, /*values=*/true,
-                                             /*sorted=*/false, &factor->common);
-    cholmod_free_sparse(&sum.matrix, &factor->common);
-    sum.matrix = next;
-    factor->check();
-  }
-  factor->compute(sum.matrix ? sum.matrix : &matrix, is_kept, more_bytes);
-  if (n_kept == 0)
-    return;
-  factor->C = factor->trailing_block(n_kept);
-  for (unsigned int k = 0; k < n_kept; ++k)
-    factor->order.push_back(
-        std::lower_bound(kept.begin(), kept.end(), factor->permutation[n - n_kept + k]) -
-        kept.begin());
+  if (A.n() > 0)
+    factor->compute(A, kept, more_bytes, stabilisation);
+}
+
+void LinearSolver::factor_again(const SymmetricMatrix &A,
+                                const std::vector<Stabilisation> &stabilisation)
+{
+  const OneThread one_thread;
+  AssertDimension(A.n(), factor->permutation.size());
+  if (A.n() > 0)
+    factor->compute(A, {}, 0., stabilisation);
 }
 
 LinearSolver::LinearSolver(LinearSolver &&) = default;

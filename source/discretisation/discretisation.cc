@@ -79,6 +79,13 @@ Vector<double> Discretisation<dim>::displacement(const Vector<double> &x) const
 // The unknowns of contact are to be eliminated last. Dense matrices of their size follow; whether
 // memory suffices for both is asked before either begins.
 template <int dim>
+void Discretisation<dim>::factor(LinearSolver &other) const
+{
+  other.factor_again(system.A,
+                     free_motions ? free_motions->stabilisation() : std::vector<Stabilisation>());
+}
+
+template <int dim>
 LinearSolver Discretisation<dim>::factor() const
 {
   const DenseWork dense{contact_rows.kept.size(), contact_rows.n_rows()};

@@ -23,11 +23,22 @@ template <int dim>
 IterativeRefinement<dim>::IterativeRefinement(const Discretisation<dim> &discretisation,
                                               const CondensedElements<dim> &elements,
                                               const LinearSolver &solver,
-                                              const SchurComplement &schur_complement,
-                                              const double tolerance)
+                                              const SchurComplement &schur_complement)
     : discretisation(discretisation), elements(elements), solver(solver),
-      schur_complement(schur_complement), tolerance(tolerance)
+      schur_complement(schur_complement)
 {
+}
+
+template <int dim>
+Vector<double> IterativeRefinement<dim>::uncorrected(ReducedSolution &reduced) const
+{
+  Vector<double> defect(discretisation.spaces->contact_space.n_multipliers());
+  if (defect.size() > 0)
+    reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
+  Vector<double> x = schur_complement.displacement(reduced.z);
+  if (discretisation.free_motions)
+    x += discretisation.free_motions->at_unknowns(reduced.motion);
+  return discretisation.displacement(x);
 }
 
 template <int dim>
@@ -35,13 +46,7 @@ Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
                                                AlgebraicError &error) const
 {
   const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
-  Vector<double> defect(contact_space.n_multipliers());
-  if (defect.size() > 0)
-    reduced = solve_reduced_problem(discretisation, schur_complement, defect, std::move(reduced));
-  Vector<double> x = schur_complement.displacement(reduced.z);
-  if (discretisation.free_motions)
-    x += discretisation.free_motions->at_unknowns(reduced.motion);
-  Vector<double> u = discretisation.displacement(x);
+  Vector<double> u = uncorrected(reduced), defect(contact_space.n_multipliers());
   error = improve(reduced.z, u);
   if (error.corrections == 0 || defect.size() == 0)
     return u;
@@ -126,7 +131,7 @@ bool IterativeRefinement<dim>::contradicts(const Vector<double> &r, const Vector
         work += r[dof] * weight * u[master];
     else
       work += r[dof] * u[dof];
-  return !(std::abs(work) <= tolerance * energy_product);
+  return !(std::abs(work) <= 1e-10 * energy_product);
 }
 
 template <int dim>

@@ -478,11 +478,12 @@ void EquilibratedStress::set_data(const unsigned int index, double *const r) con
 {
   const StressElement &element = *cells[index].element;
   const Material &material = solution.scene.material_of(vertex_patches.cells()[index].iterator);
-  const Modes<3> sigma = volume == Volume::projected && material.is_nearly_incompressible(2)
-                             ? without_oscillating_pressure(
-                                   cells[index].sigma, solution.displacement_space.degrees()[index],
-                                   cells[index].B, material)
-                             : cells[index].sigma;
+  Modes<3> stable;
+  const bool is_projected = volume == Volume::projected && material.is_nearly_incompressible(2);
+  if (is_projected)
+    stable = without_oscillating_pressure(
+        cells[index].sigma, solution.displacement_space.degrees()[index], cells[index].B, material);
+  const Modes<3> &sigma = is_projected ? stable : cells[index].sigma;
   const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma);
   const Modes<2> &force = cells[index].force, force_xi = times(0, force);
   const auto add_column =

@@ -3,9 +3,6 @@
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/equilibration/mixed_problem.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace hpvi
 {
 using namespace dealii;
@@ -17,21 +14,34 @@ MixedProblem<dim>::MixedProblem(const Scene<dim> &scene)
 }
 
 template <int dim>
-Solution<dim> MixedProblem<dim>::solve(const Solution<dim> &start)
+Solution<dim> MixedProblem<dim>::solve(const Solution<dim> &start,
+                                       std::unique_ptr<LinearSolver> &factor)
 {
   // The previous one goes last: it keeps the element matrices that the new one shares.
   last = std::make_unique<const Discretisation<dim>>(scene, start.spaces, elements);
-  const LinearSolver factor = last->factor();
-  const SchurComplement schur_complement(factor, last->system.f, last->contact_rows);
-  // Errors of N unknowns are independent, and their work grows like N^{1/2}. Measured: with six times as much some
-  // patches are not in balance to 1e-9; to correct everything costs three times the solution.
-  const double tolerance = std::max(1e-10, 5e-12 * std::sqrt(start.u.size()));
+  if (factor)
+    last->factor(*factor);
+  else
+    factor = std::make_unique<LinearSolver>(last->factor());
   ReducedSolution reduced;
   reduced.z = start.z;
-  AlgebraicError error;
-  Vector<double> u = IterativeRefinement<dim>(*last, elements, factor, schur_complement, tolerance)
-                         .solve(reduced, error);
+  const SchurComplement schur_complement(*factor, last->system.f, last->contact_rows);
+  Vector<double> u =
+      IterativeRefinement<dim>(*last, elements, *factor, schur_complement).uncorrected(reduced);
   return {scene, start.spaces, std::move(u), std::move(reduced.z)};
+}
+
+template <int dim>
+Solution<dim> MixedProblem<dim>::correct(const Solution<dim> &solution,
+                                         const LinearSolver &factor) const
+{
+  ReducedSolution reduced;
+  reduced.z = solution.z;
+  AlgebraicError error;
+  const SchurComplement schur_complement(factor, last->system.f, last->contact_rows);
+  Vector<double> u =
+      IterativeRefinement<dim>(*last, elements, factor, schur_complement).solve(reduced, error);
+  return {scene, solution.spaces, std::move(u), std::move(reduced.z)};
 }
 
 template <int dim>

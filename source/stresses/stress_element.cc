@@ -477,6 +477,7 @@ Modes<3> StressElement::nearest(const Modes<3> &stress, std::vector<double> &amp
 void StressElement::subtract_data(const Modes<3> &q, double *const r) const
 {
   double *const first = r, *const second = r + m * (m - 1);
+  std::array<std::vector<double>, 2> sums;
   for (const unsigned int component : {0, 1, 2})
     for (const unsigned int along_xi : {0, 1}) // derivative by xi (0) or eta (1)
     {
@@ -491,7 +492,6 @@ void StressElement::subtract_data(const Modes<3> &q, double *const r) const
       const unsigned int row = is_first ? m - 1 : m;
       double *const target = is_first ? first : second;
       const unsigned int t_across = along_xi ? 1 : row, t_along = along_xi ? row : 1;
-      std::array<std::vector<double>, 2> sums;
       for (auto &sum : sums)
         sum.assign(n_along, 0.);
       for (unsigned int i = n_across; i-- > 0;)

@@ -95,6 +95,37 @@ TEST(LinearSolver, NotPositiveDefinite)
   EXPECT_EQ(failure_of(diagonal(5, 1.)), "nothing");
 }
 
+/** Another matrix with entries in the same places: as if it were factored from the beginning, and failing likewise. */
+TEST(LinearSolver, FactorsAgain)
+{
+  const unsigned int n = 30;
+  const std::vector<unsigned int> kept = {3, 8, 20};
+  const std::vector<hpvi::Stabilisation> stabilisation = {{{{3, 0.6}, {20, 0.8}}, 2.}};
+  const auto matrix = [](const double shift)
+  {
+    SymmetricMatrix A = star(n);
+    for (unsigned int k = 0; k < A.value.size(); ++k)
+      A.value[k] += shift * (A.row[k] + 1.) / n;
+    return A;
+  };
+  Vector<double> f(n);
+  std::iota(f.begin(), f.end(), 1.);
+  LinearSolver again(matrix(0.1), kept, 0., stabilisation);
+  for (const double shift : {0.2, 0.05})
+  {
+    const LinearSolver fresh(matrix(shift), kept, 0., stabilisation);
+    again.factor_again(matrix(shift), stabilisation);
+    Vector<double> difference = again.solve(f);
+    difference -= fresh.solve(f);
+    EXPECT_LE(difference.linfty_norm(), 1e-12 * f.linfty_norm());
+    ASSERT_EQ(again.kept_order(), fresh.kept_order());
+    for (unsigned int i = 0; i < kept.size(); ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        EXPECT_NEAR(again.kept_factor()(i, j), fresh.kept_factor()(i, j), 1e-12);
+  }
+  EXPECT_THROW(again.factor_again(matrix(-10.), stabilisation), NumericalFailure);
+}
+
 /** The unknown in the middle of the star goes first and leaves a dense matrix of all others. */
 TEST(LinearSolver, FactorWithMoreEntriesThanAnIndexCounts)
 {

@@ -152,7 +152,8 @@ TEST(MixedProblem, DoesNotLock)
     const RandomMesh mesh(scene, 2, 1, 2, 2);
     const Laboratory lab(scene, mesh);
     const Solution<2> usual = lab.solve();
-    const Solution<2> solution = is_mixed ? MixedProblem<2>(scene).solve(usual) : usual;
+    std::unique_ptr<LinearSolver> none;
+    const Solution<2> solution = is_mixed ? MixedProblem<2>(scene).solve(usual, none) : usual;
     double error = 0, norm = 0;
     const QGauss<2> gauss(12);
     for (const auto &cell : lab.displacement_space.dof_handler().active_cell_iterators())

@@ -42,6 +42,9 @@ public:
   LinearSolver(LinearSolver &&);
   ~LinearSolver();
 
+  /** Factor another matrix with entries in the same places, in the same order and memory. Throws NumericalFailure. */
+  void factor_again(const SymmetricMatrix &A, const std::vector<Stabilisation> &stabilisation = {});
+
   /** `A^-1 f` */
   dealii::Vector<double> solve(const dealii::Vector<double> &f) const;
 

@@ -54,6 +54,9 @@ public:
 
   /** A factored with the unknowns of contact_rows last, and stabilised where a motion is free. */
   LinearSolver factor() const;
+
+  /** The same in the place of @p other, of another discretisation on the same spaces, whose analysis it takes over. */
+  void factor(LinearSolver &other) const;
 };
 } // namespace hpvi
 

@@ -43,10 +43,13 @@ template <int dim>
 class IterativeRefinement
 {
 public:
-  /** All must outlive this object. @p tolerance: the work of a residual, relative to a(u,u), that is left alone. */
+  /** All must outlive this object. */
   IterativeRefinement(const Discretisation<dim> &discretisation,
                       const CondensedElements<dim> &elements, const LinearSolver &solver,
-                      const SchurComplement &schur_complement, double tolerance = 1e-10);
+                      const SchurComplement &schur_complement);
+
+  /** The displacement as the factorisation has it, and likewise the multiplier. Throws what solve() throws. */
+  dealii::Vector<double> uncorrected(ReducedSolution &reduced) const;
 
   /**
    * The displacement, and the multiplier in @p reduced, which comes with the starting value. Where
@@ -76,7 +79,6 @@ private:
   const CondensedElements<dim> &elements;
   const LinearSolver &solver;
   const SchurComplement &schur_complement;
-  const double tolerance;
 };
 } // namespace hpvi
 

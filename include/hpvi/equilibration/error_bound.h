@@ -59,7 +59,7 @@ class ErrorBounds
 public:
   /** Scene::no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand. */
   ErrorBound compute(const Solution<2> &solution, const Discretisation<2> &discretisation,
-                     const LinearSolver *factor = nullptr);
+                     std::unique_ptr<LinearSolver> factor = nullptr);
 
 private:
   EquilibrationCache cache;

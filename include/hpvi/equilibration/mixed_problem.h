@@ -21,8 +21,16 @@ public:
   /** Remembers element matrices from step to step; the scene must outlive this object. */
   explicit MixedProblem(const Scene<dim> &scene);
 
-  /** The solution on the spaces of another one, from which contact starts. Throws NumericalFailure. */
-  Solution<dim> solve(const Solution<dim> &start);
+  /**
+   * The solution on the spaces of another one, from which contact starts. @p factor, if there is one, is that of the
+   * displacement method on these spaces; it becomes that of this problem. Throws NumericalFailure.
+   */
+  Solution<dim> solve(const Solution<dim> &start, std::unique_ptr<LinearSolver> &factor);
+
+  /**
+   * The last one without what round-off has done to it, for three times the work. Throws NumericalFailure.
+   */
+  Solution<dim> correct(const Solution<dim> &solution, const LinearSolver &factor) const;
 
   const Discretisation<dim> &discretisation() const; ///< of the last solution
 
