@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/admissible_pressure.h>
+#include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/equilibration/data_error.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // What the stress in equilibrium and the error are made of near incompressibility, as a table: with the pressure of u_N,
 // and with that of the mixed method. ./run incompressible.
 #include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/equilibration/admissible_friction.h>
+#include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/equilibration/mixed_problem.h>
 #include <hpvi/scene/scene_reader.h>

@@ -3,9 +3,9 @@
 // error below the bound?
 #include "discretisation.h"
 
-#include <hpvi/equilibration/admissible_friction.h>
-#include <hpvi/equilibration/admissible_pressure.h>
-#include <hpvi/equilibration/contact_correction.h>
+#include <hpvi/admissibility/admissible_friction.h>
+#include <hpvi/admissibility/admissible_pressure.h>
+#include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/equilibration/error_bound.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // What friction adds to the bound of the error: admissible friction, the correction of the slip.
 #include "discretisation.h"
 
-#include <hpvi/equilibration/contact_correction.h>
+#include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_correction_h
 #define hpvi_contact_correction_h
 
+#include <hpvi/admissibility/admissible_friction.h>
+#include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/discretisation/discretisation.h>
-#include <hpvi/equilibration/admissible_friction.h>
-#include <hpvi/equilibration/admissible_pressure.h>
 #include <hpvi/stresses/edge_bubbles.h>
 
 #include <vector>

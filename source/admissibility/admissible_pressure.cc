@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/equilibration/admissible_pressure.h>
 #include <hpvi/solver/inequality_program.h>
 
 #include <algorithm>

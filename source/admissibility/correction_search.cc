@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/algebra/restricted_energy.h>
+#include <hpvi/admissibility/correction_search.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/equilibration/contact_correction.h>
 #include <hpvi/solver/inequality_program.h>
 #include <hpvi/stresses/legendre.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <memory>
 #include <numeric>
-#include <optional>
 
 namespace hpvi
 {
@@ -26,173 +22,6 @@ double sum(const std::vector<double> &values)
   return std::accumulate(values.begin(), values.end(), 0.);
 }
 
-/** What happens on a contact face as a whole. */
-struct Slip
-{
-  enum Mode
-  {
-    everywhere,
-    partly,
-    nowhere
-  } mode = everywhere;
-  double direction = 0.; ///< 1 or -1; 0: none, or both
-
-  bool is_directed_everywhere() const
-  {
-    return mode == everywhere && direction != 0.;
-  }
-};
-
-/** A face without friction slips, in no direction. */
-template <int dim>
-Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
-{
-  unsigned int n_forward = 0, n_backward = 0;
-  for (unsigned int k = 0; k < face.n_multipliers; ++k)
-  {
-    const unsigned int i = face.first_multiplier + k;
-    const double wall = (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
-    n_forward += solution.z[i] >= wall;
-    n_backward += solution.z[i] <= -wall;
-  }
-  Slip result;
-  if (n_forward == 0 && n_backward == 0 && face.n_multipliers > 0)
-    result.mode = Slip::nowhere;
-  else if (n_forward < face.n_multipliers && n_backward < face.n_multipliers)
-    result.mode = Slip::partly;
-  if (n_forward == 0 || n_backward == 0)
-    result.direction = n_forward > 0 ? 1. : n_backward > 0 ? -1. : 0.;
-  return result;
-}
-
-template <int dim>
-std::vector<Slip> slips_of(const std::vector<ContactFace<dim>> &faces,
-                           const Solution<dim> &solution)
-{
-  std::vector<Slip> result;
-  for (const ContactFace<dim> &face : faces)
-    result.push_back(slip_of(face, solution));
-  return result;
-}
-
-/**
- * The end of slip may be on the first face that sticks as well as on the last that slips, with one Gauss point
- * on each always. That the former slips in part, with the direction of the latter, excludes neither.
- */
-void free_neighbours(std::vector<Slip> &slips)
-{
-  const std::vector<Slip> discrete(slips);
-  for (unsigned int k = 0; k + 1 < slips.size(); ++k)
-    for (const auto &[one, other] : {std::pair(k, k + 1), std::pair(k + 1, k)})
-      if (discrete[one].mode == Slip::nowhere && discrete[other].is_directed_everywhere())
-        slips[one] = {Slip::partly, discrete[other].direction};
-}
-
-/** One component of the displacement on a contact face by the unknowns of the linear system. */
-struct Trace
-{
-  std::vector<unsigned int> unknowns;
-  FullMatrix<double> legendre; ///< coefficients x unknowns
-  std::vector<double> u;       ///< those of u_Nt, or of u_Nn - u_0
-
-  /** u minus that of w */
-  EdgePolynomial rest(const Vector<double> &w) const
-  {
-    std::vector<double> result(u);
-    for (unsigned int k = 0; k < unknowns.size(); ++k)
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] -= legendre(i, k) * w[unknowns[k]];
-    return EdgePolynomial(result);
-  }
-
-  /** By more unknowns, from @p first on, with their coefficients. */
-  void extend(const FullMatrix<double> &more, const unsigned int first)
-  {
-    FullMatrix<double> all(more.m(), unknowns.size() + more.n());
-    all.fill(legendre, 0, 0, 0, 0);
-    all.fill(more, 0, unknowns.size(), 0, 0);
-    legendre = all;
-    for (unsigned int i = 0; i < more.n(); ++i)
-      unknowns.push_back(first + i);
-    u.resize(more.m());
-  }
-};
-
-template <int dim>
-Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
-               const Solution<dim> &solution, const Unknowns<dim> &unknowns,
-               const FullMatrix<double> &legendre)
-{
-  const unsigned int n = face.degree + 1;
-  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(face.degree).edge[face.face_no];
-  std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
-  Vector<double> u(n);
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      const types::global_dof_index dof = dofs[on_edge[c * n + j]];
-      u[j] += direction[c] * solution.u[dof];
-      for (const auto &[unknown, weight] : unknowns.terms(dof))
-      {
-        Vector<double> &column = columns[unknown];
-        if (column.size() == 0)
-          column.reinit(n);
-        column[j] += direction[c] * weight;
-      }
-    }
-  Trace result;
-  Vector<double> of_u(n);
-  legendre.vmult(of_u, u);
-  result.u.assign(of_u.begin(), of_u.end());
-  for (auto column = columns.begin(); column != columns.end();)
-    column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
-  result.legendre.reinit(n, columns.size());
-  for (const auto &[unknown, values] : columns)
-  {
-    Vector<double> coefficients(n);
-    legendre.vmult(coefficients, values);
-    for (unsigned int i = 0; i < n; ++i)
-      result.legendre(i, result.unknowns.size()) = coefficients[i];
-    result.unknowns.push_back(unknown);
-  }
-  return result;
-}
-
-/** What happens along the normal on a face with unilateral contact. */
-struct Opening
-{
-  enum Mode
-  {
-    closed,
-    partly,
-    open
-  } mode;
-  Trace penetration; ///< u_Nn - u_0
-  EdgePolynomial pressure;
-
-  /** `int pi (u_0 - u_Nn + w_n)` over [0,1] */
-  double gap(const EdgePolynomial &rest) const
-  {
-    const std::vector<double> pi = pressure.coefficients(), r = rest.coefficients();
-    return -0.5 * std::inner_product(pi.begin(), pi.begin() + std::min(pi.size(), r.size()),
-                                     r.begin(), 0.);
-  }
-};
-
-/** The end of contact likewise may be on the first face that presses. */
-void free_neighbours(std::vector<std::optional<Opening>> &openings)
-{
-  std::vector<bool> is_open;
-  for (const auto &opening : openings)
-    is_open.push_back(opening && opening->mode == Opening::open);
-  for (unsigned int k = 0; k < openings.size(); ++k)
-    if (openings[k] && openings[k]->mode == Opening::closed &&
-        ((k > 0 && is_open[k - 1]) || (k + 1 < is_open.size() && is_open[k + 1])))
-      openings[k]->mode = Opening::partly;
-}
-
 /** Or zero, if none is above that, or all are round-off. */
 double largest_value(const EdgePolynomial &polynomial, const double round_off)
 {
@@ -201,54 +30,6 @@ double largest_value(const EdgePolynomial &polynomial, const double round_off)
     return result;
   for (const double s : polynomial.extremes())
     result = std::max(result, polynomial(s));
-  return result;
-}
-
-template <int dim>
-Opening opening_of(const unsigned int number, const Solution<dim> &solution,
-                   const Unknowns<dim> &unknowns, const AdmissiblePressure<dim> &pressure,
-                   const LegendreTables &tables)
-{
-  const ContactFace<dim> &face = solution.contact_space.faces()[number];
-  unsigned int n_pressing = 0;
-  for (const unsigned int i : face.pressures)
-    n_pressing += solution.z[i] > 0.;
-  Opening result{
-      n_pressing == 0                      ? Opening::open
-      : n_pressing < face.pressures.size() ? Opening::partly
-                                           : Opening::closed,
-      trace_of(face, face.frame(0.5).normal, solution, unknowns, tables.from_nodes(face.degree)),
-      pressure.value(number)};
-  const std::vector<double> gap = gap_at_nodes(face, solution.tables, tables).coefficients();
-  for (unsigned int i = 0; i < gap.size(); ++i)
-    result.penetration.u[i] -= gap[i];
-  return result;
-}
-
-/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign. */
-template <int dim, class F>
-double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
-                    const Solution<dim> &solution, const F &l)
-{
-  if (face.friction.vanishes())
-    return 0.;
-  std::vector<double> cuts = v.zeros();
-  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
-  std::sort(cuts.begin(), cuts.end());
-  // l* has degree p + 5, v up to p + 8; the rest is for g.
-  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 8);
-  double result = 0;
-  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      const double value = v(s);
-      // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
-      const double density = std::abs(value) * (1. - (value < 0. ? -1. : 1.) * l(s));
-      if (density != 0.)
-        result +=
-            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
-    }
   return result;
 }
 
@@ -274,13 +55,6 @@ FullMatrix<double> bubble_coefficients(const unsigned int p, const unsigned int 
   return result;
 }
 
-enum class Role
-{
-  outside, ///< w is zero there
-  fixed,   ///< by u_Nt where the body sticks, by u_Nn - u_0 where it presses
-  free
-};
-
 /** A trace of w at a point of its face by the unknowns of a strip that are kept. */
 Vector<double> trace_row(const RestrictedEnergy &strip, const Trace &trace, const double s)
 {
@@ -293,95 +67,72 @@ Vector<double> trace_row(const RestrictedEnergy &strip, const Trace &trace, cons
   return row;
 }
 
-/** `sign (rest - w) <= 0` along a face, w that of the unknowns kept. */
-struct Condition
+/** `sign (rest - w) <= 0` at one point of a face, w that of the unknowns kept; false: w is fixed there. */
+bool add_condition(const Trace &trace, const EdgePolynomial &rest, const double sign,
+                   const double s, const RestrictedEnergy &strip, InequalityProgram &program)
 {
-  const Trace *trace;
-  EdgePolynomial rest;
-  double sign;
+  Vector<double> row = trace_row(strip, trace, s);
+  row *= sign;
+  if (row.linfty_norm() <= 1e-9)
+    return false;
+  program.add_inequality(row, sign * rest(s));
+  return true;
+}
 
-  /** At one point; false: w is fixed there. */
-  bool add_to(InequalityProgram &program, const RestrictedEnergy &strip, const double s) const
-  {
-    Vector<double> row = trace_row(strip, *trace, s);
-    row *= sign;
-    if (row.linfty_norm() <= 1e-9)
-      return false;
-    program.add_inequality(row, sign * rest(s));
-    return true;
-  }
-};
-
-/** One w and what it is worth. */
-struct Candidate
-{
-  Vector<double> w;
-  std::vector<double> gaps;
-  double total = 0;
-};
-
-/** Finds w. */
+/** @p cells and those that share unknowns with them. */
 template <int dim>
-class Search
+std::vector<bool> with_neighbours(const std::vector<bool> &cells,
+                                  const DisplacementSpace<dim> &space,
+                                  const Unknowns<dim> &unknowns, const unsigned int n_unknowns)
 {
-public:
-  Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-         const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure,
-         EdgeBubbles<dim> *bubbles);
-
-  /** No correction. */
-  Candidate nothing() const;
-
-  /** Of w, with as much more as it takes for u_N - w not to penetrate. */
-  Candidate of(const Vector<double> &w) const;
-  /** The best one, from one that is known. */
-  Candidate best(Candidate result) const;
-
-  std::vector<double> energies(const Vector<double> &w) const; ///< |w|_a^2 by cell
-
-private:
-  std::vector<Role> roles() const;
-  void add_normal_roles(std::vector<Role> &roles) const;
-  Vector<double> fixed_displacement() const;
-  bool find_near_pressure(unsigned int face) const;
-  double penetration(const Vector<double> &w, std::map<unsigned int, double> &heights) const;
-  bool lift(Vector<double> &w) const;
-  void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
-                    const Vector<double> &fixed, Vector<double> &h,
-                    std::vector<Condition> &conditions) const;
-  void add_pressure(const RestrictedEnergy &strip, const Vector<double> &fixed, Vector<double> &h,
-                    std::vector<Condition> &conditions) const;
-  std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
-  std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
-                                          const std::vector<Role> &roles) const;
-  void try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
-                         const Vector<double> &fixed, Candidate &best) const;
-  void take_better(Candidate &best, const Vector<double> &w) const;
-
-  using Directions = std::vector<std::pair<Tensor<1, dim>, Trace *>>;
-  void add_bubbles(const ContactFace<dim> &face, const Directions &directions,
-                   EdgeBubbles<dim> &bubbles);
-  void add_columns(unsigned int cell, const typename EdgeBubbles<dim>::Energies &energies);
-
-  const Solution<dim> &solution;
-  const Discretisation<dim> &discretisation;
-  const AdmissibleFriction<dim> &friction;
-  const std::vector<ContactFace<dim>> &faces;
-  std::vector<Slip> slips;
-  std::vector<Trace> traces; ///< of u_t
-  std::vector<std::optional<Opening>> openings;
-  std::vector<bool> is_near_pressure;       ///< by face
-  BorderedMatrix A;                         ///< bordered by edge bubbles
-  std::vector<unsigned int> cell_of_bubble; ///< by column of the border
-  double tolerance = 0;                     ///< of penetrations: round-off
-};
+  std::vector<bool> touched(n_unknowns), result(cells);
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    if (cells[cell])
+      for (const auto dof : space.cell_dofs(cell))
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+          touched[unknown] = true;
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    for (const auto dof : space.cell_dofs(cell))
+      for (const auto &[unknown, weight] : unknowns.terms(dof))
+        result[cell] = result[cell] || touched[unknown];
+  return result;
+}
+} // namespace
 
 template <int dim>
-Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-                    const AdmissibleFriction<dim> &friction,
-                    const AdmissiblePressure<dim> &pressure, EdgeBubbles<dim> *const bubbles)
+double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
+                    const ShapeTables<dim> &tables, const std::function<double(double)> &l)
+{
+  if (face.friction.vanishes())
+    return 0.;
+  std::vector<double> cuts = v.zeros();
+  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  std::sort(cuts.begin(), cuts.end());
+  // l* has degree p + 5, v up to p + 8; the rest is for g.
+  const QGauss<1> &gauss = tables.gauss(face.degree + 8);
+  double result = 0;
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
+      const double value = v(s);
+      // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
+      const double density = std::abs(value) * (l ? 1. - (value < 0. ? -1. : 1.) * l(s) : 1.);
+      if (density != 0.)
+        result +=
+            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
+    }
+  return result;
+}
+
+template <int dim>
+CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
+                                        const Discretisation<dim> &discretisation,
+                                        const AdmissibleFriction<dim> &friction,
+                                        const AdmissiblePressure<dim> &pressure,
+                                        EdgeBubbles<dim> *const bubbles)
     : solution(solution), discretisation(discretisation), friction(friction),
-      faces(solution.contact_space.faces()), slips(slips_of(faces, solution)),
+      faces(solution.contact_space.faces()), slips(slips_of(solution)),
       openings(faces.size()), A{discretisation.system.A, {}}
 {
   const LegendreTables tables;
@@ -418,8 +169,8 @@ Search<dim>::Search(const Solution<dim> &solution, const Discretisation<dim> &di
  * has them on one.
  */
 template <int dim>
-void Search<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &directions,
-                              EdgeBubbles<dim> &bubbles)
+void CorrectionSearch<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+                                        EdgeBubbles<dim> &bubbles)
 {
   const unsigned int cell = face.cell->active_cell_index(), first = A.n();
   if (std::find(cell_of_bubble.begin(), cell_of_bubble.end(), cell) != cell_of_bubble.end())
@@ -445,8 +196,8 @@ void Search<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &di
 }
 
 template <int dim>
-void Search<dim>::add_columns(const unsigned int cell,
-                              const typename EdgeBubbles<dim>::Energies &energies)
+void CorrectionSearch<dim>::add_columns(const unsigned int cell,
+                                        const typename EdgeBubbles<dim>::Energies &energies)
 {
   const auto dofs = solution.displacement_space.cell_dofs(cell);
   const unsigned int first = A.n();
@@ -470,8 +221,8 @@ void Search<dim>::add_columns(const unsigned int cell,
 
 /** The largest of u_Nn - w_n - u_0, and at each vertex that of its faces. */
 template <int dim>
-double Search<dim>::penetration(const Vector<double> &w,
-                                std::map<unsigned int, double> &heights) const
+double CorrectionSearch<dim>::penetration(const Vector<double> &w,
+                                          std::map<unsigned int, double> &heights) const
 {
   double result = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -493,7 +244,7 @@ double Search<dim>::penetration(const Vector<double> &w,
  * than round-off.
  */
 template <int dim>
-bool Search<dim>::lift(Vector<double> &w) const
+bool CorrectionSearch<dim>::lift(Vector<double> &w) const
 {
   std::map<unsigned int, double> heights;
   if (penetration(w, heights) <= tolerance)
@@ -527,13 +278,13 @@ bool Search<dim>::lift(Vector<double> &w) const
 }
 
 template <int dim>
-Candidate Search<dim>::nothing() const
+typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::nothing() const
 {
   return of(Vector<double>(A.n()));
 }
 
 template <int dim>
-Candidate Search<dim>::of(const Vector<double> &w) const
+typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::of(const Vector<double> &w) const
 {
   Candidate result{w, {}, 0.};
   const bool is_admissible = lift(result.w);
@@ -543,7 +294,7 @@ Candidate Search<dim>::of(const Vector<double> &w) const
     const EdgePolynomial rest = traces[k].rest(result.w);
     // Where w has taken u_Nt away, round-off is left, whose signs are not worth the search.
     result.gaps.push_back(rest.largest() > 1e-13 * EdgePolynomial(traces[k].u).largest()
-                              ? friction_gap(faces[k], rest, solution,
+                              ? friction_gap(faces[k], rest, solution.tables,
                                              [&](const double s) { return friction.value(k, s); })
                               : 2. * rest.largest() * faces[k].length *
                                     faces[k].friction.integral());
@@ -556,30 +307,11 @@ Candidate Search<dim>::of(const Vector<double> &w) const
 }
 
 template <int dim>
-void Search<dim>::take_better(Candidate &best, const Vector<double> &w) const
+void CorrectionSearch<dim>::take_better(Candidate &best, const Vector<double> &w) const
 {
   Candidate next = of(w);
   if (next.total < best.total)
     best = std::move(next);
-}
-
-/** @p cells and those that share unknowns with them. */
-template <int dim>
-std::vector<bool> with_neighbours(const std::vector<bool> &cells,
-                                  const DisplacementSpace<dim> &space,
-                                  const Unknowns<dim> &unknowns, const unsigned int n_unknowns)
-{
-  std::vector<bool> touched(n_unknowns), result(cells);
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    if (cells[cell])
-      for (const auto dof : space.cell_dofs(cell))
-        for (const auto &[unknown, weight] : unknowns.terms(dof))
-          touched[unknown] = true;
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    for (const auto dof : space.cell_dofs(cell))
-      for (const auto &[unknown, weight] : unknowns.terms(dof))
-        result[cell] = result[cell] || touched[unknown];
-  return result;
 }
 
 /**
@@ -587,7 +319,7 @@ std::vector<bool> with_neighbours(const std::vector<bool> &cells,
  * more cells would change its energy by a few hundredths. A body that keeps its volume needs more room to move.
  */
 template <int dim>
-std::vector<Role> Search<dim>::roles() const
+std::vector<typename CorrectionSearch<dim>::Role> CorrectionSearch<dim>::roles() const
 {
   const Unknowns<dim> &unknowns = discretisation.unknowns;
   std::vector<Role> result(A.n(), Role::free);
@@ -614,7 +346,7 @@ std::vector<Role> Search<dim>::roles() const
 
 /** Along a slanted boundary both components share unknowns: what one of them fixes is fixed. */
 template <int dim>
-void Search<dim>::add_normal_roles(std::vector<Role> &roles) const
+void CorrectionSearch<dim>::add_normal_roles(std::vector<Role> &roles) const
 {
   for (const bool is_near : {false, true})
     for (unsigned int k = 0; k < faces.size(); ++k)
@@ -630,7 +362,7 @@ void Search<dim>::add_normal_roles(std::vector<Role> &roles) const
 
 /** Does a face press, or one of two on either side of it, or does it penetrate? */
 template <int dim>
-bool Search<dim>::find_near_pressure(const unsigned int face) const
+bool CorrectionSearch<dim>::find_near_pressure(const unsigned int face) const
 {
   if (!openings[face])
     return false;
@@ -646,7 +378,7 @@ bool Search<dim>::find_near_pressure(const unsigned int face) const
  * elsewhere of no use.
  */
 template <int dim>
-Vector<double> Search<dim>::fixed_displacement() const
+Vector<double> CorrectionSearch<dim>::fixed_displacement() const
 {
   Vector<double> u(solution.u.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -685,7 +417,7 @@ Vector<double> Search<dim>::fixed_displacement() const
  * does not slip everywhere, and those with more than a hundredth of the gap of all that slip.
  */
 template <int dim>
-std::vector<bool> Search<dim>::nearby_faces(const std::vector<double> &gaps) const
+std::vector<bool> CorrectionSearch<dim>::nearby_faces(const std::vector<double> &gaps) const
 {
   double of_slip = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -708,8 +440,8 @@ std::vector<bool> Search<dim>::nearby_faces(const std::vector<double> &gaps) con
 }
 
 template <int dim>
-std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &nearby,
-                                                     const std::vector<Role> &roles) const
+std::vector<unsigned int> CorrectionSearch<dim>::kept_unknowns(const std::vector<bool> &nearby,
+                                                               const std::vector<Role> &roles) const
 {
   std::vector<unsigned int> result;
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -729,9 +461,10 @@ std::vector<unsigned int> Search<dim>::kept_unknowns(const std::vector<bool> &ne
 
 /** On the faces nearby u_Nt - w_t has the direction of slip, and the gap is linear in w: l* of degree p + 5 times up to p + 8. */
 template <int dim>
-void Search<dim>::add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
-                               const Vector<double> &fixed, Vector<double> &h,
-                               std::vector<Condition> &conditions) const
+void CorrectionSearch<dim>::add_friction(const RestrictedEnergy &strip,
+                                         const std::vector<bool> &nearby,
+                                         const Vector<double> &fixed, Vector<double> &h,
+                                         std::vector<Condition> &conditions) const
 {
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (nearby[k])
@@ -747,8 +480,9 @@ void Search<dim>::add_friction(const RestrictedEnergy &strip, const std::vector<
 
 /** Where the body presses or nearly does, u_Nn - w_n <= u_0; the gap is linear in w. */
 template <int dim>
-void Search<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<double> &fixed,
-                               Vector<double> &h, std::vector<Condition> &conditions) const
+void CorrectionSearch<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<double> &fixed,
+                                         Vector<double> &h,
+                                         std::vector<Condition> &conditions) const
 {
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (is_near_pressure[k])
@@ -766,17 +500,20 @@ void Search<dim>::add_pressure(const RestrictedEnergy &strip, const Vector<doubl
 }
 
 template <int dim>
-void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
-                                    const Vector<double> &fixed, Candidate &best) const
+void CorrectionSearch<dim>::try_one_direction(const RestrictedEnergy &strip,
+                                              const std::vector<bool> &nearby,
+                                              const Vector<double> &fixed, Candidate &best) const
 {
   Vector<double> h = strip.h();
   std::vector<Condition> conditions;
   add_friction(strip, nearby, fixed, h, conditions);
   add_pressure(strip, fixed, h, conditions);
   InequalityProgram program(strip.H(), h);
+  const auto add = [&](const Condition &condition, const double s)
+  { return add_condition(*condition.trace, condition.rest, condition.sign, s, strip, program); };
   for (const Condition &condition : conditions)
     for (unsigned int i = 0, n = condition.trace->legendre.m(); i <= n; ++i)
-      condition.add_to(program, strip, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
+      add(condition, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
   if (!program.solve())
     return;
   Vector<double> w = strip.minimiser(program.minimiser());
@@ -791,7 +528,7 @@ void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::ve
       const double round_off = condition.sign > 0. ? tolerance : 1e-14 * rest.largest();
       for (const double s : rest.extremes())
         if (condition.sign * rest(s) > round_off)
-          stands_out = condition.add_to(program, strip, s) || stands_out;
+          stands_out = add(condition, s) || stands_out;
     }
     stands_out = stands_out && program.solve();
     if (stands_out)
@@ -801,7 +538,7 @@ void Search<dim>::try_one_direction(const RestrictedEnergy &strip, const std::ve
 }
 
 template <int dim>
-Candidate Search<dim>::best(Candidate result) const
+typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate result) const
 {
   if (result.total == 0.)
     return result;
@@ -830,7 +567,7 @@ Candidate Search<dim>::best(Candidate result) const
 }
 
 template <int dim>
-std::vector<double> Search<dim>::energies(const Vector<double> &w) const
+std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) const
 {
   std::vector<double> result(solution.displacement_space.degrees().size());
   for (unsigned int cell = 0; cell < result.size(); ++cell)
@@ -848,85 +585,8 @@ std::vector<double> Search<dim>::energies(const Vector<double> &w) const
     result[cell_of_bubble[i]] += A.energy(A.A.n() + i, w);
   return result;
 }
-} // namespace
 
-template <int dim>
-ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
-                                          const Discretisation<dim> &discretisation,
-                                          const AdmissibleFriction<dim> &friction,
-                                          const AdmissiblePressure<dim> &pressure,
-                                          EdgeBubbles<dim> *const bubbles)
-{
-  const Search<dim> search(solution, discretisation, friction, pressure, bubbles);
-  Candidate best = search.nothing();
-  uncorrected = best.gaps;
-  best = search.best(std::move(best));
-  has_failed = !std::isfinite(best.total);
-  face_gaps = std::move(best.gaps);
-  w = std::move(best.w);
-  cell_energies = search.energies(w);
-}
-
-template <int dim>
-const std::vector<double> &ContactCorrection<dim>::gap() const
-{
-  return face_gaps;
-}
-
-template <int dim>
-const std::vector<double> &ContactCorrection<dim>::uncorrected_gap() const
-{
-  return uncorrected;
-}
-
-template <int dim>
-const std::vector<double> &ContactCorrection<dim>::energy() const
-{
-  return cell_energies;
-}
-
-template <int dim>
-bool ContactCorrection<dim>::fails() const
-{
-  return has_failed;
-}
-
-template <int dim>
-const Vector<double> &ContactCorrection<dim>::unknowns() const
-{
-  return w;
-}
-
-template <int dim>
-double ContactCorrection<dim>::total() const
-{
-  return 2. * sum(face_gaps) + sum(cell_energies);
-}
-
-template <int dim>
-double energy_change(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
-                     const Vector<double> &v)
-{
-  const Vector<double> all = discretisation.unknowns.expand(v);
-  double result = BorderedMatrix{discretisation.system.A, {}}.energy(v) / 2. -
-                  solution.z * solution.spaces->contact_operator.moments(all);
-  Vector<double> moved(solution.u);
-  moved += all;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-  {
-    const auto work = [&](const Vector<double> &u)
-    {
-      return friction_gap(face,
-                          edge_trace(face, face.frame(0.5).tangent, solution.displacement_space,
-                                     solution.tables, u),
-                          solution, [](double) { return 0.; });
-    };
-    result += work(moved) - work(solution.u);
-  }
-  return result;
-}
-
-template class ContactCorrection<2>;
-template double energy_change(const Solution<2> &, const Discretisation<2> &,
-                              const Vector<double> &);
+template double friction_gap(const ContactFace<2> &, const EdgePolynomial &, const ShapeTables<2> &,
+                             const std::function<double(double)> &);
+template class CorrectionSearch<2>;
 } // namespace hpvi

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_correction_search_h
+#define hpvi_correction_search_h
+
+#include <hpvi/admissibility/admissible_friction.h>
+#include <hpvi/admissibility/face_contact.h>
+#include <hpvi/algebra/restricted_energy.h>
+#include <hpvi/discretisation/discretisation.h>
+#include <hpvi/stresses/edge_bubbles.h>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign [stress length^dim]; without @p l: `int g |v|`. */
+template <int dim>
+double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
+                    const ShapeTables<dim> &tables, const std::function<double(double)> &l = {});
+
+/** Finds w of ContactCorrection, which says what is asked of it. */
+template <int dim>
+class CorrectionSearch
+{
+public:
+  /** One w and what it is worth. */
+  struct Candidate
+  {
+    dealii::Vector<double> w;
+    std::vector<double> gaps; ///< by face
+    double total = 0;         ///< `2 gap(u_N - w) + |w|_a^2`
+  };
+
+  CorrectionSearch(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                   const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure,
+                   EdgeBubbles<dim> *bubbles);
+
+  /** No correction. */
+  Candidate nothing() const;
+
+  /** Of w, with as much more as it takes for u_N - w not to penetrate. */
+  Candidate of(const dealii::Vector<double> &w) const;
+
+  /** The best one, from one that is known. */
+  Candidate best(Candidate result) const;
+
+  std::vector<double> energies(const dealii::Vector<double> &w) const; ///< |w|_a^2 by cell
+
+private:
+  enum class Role
+  {
+    outside, ///< w is zero there
+    fixed,   ///< by u_Nt where the body sticks, by u_Nn - u_0 where it presses
+    free
+  };
+
+  /** `sign (rest - w) <= 0` along a face, w that of the unknowns kept. */
+  struct Condition
+  {
+    const Trace *trace;
+    EdgePolynomial rest;
+    double sign;
+  };
+
+  std::vector<Role> roles() const;
+  void add_normal_roles(std::vector<Role> &roles) const;
+  dealii::Vector<double> fixed_displacement() const;
+  bool find_near_pressure(unsigned int face) const;
+  double penetration(const dealii::Vector<double> &w,
+                     std::map<unsigned int, double> &heights) const;
+  bool lift(dealii::Vector<double> &w) const;
+  void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
+                    const dealii::Vector<double> &fixed, dealii::Vector<double> &h,
+                    std::vector<Condition> &conditions) const;
+  void add_pressure(const RestrictedEnergy &strip, const dealii::Vector<double> &fixed,
+                    dealii::Vector<double> &h, std::vector<Condition> &conditions) const;
+  std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
+  std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
+                                          const std::vector<Role> &roles) const;
+  void try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
+                         const dealii::Vector<double> &fixed, Candidate &best) const;
+  void take_better(Candidate &best, const dealii::Vector<double> &w) const;
+
+  using Directions = std::vector<std::pair<dealii::Tensor<1, dim>, Trace *>>;
+  void add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+                   EdgeBubbles<dim> &bubbles);
+  void add_columns(unsigned int cell, const typename EdgeBubbles<dim>::Energies &energies);
+
+  const Solution<dim> &solution;
+  const Discretisation<dim> &discretisation;
+  const AdmissibleFriction<dim> &friction;
+  const std::vector<ContactFace<dim>> &faces;
+  std::vector<Slip> slips;
+  std::vector<Trace> traces; ///< of u_t
+  std::vector<std::optional<Opening>> openings;
+  std::vector<bool> is_near_pressure;       ///< by face
+  BorderedMatrix A;                         ///< bordered by edge bubbles
+  std::vector<unsigned int> cell_of_bubble; ///< by column of the border
+  double tolerance = 0;                     ///< of penetrations: round-off
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_face_contact_h
+#define hpvi_face_contact_h
+
+#include <hpvi/admissibility/admissible_pressure.h>
+#include <hpvi/admissibility/contact_trace.h>
+#include <hpvi/stresses/legendre.h>
+
+#include <optional>
+#include <vector>
+
+namespace hpvi
+{
+/** What happens along a contact face as a whole, as the multiplier says. */
+struct Slip
+{
+  enum Mode
+  {
+    everywhere,
+    partly,
+    nowhere
+  } mode = everywhere;
+  double direction = 0.; ///< 1 or -1; 0: none, or both
+
+  bool is_directed_everywhere() const
+  {
+    return mode == everywhere && direction != 0.;
+  }
+};
+
+/** By face. One without friction slips, in no direction. */
+template <int dim>
+std::vector<Slip> slips_of(const Solution<dim> &solution);
+
+/**
+ * The end of slip may be on the first face that sticks as well as on the last that slips, with one Gauss point
+ * on each always. That the former slips in part, with the direction of the latter, excludes neither.
+ */
+void free_neighbours(std::vector<Slip> &slips);
+
+/** What happens along the normal on a face with unilateral contact. */
+struct Opening
+{
+  enum Mode
+  {
+    closed,
+    partly,
+    open
+  } mode;
+  Trace penetration; ///< u_Nn - u_0
+  EdgePolynomial pressure;
+
+  double gap(const EdgePolynomial &rest) const; ///< `int pi (u_0 - u_Nn + w_n)` over [0,1]
+};
+
+template <int dim>
+Opening opening_of(unsigned int face, const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+                   const AdmissiblePressure<dim> &pressure, const LegendreTables &tables);
+
+/** The end of contact likewise may be on the first face that presses. */
+void free_neighbours(std::vector<std::optional<Opening>> &openings);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/admissibility/contact_correction.h>
+#include <hpvi/admissibility/correction_search.h>
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+} // namespace
+
+template <int dim>
+ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
+                                          const Discretisation<dim> &discretisation,
+                                          const AdmissibleFriction<dim> &friction,
+                                          const AdmissiblePressure<dim> &pressure,
+                                          EdgeBubbles<dim> *const bubbles)
+{
+  const CorrectionSearch<dim> search(solution, discretisation, friction, pressure, bubbles);
+  typename CorrectionSearch<dim>::Candidate best = search.nothing();
+  uncorrected = best.gaps;
+  best = search.best(std::move(best));
+  has_failed = !std::isfinite(best.total);
+  face_gaps = std::move(best.gaps);
+  w = std::move(best.w);
+  cell_energies = search.energies(w);
+}
+
+template <int dim>
+const std::vector<double> &ContactCorrection<dim>::gap() const
+{
+  return face_gaps;
+}
+
+template <int dim>
+const std::vector<double> &ContactCorrection<dim>::uncorrected_gap() const
+{
+  return uncorrected;
+}
+
+template <int dim>
+const std::vector<double> &ContactCorrection<dim>::energy() const
+{
+  return cell_energies;
+}
+
+template <int dim>
+bool ContactCorrection<dim>::fails() const
+{
+  return has_failed;
+}
+
+template <int dim>
+const Vector<double> &ContactCorrection<dim>::unknowns() const
+{
+  return w;
+}
+
+template <int dim>
+double ContactCorrection<dim>::total() const
+{
+  return 2. * sum(face_gaps) + sum(cell_energies);
+}
+
+template <int dim>
+double energy_change(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
+                     const Vector<double> &v)
+{
+  const Vector<double> all = discretisation.unknowns.expand(v);
+  double result = BorderedMatrix{discretisation.system.A, {}}.energy(v) / 2. -
+                  solution.z * solution.spaces->contact_operator.moments(all);
+  Vector<double> moved(solution.u);
+  moved += all;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  {
+    const auto work = [&](const Vector<double> &u)
+    {
+      return friction_gap(face,
+                          edge_trace(face, face.frame(0.5).tangent, solution.displacement_space,
+                                     solution.tables, u),
+                          solution.tables);
+    };
+    result += work(moved) - work(solution.u);
+  }
+  return result;
+}
+
+template class ContactCorrection<2>;
+template double energy_change(const Solution<2> &, const Discretisation<2> &,
+                              const Vector<double> &);
+} // namespace hpvi

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/admissibility/contact_trace.h>
+
+#include <iterator>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+EdgePolynomial Trace::rest(const Vector<double> &w) const
+{
+  std::vector<double> result(u);
+  for (unsigned int k = 0; k < unknowns.size(); ++k)
+    for (unsigned int i = 0; i < result.size(); ++i)
+      result[i] -= legendre(i, k) * w[unknowns[k]];
+  return EdgePolynomial(result);
+}
+
+void Trace::extend(const FullMatrix<double> &more, const unsigned int first)
+{
+  FullMatrix<double> all(more.m(), unknowns.size() + more.n());
+  all.fill(legendre, 0, 0, 0, 0);
+  all.fill(more, 0, unknowns.size(), 0, 0);
+  legendre = all;
+  for (unsigned int i = 0; i < more.n(); ++i)
+    unknowns.push_back(first + i);
+  u.resize(more.m());
+}
+
+template <int dim>
+Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
+               const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+               const FullMatrix<double> &legendre)
+{
+  const unsigned int n = face.degree + 1;
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
+  Vector<double> u(n);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const types::global_dof_index dof = dofs[on_edge[c * n + j]];
+      u[j] += direction[c] * solution.u[dof];
+      for (const auto &[unknown, weight] : unknowns.terms(dof))
+      {
+        Vector<double> &column = columns[unknown];
+        if (column.size() == 0)
+          column.reinit(n);
+        column[j] += direction[c] * weight;
+      }
+    }
+  Trace result;
+  Vector<double> of_u(n);
+  legendre.vmult(of_u, u);
+  result.u.assign(of_u.begin(), of_u.end());
+  for (auto column = columns.begin(); column != columns.end();)
+    column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
+  result.legendre.reinit(n, columns.size());
+  for (const auto &[unknown, values] : columns)
+  {
+    Vector<double> coefficients(n);
+    legendre.vmult(coefficients, values);
+    for (unsigned int i = 0; i < n; ++i)
+      result.legendre(i, result.unknowns.size()) = coefficients[i];
+    result.unknowns.push_back(unknown);
+  }
+  return result;
+}
+
+template Trace trace_of(const ContactFace<2> &, const Tensor<1, 2> &, const Solution<2> &,
+                        const Unknowns<2> &, const FullMatrix<double> &);
+} // namespace hpvi
