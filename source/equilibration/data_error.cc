@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/equilibration/data_error.h>
+#include <hpvi/equilibration/displacement_lift.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <limits>
 
 namespace hpvi
 {
@@ -95,56 +94,6 @@ double missed_traction(const EquilibratedStress &stress, const unsigned int inde
   return std::sqrt(sum);
 }
 
-/**
- * |d|_a^2 on a cell that is no parallelogram, least over some q; d = delta(s) (1 - n)^q from Legendre
- * coefficients of delta and its slope.
- */
-double distorted_energy(const CellMap<2> &map, const unsigned int face,
-                        const std::array<Vector<double>, 2> &delta,
-                        const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law,
-                        const ShapeTables<2> &tables)
-{
-  const unsigned int n = delta[0].size(), along = face < 2 ? 1 : 0;
-  const QGauss<1> &along_face = tables.gauss(n + 2), &across = tables.gauss(64);
-  const auto at = [&](const std::array<Vector<double>, 2> &coefficients, const double s)
-  {
-    const std::vector<double> L = legendre::values(n, 2 * s - 1);
-    Tensor<1, 2> value;
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int i = 0; i < n; ++i)
-        value[c] += coefficients[c][i] * L[i];
-    return value;
-  };
-  constexpr unsigned int powers[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 36, 60};
-  std::array<double, std::size(powers)> energies{};
-  for (unsigned int a = 0; a < along_face.size(); ++a)
-  {
-    const double s = along_face.point(a)[0];
-    const Tensor<1, 2> value = at(delta, s), by_s = at(slope, s);
-    for (unsigned int b = 0; b < across.size(); ++b)
-    {
-      const double left = across.point(b)[0]; // 1 - n
-      Point<2> xi;
-      xi[along] = s;
-      xi[1 - along] = face % 2 ? left : 1 - left;
-      const Tensor<2, 2> J = map.jacobian(xi), inverse = invert(J);
-      const double weight = along_face.weight(a) * across.weight(b) * determinant(J);
-      for (unsigned int k = 0; k < energies.size(); ++k)
-      {
-        const double power = std::pow(left, powers[k] - 1.);
-        Tensor<2, 2> reference;
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          reference[c][along] = by_s[c] * power * left;
-          reference[c][1 - along] = (face % 2 ? 1. : -1.) * powers[k] * value[c] * power;
-        }
-        energies[k] += weight * law.energy_product(reference * inverse);
-      }
-    }
-  }
-  return *std::min_element(energies.begin(), energies.end());
-}
-
 /** One component of u_D, or of u_0 n along unilateral contact, at s in [0,1] of an edge; none: neither. */
 std::function<double(double)> prescribed_value(const Solution<2> &solution, const StressEdge &edge,
                                                const CellMap<2> &map, const unsigned int component)
@@ -163,7 +112,7 @@ std::function<double(double)> prescribed_value(const Solution<2> &solution, cons
 /** delta = d on one edge: what the nodes of V_N miss of u_D or u_0 n. */
 struct MissedDisplacement
 {
-  std::array<Vector<double>, 2> value, slope; ///< Legendre coefficients; slope by s in [0,1]
+  std::array<Vector<double>, 2> value; ///< Legendre coefficients
   double unread = 0; ///< by how much the polynomial differs from the data between its nodes
 };
 
@@ -184,7 +133,6 @@ MissedDisplacement missed_displacement(const Solution<2> &solution,
   for (unsigned int c = 0; c < 2; ++c)
   {
     result.value[c].reinit(n);
-    result.slope[c].reinit(n);
     const auto data = prescribed_value(solution, edge, map, c);
     if (!data)
       continue;
@@ -207,9 +155,6 @@ MissedDisplacement missed_displacement(const Solution<2> &solution,
       result.value[c][i] -= coarse[i];
     if (result.value[c].linfty_norm() <= 1e-14 * at_nodes.linfty_norm())
       result.value[c] = 0.; // round-off
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        result.slope[c][j] += 2 * legendre::derivative(i, j) * result.value[c][i];
   }
   return result;
 }
@@ -231,57 +176,6 @@ double boundary_work(const EquilibratedStress &stress, const unsigned int index,
          sum;
 }
 
-/** The parts of |delta(s) b(n)|_a^2 on a parallelogram: `along int b b + across int b' b' + mixed int b b'`. */
-struct ProductEnergies
-{
-  ProductEnergies(const CellMap<2> &map, const unsigned int face,
-                  const std::array<Vector<double>, 2> &delta,
-                  const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law)
-  {
-    const Tensor<2, 2> J = map.jacobian({0.5, 0.5}), inverse = invert(J);
-    const unsigned int s = face < 2 ? 1 : 0, n = 1 - s;
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        // int over the reference cell of d_k phi_c d_l phi_d, less its factor across
-        const auto energy = [&](const unsigned int k, const unsigned int l, const double product)
-        {
-          return determinant(J) * law.stiffness([&](const unsigned int i, const unsigned int j)
-                                                { return inverse[k][i] * inverse[l][j] * product; },
-                                                c, d);
-        };
-        along += energy(s, s, slope[c] * slope[d] / 2);
-        across += energy(n, n, delta[c] * delta[d] / 2);
-        mixed += energy(s, n, slope[c] * delta[d] / 2) + energy(n, s, delta[c] * slope[d] / 2);
-      }
-  }
-
-  double along = 0, across = 0, mixed = 0;
-};
-
-/** |d|_a^2 on a cell at a boundary with prescribed displacement, least over q. */
-double lift_energy(const Solution<2> &solution, const EquilibratedStress &stress,
-                   const unsigned int index, const MissedDisplacement &missed)
-{
-  const StressEdge &edge = stress.patches().edges()[index];
-  const unsigned int face = edge.sides[0].face;
-  const auto &iterator = stress.patches().cells()[edge.sides[0].cell].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const auto &[delta, slope, unread] = missed;
-  if (delta[0].all_zero() && delta[1].all_zero())
-    return 0.;
-  if (!map.is_affine())
-    return distorted_energy(map, face, delta, slope,
-                            HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables);
-  // d = delta(s) b(n), b = (1 - n)^q: of int b b, int b' b' and int b b' the energy is a linear function.
-  const HookesLaw<2> law(solution.scene.material_of(iterator));
-  const ProductEnergies parts(map, face, delta, slope, law);
-  double best = std::numeric_limits<double>::infinity();
-  for (unsigned int q = 1; q <= 60; ++q)
-    best = std::min(best, parts.along / (2 * q + 1) + parts.across * q * q / (2 * q - 1) -
-                              0.5 * (face % 2 ? -1. : 1.) * parts.mixed);
-  return best;
-}
 } // namespace
 
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
@@ -302,7 +196,10 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     {
       const MissedDisplacement missed = missed_displacement(solution, stress, e);
       // two edges of a cell: the triangle inequality
-      lifts[cell] += std::sqrt(std::max(0., lift_energy(solution, stress, e, missed)));
+      const auto &iterator = patches.cells()[cell].iterator;
+      lifts[cell] += std::sqrt(std::max(
+          0., lift_energy(map_of<2>(iterator), face, missed.value,
+                          HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables)));
       lift_work += boundary_work(stress, e, missed);
       unread = std::max(unread, missed.unread);
     }

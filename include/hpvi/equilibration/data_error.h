@@ -28,8 +28,7 @@ namespace hpvi
  * `beta >= rho/(2^{1/2} R) (1 + (1 - rho^2/R^2)^{1/2})^{-1/2}` for radii rho, R of an inner and an outer
  * circle about the centre (Horgan and Payne; proof by Costabel and Dauge, arXiv:1303.6141).
  *
- * Prescribed displacements u_D outside V_N: `d = (u_D - u_N)(t) (1 - n)^q` in the cells at the boundary,
- * n from 0 there to 1 on the opposite edge in the reference cell, with the best q up to 60; likewise what the
+ * Prescribed displacements u_D outside V_N: d = u_D - u_N on the edge, lifted into its cell by lift_energy(); likewise what the
  * interpolation I at the nodes of V_N misses of a gap, `u_0 - I u_0` along the normal. Both are read at the Gauss-Lobatto points of a
  * polynomial of degree p + 12 on each edge.
  */

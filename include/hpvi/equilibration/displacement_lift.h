@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_displacement_lift_h
+#define hpvi_displacement_lift_h
+
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/shape_tables.h>
+#include <hpvi/scene/material.h>
+
+#include <array>
+
+namespace hpvi
+{
+/**
+ * |d|_a^2 on one cell [stress length^2] for a displacement d that is @p delta on a face and zero on all others, the least
+ * over some. delta vanishes at both ends of the face: Legendre coefficients of its components, all of one size.
+ *
+ * With s along the face and n in [0,1] across the cell, d = delta(s) (1 - n)^q; or, on a parallelogram, with components
+ * along the edges d = d_s a_s + d_n a_n, and likewise delta,
+ *
+ *     d_s = F a'(n) + delta_s b(n),  d_n = -F' a(n) + m B b(n),  a = (1 - n)^q (1 + q n),  b = (1 - n)^r,
+ *     B = 6 s (1 - s),  m = int delta_n,  -F' = delta_n - m B,
+ *
+ * which changes the volume by `delta_s' b + m B b'` only: with r large and m small next to nothing.
+ */
+double lift_energy(const CellMap<2> &map, unsigned int face,
+                   const std::array<dealii::Vector<double>, 2> &delta, const HookesLaw<2> &law,
+                   const ShapeTables<2> &tables);
+} // namespace hpvi
+
+#endif
