@@ -42,12 +42,12 @@ Vector<double> IterativeRefinement<dim>::uncorrected(ReducedSolution &reduced) c
 }
 
 template <int dim>
-Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced,
-                                               AlgebraicError &error) const
+Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced, AlgebraicError &error,
+                                               const bool is_suspect) const
 {
   const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
   Vector<double> u = uncorrected(reduced), defect(contact_space.n_multipliers());
-  error = improve(reduced.z, u);
+  error = improve(reduced.z, u, is_suspect);
   if (error.corrections == 0 || defect.size() == 0)
     return u;
   for (unsigned int passes_left = 9; passes_left > 0; --passes_left)

@@ -39,8 +39,8 @@ Solution<dim> MixedProblem<dim>::correct(const Solution<dim> &solution,
   reduced.z = solution.z;
   AlgebraicError error;
   const SchurComplement schur_complement(factor, last->system.f, last->contact_rows);
-  Vector<double> u =
-      IterativeRefinement<dim>(*last, elements, factor, schur_complement).solve(reduced, error);
+  Vector<double> u = IterativeRefinement<dim>(*last, elements, factor, schur_complement)
+                         .solve(reduced, error, /*is_suspect=*/true);
   return {scene, solution.spaces, std::move(u), std::move(reduced.z)};
 }
 

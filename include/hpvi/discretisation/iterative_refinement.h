@@ -55,13 +55,13 @@ public:
    * The displacement, and the multiplier in @p reduced, which comes with the starting value. Where
    * the displacement has to be corrected, S and d carry the same round-off: the multiplier is then
    * found again from what the corrected displacement does at the contact boundary, until it stays
-   * where it is. Throws what solve_reduced_problem throws.
+   * where it is. @p is_suspect: correct whatever the work of the residual says. Throws what solve_reduced_problem throws.
    */
-  dealii::Vector<double> solve(ReducedSolution &reduced, AlgebraicError &error) const;
+  dealii::Vector<double> solve(ReducedSolution &reduced, AlgebraicError &error,
+                               bool is_suspect = false) const;
 
   /**
-   * Improve @p u, the solution for the multiplier @p z, and say how exact it is now. @p is_suspect: correct
-   * whatever the work of the residual says.
+   * Improve @p u, the solution for the multiplier @p z, and say how exact it is now. @p is_suspect: as above.
    */
   AlgebraicError improve(const dealii::Vector<double> &z, dealii::Vector<double> &u,
                          bool is_suspect = false) const;
