@@ -93,7 +93,7 @@ def effectivities(runs):
                                    "residual indicator / true error")):
         axes.set(xlabel=N_LABEL, ylabel=what, yscale="log")
         axes.axhline(1, color="black", linewidth=1)
-    panels[0].set_yticks([1, 1.5, 2, 3, 5, 10], ["1", "1.5", "2", "3", "5", "10"])
+    panels[0].set_yticks([1, 1.2, 1.5, 2, 2.5], ["1", "1.2", "1.5", "2", "2.5"])
     panels[0].set_yticks([], minor=True)
     panels[1].legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1))
     save(figure, "effectivity.png", PAGE)
