@@ -22,7 +22,7 @@ double sum(const std::vector<double> &values)
   return std::accumulate(values.begin(), values.end(), 0.);
 }
 
-/** Or zero, if none is above that, or all are round-off. */
+/** The largest value over [0,1]; zero if none is above that, or all are round-off. */
 double largest_value(const EdgePolynomial &polynomial, const double round_off)
 {
   double result = 0.;
@@ -499,12 +499,13 @@ void CorrectionSearch<dim>::add_pressure(const RestrictedEnergy &strip, const Ve
     }
 }
 
+/** The w for which what is left keeps its direction; empty: none has been found. */
 template <int dim>
-void CorrectionSearch<dim>::try_one_direction(const RestrictedEnergy &strip,
-                                              const std::vector<bool> &nearby,
-                                              const Vector<double> &fixed, Candidate &best) const
+Vector<double> CorrectionSearch<dim>::in_one_direction(const RestrictedEnergy &strip,
+                                                       const std::vector<bool> &nearby,
+                                                       const Vector<double> &fixed) const
 {
-  Vector<double> h = strip.h();
+  Vector<double> h = strip.h(), w;
   std::vector<Condition> conditions;
   add_friction(strip, nearby, fixed, h, conditions);
   add_pressure(strip, fixed, h, conditions);
@@ -514,13 +515,11 @@ void CorrectionSearch<dim>::try_one_direction(const RestrictedEnergy &strip,
   for (const Condition &condition : conditions)
     for (unsigned int i = 0, n = condition.trace->legendre.m(); i <= n; ++i)
       add(condition, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
-  if (!program.solve())
-    return;
-  Vector<double> w = strip.minimiser(program.minimiser());
   // What has another sign between the points is worth more points.
   bool stands_out = true;
-  for (unsigned int round = 0; stands_out && round < 10; ++round)
+  for (unsigned int round = 0; stands_out && round <= 10 && program.solve(); ++round)
   {
+    w = strip.minimiser(program.minimiser());
     stands_out = false;
     for (const Condition &condition : conditions)
     {
@@ -530,11 +529,8 @@ void CorrectionSearch<dim>::try_one_direction(const RestrictedEnergy &strip,
         if (condition.sign * rest(s) > round_off)
           stands_out = add(condition, s) || stands_out;
     }
-    stands_out = stands_out && program.solve();
-    if (stands_out)
-      w = strip.minimiser(program.minimiser());
   }
-  take_better(best, w);
+  return w;
 }
 
 template <int dim>
@@ -557,7 +553,8 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate 
   if (strip.n_kept() > 0)
     try
     {
-      try_one_direction(strip, nearby, fixed, result);
+      if (const Vector<double> w = in_one_direction(strip, nearby, fixed); w.size() > 0)
+        take_better(result, w);
     }
     catch (const NumericalFailure &)
     {

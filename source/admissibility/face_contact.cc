@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/face_contact.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -30,7 +31,6 @@ Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
     result.direction = n_forward > 0 ? 1. : n_backward > 0 ? -1. : 0.;
   return result;
 }
-
 } // namespace
 
 template <int dim>

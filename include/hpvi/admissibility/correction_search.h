@@ -80,8 +80,9 @@ private:
   std::vector<bool> nearby_faces(const std::vector<double> &gaps) const;
   std::vector<unsigned int> kept_unknowns(const std::vector<bool> &nearby,
                                           const std::vector<Role> &roles) const;
-  void try_one_direction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
-                         const dealii::Vector<double> &fixed, Candidate &best) const;
+  dealii::Vector<double> in_one_direction(const RestrictedEnergy &strip,
+                                          const std::vector<bool> &nearby,
+                                          const dealii::Vector<double> &fixed) const;
   void take_better(Candidate &best, const dealii::Vector<double> &w) const;
 
   using Directions = std::vector<std::pair<dealii::Tensor<1, dim>, Trace *>>;
