@@ -27,9 +27,7 @@ public:
    */
   Solution<dim> solve(const Solution<dim> &start, std::unique_ptr<LinearSolver> &factor);
 
-  /**
-   * The last one without what round-off has done to it, for three times the work. Throws NumericalFailure.
-   */
+  /** The last one without what round-off has done to it. Throws NumericalFailure. */
   Solution<dim> correct(const Solution<dim> &solution, const LinearSolver &factor) const;
 
   const Discretisation<dim> &discretisation() const; ///< of the last solution
