@@ -393,6 +393,7 @@ template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState &state)
     : AdaptiveSolver(scene)
 {
+  const OneThread one_thread; // as in run(): other numbers of threads round otherwise
   stages->resume(state);
 }
 
