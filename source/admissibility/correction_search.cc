@@ -317,15 +317,19 @@ void CorrectionSearch<dim>::take_better(Candidate &best, const Vector<double> &w
 /**
  * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
  * more cells would change its energy by a few hundredths. A body that keeps its volume needs more room to move.
+ * Along faces that slip everywhere, and are not @p nearby where others do not, w has nothing to mend.
  */
 template <int dim>
-std::vector<typename CorrectionSearch<dim>::Role> CorrectionSearch<dim>::roles() const
+std::vector<typename CorrectionSearch<dim>::Role>
+CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
 {
   const Unknowns<dim> &unknowns = discretisation.unknowns;
+  const auto may_rub = [&](const unsigned int k)
+  { return !faces[k].friction.vanishes() && (slips[k].mode != Slip::everywhere || nearby[k]); };
   std::vector<Role> result(A.n(), Role::free);
   std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
   for (unsigned int k = 0; k < faces.size(); ++k)
-    if (!faces[k].friction.vanishes() || is_near_pressure[k])
+    if (may_rub(k) || is_near_pressure[k])
       is_at_contact[faces[k].cell->active_cell_index()] = true;
   if (solution.scene.is_nearly_incompressible())
     is_at_contact = with_neighbours(is_at_contact, solution.displacement_space, unknowns, A.n());
@@ -338,7 +342,7 @@ std::vector<typename CorrectionSearch<dim>::Role> CorrectionSearch<dim>::roles()
     for (const unsigned int unknown : traces[k].unknowns)
       if (slips[k].mode == Slip::nowhere)
         result[unknown] = Role::fixed;
-      else if (!faces[k].friction.vanishes() && result[unknown] == Role::outside)
+      else if (may_rub(k) && result[unknown] == Role::outside)
         result[unknown] = Role::free;
   add_normal_roles(result);
   return result;
@@ -538,7 +542,8 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate 
 {
   if (result.total == 0.)
     return result;
-  const std::vector<Role> all_roles = roles();
+  const std::vector<bool> nearby = nearby_faces(result.gaps);
+  const std::vector<Role> all_roles = roles(nearby);
   Vector<double> fixed = fixed_displacement();
   std::vector<bool> is_free;
   for (unsigned int i = 0; i < fixed.size(); ++i)
@@ -547,7 +552,6 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate 
       fixed[i] = 0.;
     is_free.push_back(all_roles[i] == Role::free);
   }
-  const std::vector<bool> nearby = nearby_faces(result.gaps);
   const RestrictedEnergy strip(A, is_free, fixed, kept_unknowns(nearby, all_roles));
   take_better(result, strip.minimiser());
   if (strip.n_kept() > 0)

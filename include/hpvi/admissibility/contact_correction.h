@@ -28,7 +28,8 @@ namespace hpvi
  * keeps the direction of slip on faces with both stick and slip and on slipping ones nearby, and u_Nn - w_n stays
  * below u_0. Or w = 0. What of u_Nn - w_n still exceeds u_0, read at the nodes of the faces (what it does between them is for
  * DataError), goes by a piecewise linear w_n. w lives in the cells at the contact boundary, near
- * incompressibility in their neighbours as well.
+ * incompressibility in their neighbours as well, and is zero along faces that slip everywhere, from the third on beside
+ * others.
  */
 template <int dim>
 class ContactCorrection

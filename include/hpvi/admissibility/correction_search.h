@@ -65,7 +65,7 @@ private:
     double sign;
   };
 
-  std::vector<Role> roles() const;
+  std::vector<Role> roles(const std::vector<bool> &nearby) const;
   void add_normal_roles(std::vector<Role> &roles) const;
   dealii::Vector<double> fixed_displacement() const;
   bool find_near_pressure(unsigned int face) const;
