@@ -210,7 +210,8 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.bound);
-  const ErrorBound result = error_bounds.compute(solution, *discretisation, std::move(kept_factor));
+  const ErrorBound result = error_bounds.compute(solution, *discretisation, std::move(kept_factor),
+                                                 history.empty() ? 0. : history.back().own_stress);
   no_bound = std::isfinite(result.total) ? result.flaw : "it is not finite";
   return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }
@@ -290,9 +291,10 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
       !(state.motion.size() == 0 || state.motion.size() == scene.free_motions().size()))
     format.reject(state.name, "the run state has another number of steps or unknowns");
   const Solution<dim> solution(scene, spaces, state.u, state.z);
-  history = state.history;
+  history.assign(state.history.begin(), state.history.end() - 1); // as the last step found it
   keep_start(solution.z, state.motion);
   const Refinement refinement = mark(solution, estimate(solution), bound(solution));
+  history = state.history;
   const std::string limit = end_of_run(solution, refinement);
   if (!limit.empty())
     format.reject(state.name, "there is nothing to go on with after step " +
@@ -326,7 +328,8 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
       {estimate.total(), ratio(scaled_estimate, step_energies.norm),
        bound ? ratio(bound->total, step_energies.norm) : std::numeric_limits<double>::quiet_NaN(),
        (history.empty() ? 0. : history.back().seconds) + times.total(),
-       !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled)});
+       !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled),
+       bound ? bound->own_stress : 0.});
   return {static_cast<unsigned int>(history.size()),
           solution,
           discretisation->system,

@@ -113,7 +113,7 @@ std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
 
 const FileFormat &RunState::format()
 {
-  static const FileFormat format("run state", 3,
+  static const FileFormat format("run state", 4,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -128,7 +128,7 @@ void RunState::write(std::ostream &out) const
   for (const PastStep &step : history)
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
             << text(step.relative_bound) << ' ' << text(step.seconds) << ' ' << step.lacks_condition
-            << '\n';
+            << ' ' << text(step.own_stress) << '\n';
   content << "refinements " << refinements.size() << '\n';
   for (const Refinement &refinement : refinements)
     write_refinement(content, refinement);
@@ -154,6 +154,7 @@ RunState RunState::read(std::istream &in, const std::string &name)
     step.relative_bound = reader.number<double>();
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
+    step.own_stress = reader.number<double>();
   }
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)

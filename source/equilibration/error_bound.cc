@@ -22,8 +22,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace hpvi
 {
@@ -153,31 +155,6 @@ std::optional<Solution<2>> moved(const Solution<2> &solution,
   return Solution<2>(solution.scene, solution.spaces, u, solution.z);
 }
 
-// @sect3{Friction, pressure and stress}
-//
-// Tractions along the contact that keep their bounds everywhere, and a stress in equilibrium with them
-// and with the loads. They are made of a discrete solution, not always that whose error is bounded.
-struct AdmissibleStress
-{
-  AdmissibleStress(const Solution<2> &start, const Discretisation<2> &discretisation,
-                   const LinearSolver *const factor, const Solution<2> &measured,
-                   const Volume volume, EquilibrationCache &cache)
-      : friction(start), pressure(start), balanced(moved(start, discretisation, friction, factor)),
-        stress(
-            balanced ? *balanced : start,
-            [&](const unsigned int face, const unsigned int end)
-            { return friction.part(face, end).coefficients(); },
-            [&](const unsigned int face, const unsigned int end)
-            { return pressure.part(face, end).coefficients(); },
-            cache, balanced || &start != &measured ? &measured : nullptr, volume)
-  {
-  }
-
-  const AdmissibleFriction<2> friction;
-  const AdmissiblePressure<2> pressure;
-  const std::optional<Solution<2>> balanced;
-  const EquilibratedStress stress;
-};
 } // namespace
 
 std::vector<double> ErrorBound::indicators() const
@@ -188,51 +165,115 @@ std::vector<double> ErrorBound::indicators() const
   return result;
 }
 
+// @sect3{Friction, pressure and stress}
+//
+// Tractions along the contact that keep their bounds everywhere, and a stress in equilibrium with them
+// and with the loads. They are made of a discrete solution, not always that whose error is bounded.
+struct ErrorBounds::AdmissibleStress
+{
+  AdmissibleStress(const Solution<2> &measured, std::optional<Solution<2>> of_mixed_problem,
+                   const Discretisation<2> &discretisation, const LinearSolver *const factor,
+                   EquilibrationCache &cache)
+      : mixed(std::move(of_mixed_problem)), start(mixed ? *mixed : measured), friction(start),
+        pressure(start), balanced(moved(start, discretisation, friction, factor)),
+        stress(
+            balanced ? *balanced : start,
+            [&](const unsigned int face, const unsigned int end)
+            { return friction.part(face, end).coefficients(); },
+            [&](const unsigned int face, const unsigned int end)
+            { return pressure.part(face, end).coefficients(); },
+            cache, balanced || mixed ? &measured : nullptr,
+            mixed ? Volume::projected : Volume::full)
+  {
+  }
+
+  bool is_balanced() const
+  {
+    return stress.defect <= tolerable;
+  }
+
+  double eta() const ///< infinite where it is not in balance
+  {
+    return is_balanced() ? std::sqrt(sum(stress.squares)) : std::numeric_limits<double>::infinity();
+  }
+
+  const std::optional<Solution<2>> mixed;
+  const Solution<2> &start;
+  const AdmissibleFriction<2> friction;
+  const AdmissiblePressure<2> pressure;
+  const std::optional<Solution<2>> balanced;
+  const EquilibratedStress stress;
+};
+
+// @sect3{Near incompressibility}
+//
+// The pressure of $u_N$ oscillates where degrees are low, or cells with singularities large, and a stress in
+// equilibrium with it is far from that of the solution. The stress and tractions are those of a mixed method then,
+// corrected for round-off if the patches show it.
+std::unique_ptr<const ErrorBounds::AdmissibleStress>
+ErrorBounds::stress_of_mixed_problem(const Solution<2> &solution,
+                                     std::unique_ptr<LinearSolver> factor)
+{
+  if (!mixed)
+    mixed = std::make_unique<MixedProblem<2>>(solution.scene);
+  const auto make = [&](Solution<2> start)
+  {
+    return std::make_unique<const AdmissibleStress>(solution, std::move(start),
+                                                    mixed->discretisation(), factor.get(), cache);
+  };
+  auto result = make(mixed->solve(solution, factor));
+  return result->is_balanced() ? std::move(result) : make(mixed->correct(*result->mixed, *factor));
+}
+
+// A few steps of an hp-method bring degrees and cells that do not lock. So both stresses are made as soon as there is a
+// degree of 4, until that of $u_N$ is at most a tenth farther from it; then that one alone, at half the cost, unless it has
+// not come nearer since the step before.
+std::unique_ptr<const ErrorBounds::AdmissibleStress>
+ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2> &discretisation,
+                            std::unique_ptr<LinearSolver> factor, double &own_stress)
+{
+  const std::vector<unsigned int> &degrees = solution.displacement_space.degrees();
+  const bool may_lock = solution.scene.is_nearly_incompressible() && !has_distorted_cells(solution);
+  std::unique_ptr<const AdmissibleStress> own;
+  if (!may_lock || *std::max_element(degrees.begin(), degrees.end()) >= 4)
+    own = std::make_unique<const AdmissibleStress>(solution, std::nullopt, discretisation,
+                                                   factor.get(), cache);
+  const double eta = own ? own->eta() : std::numeric_limits<double>::infinity();
+  if (!may_lock || eta < std::exchange(own_stress, eta))
+    return own;
+  auto stable = stress_of_mixed_problem(solution, std::move(factor));
+  if (!(eta < 1.1 * stable->eta()))
+    own_stress = 0.;
+  return eta < stable->eta() ? std::move(own) : std::move(stable);
+}
+
 // @sect3{The order of things}
 //
-// A stress; a correction $w$ for what $u_N$ does where it should stick; and what data leave. Near
-// incompressibility the pressure of $u_N$ oscillates, and a stress in equilibrium with it is far from that of the
-// solution; the stress and tractions are those of a mixed method then, which is corrected for round-off if the
-// patches show it. The energy of $u_N - w$ is known for a $w$ in $V_N$ alone.
+// A stress; a correction $w$ for what $u_N$ does where it should stick; and what data leave. The energy of $u_N - w$
+// is known for a $w$ in $V_N$ alone.
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,
                                 const Discretisation<2> &discretisation,
-                                std::unique_ptr<LinearSolver> factor)
+                                std::unique_ptr<LinearSolver> factor, const double own_stress)
 try
 {
-  std::optional<Solution<2>> stable;
-  std::unique_ptr<const AdmissibleStress> made;
-  const auto make = [&](const Solution<2> &start, const Discretisation<2> &of, const Volume volume)
-  {
-    made =
-        std::make_unique<const AdmissibleStress>(start, of, factor.get(), solution, volume, cache);
-  };
-  if (!solution.scene.is_nearly_incompressible() || has_distorted_cells(solution))
-    make(solution, discretisation, Volume::full);
-  else
-  {
-    if (!mixed)
-      mixed = std::make_unique<MixedProblem<2>>(solution.scene);
-    stable.emplace(mixed->solve(solution, factor));
-    make(*stable, mixed->discretisation(), Volume::projected);
-    if (!(made->stress.defect <= tolerable))
-    {
-      stable.emplace(mixed->correct(*stable, *factor));
-      make(*stable, mixed->discretisation(), Volume::projected);
-    }
-  }
-  const auto &[friction, pressure, balanced, stress] = *made;
-  const ContactCorrection<2> correction(solution, discretisation, friction, pressure, &bubbles);
-  const DataError data(solution, stress);
   ErrorBound result;
+  result.own_stress = own_stress;
+  const auto made = nearest_stress(solution, discretisation, std::move(factor), result.own_stress);
+  const EquilibratedStress &stress = made->stress;
+  const ContactCorrection<2> correction(solution, discretisation, made->friction, made->pressure,
+                                        &bubbles);
+  const DataError data(solution, stress);
   set_squares(result, solution, stress, correction, data);
   set_norms(result, stress, correction, data);
   if (solution.scene.has_unilateral_contact())
-    set_energy(result, solution, discretisation,
-               ContactCorrection<2>(solution, discretisation, friction, pressure, nullptr), data);
+    set_energy(
+        result, solution, discretisation,
+        ContactCorrection<2>(solution, discretisation, made->friction, made->pressure, nullptr),
+        data);
   else
     set_energy(result, solution, discretisation, correction, data);
   result.imbalance = stress.defect;
-  result.flaw = flaw(solution, pressure, stress, correction, data);
+  result.flaw = flaw(solution, made->pressure, stress, correction, data);
   return result;
 }
 catch (const NumericalFailure &failure)

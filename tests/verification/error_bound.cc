@@ -492,6 +492,61 @@ TEST(ErrorBoundNearIncompressibility, IsAboveTheErrorAndNear)
   }
 }
 
+/** The stress of u_N where it locks, if it is taken for near; else the one that is nearer, which is remembered. */
+TEST(ErrorBoundNearIncompressibility, ComparesTwoStressesUntilOneWillDo)
+{
+  const double any = std::numeric_limits<double>::infinity();
+  const auto bounds_of = [](const unsigned int degree, const std::string &subdivisions,
+                            const std::vector<double> &own_stresses)
+  {
+    const Scene<2> scene = shipped_scene("plane-strain", {{"Material/Poisson's ratio", "0.4999"},
+                                                          {"Geometry/Subdivisions", subdivisions}});
+    const RandomMesh mesh(scene, 1, 0, degree, degree);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    std::vector<ErrorBound> result;
+    ErrorBounds bounds;
+    for (const double own_stress : own_stresses)
+      result.push_back(bounds.compute(solution, lab.discretisation, nullptr, own_stress));
+    return result;
+  };
+  const std::vector<ErrorBound> locking = bounds_of(4, "4, 2", {0., any, 1e-20});
+  EXPECT_EQ(locking[0].own_stress, 0.);
+  EXPECT_GT(locking[1].stress, 3. * locking[0].stress);
+  EXPECT_EQ(locking[1].own_stress, locking[1].stress);
+  EXPECT_EQ(locking[2].stress, locking[0].stress); // farther than in the step before
+  const std::vector<ErrorBound> free = bounds_of(8, "16, 8", {0., any});
+  EXPECT_EQ(free[1].own_stress, free[1].stress);
+  EXPECT_EQ(free[0].own_stress, free[1].stress);
+  EXPECT_LE(free[0].stress, free[1].stress);
+  EXPECT_LE(free[1].stress, 1.1 * free[0].stress);
+  EXPECT_EQ(bounds_of(2, "16, 8", {0.})[0].own_stress, 0.);
+}
+
+/** Where the body slips as it is, far from where slip ends, there is nothing for w to mend. */
+TEST(ErrorBoundOfSlip, MovesNothingFarFromWhereSlipEnds)
+{
+  for (const std::string poisson : {"0.3", "0.4999"})
+  {
+    const Scene<2> scene = shipped_scene("plane-strain", {{"Material/Poisson's ratio", poisson},
+                                                          {"Geometry/Subdivisions", "32, 8"}});
+    const RandomMesh mesh(scene, 1, 0, 3, 3);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    EdgeBubbles<2> bubbles;
+    const ContactCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
+                                    AdmissiblePressure<2>(solution), &bubbles);
+    double near = 0;
+    for (const ContactFace<2> &face : solution.contact_space.faces())
+    {
+      const double energy = slip.energy()[face.cell->active_cell_index()], x = face.point(0.5)[0];
+      near += energy;
+      EXPECT_TRUE(energy == 0. || x > -0.4) << x; // slips up to 0
+    }
+    EXPECT_GT(near, 0.);
+  }
+}
+
 /** |d - w|_a by cells: w is along the contact boundary, data are missed elsewhere. */
 TEST(ErrorBound, AddsCorrectionAndDataCellByCell)
 {

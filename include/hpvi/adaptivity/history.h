@@ -14,6 +14,7 @@ struct PastStep
   double relative_bound;        ///< ErrorBound::total / |u_N|_a, NaN where none is guaranteed
   double seconds;               ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
+  double own_stress = 0;        ///< ErrorBound::own_stress
 };
 
 /** All finished steps of a run, the first one first. */

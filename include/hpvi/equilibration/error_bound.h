@@ -27,8 +27,8 @@ namespace hpvi
  *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + b + O)^2/2 + gap(u_N - w).
  *
  * Where the friction bound varies so much that no admissible friction is in balance with u_N, s is near the stress of
- * u_N + x, x the displacement by what is missing, and near incompressibility that of MixedProblem; eta tells its
- * distance from sigma(u_N) all the same. doc/bound.md proves both.
+ * u_N + x, x the displacement by what is missing, and near incompressibility that of MixedProblem, or of u_N once
+ * it does not lock; eta tells its distance from sigma(u_N) all the same. doc/bound.md proves both.
  */
 struct ErrorBound
 {
@@ -50,6 +50,9 @@ struct ErrorBound
   /** Largest imbalance of a patch, relative to its tractions: what round-off leaves of equilibrium. */
   double imbalance = 0;
 
+  /** Where u_N may lock: eta of the stress made of u_N, if that is as near as another; else 0. For the next step. */
+  double own_stress = 0;
+
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
 
@@ -57,11 +60,24 @@ struct ErrorBound
 class ErrorBounds
 {
 public:
-  /** Scene::no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand. */
+  /**
+   * Scene::no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p own_stress:
+   * ErrorBound::own_stress of the step before.
+   */
   ErrorBound compute(const Solution<2> &solution, const Discretisation<2> &discretisation,
-                     std::unique_ptr<LinearSolver> factor = nullptr);
+                     std::unique_ptr<LinearSolver> factor = nullptr, double own_stress = 0);
 
 private:
+  struct AdmissibleStress;
+
+  std::unique_ptr<const AdmissibleStress>
+  stress_of_mixed_problem(const Solution<2> &solution, std::unique_ptr<LinearSolver> factor);
+
+  std::unique_ptr<const AdmissibleStress> nearest_stress(const Solution<2> &solution,
+                                                         const Discretisation<2> &discretisation,
+                                                         std::unique_ptr<LinearSolver> factor,
+                                                         double &own_stress);
+
   EquilibrationCache cache;
   EdgeBubbles<2> bubbles;
   std::unique_ptr<MixedProblem<2>> mixed; ///< where a material is nearly incompressible
