@@ -225,8 +225,8 @@ ErrorBounds::stress_of_mixed_problem(const Solution<2> &solution,
   return result->is_balanced() ? std::move(result) : make(mixed->correct(*result->mixed, *factor));
 }
 
-// A few steps of an hp-method bring degrees and cells that do not lock. So both stresses are made as soon as there is a
-// degree of 4, until that of $u_N$ is at most a tenth farther from it; then that one alone, at half the cost, unless it has
+// A few steps of an hp-method bring degrees and cells that do not lock. So both stresses are made as soon as half
+// of the cells have a degree of 4 or more, until that of $u_N$ is at most a tenth farther from it; then that one alone, at half the cost, unless it has
 // not come nearer since the step before.
 std::unique_ptr<const ErrorBounds::AdmissibleStress>
 ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2> &discretisation,
@@ -234,8 +234,10 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
 {
   const std::vector<unsigned int> &degrees = solution.displacement_space.degrees();
   const bool may_lock = solution.scene.is_nearly_incompressible() && !has_distorted_cells(solution);
+  const auto n_high = std::count_if(degrees.begin(), degrees.end(),
+                                    [](const unsigned int degree) { return degree >= 4; });
   std::unique_ptr<const AdmissibleStress> own;
-  if (!may_lock || *std::max_element(degrees.begin(), degrees.end()) >= 4)
+  if (!may_lock || 2 * n_high >= std::ptrdiff_t(degrees.size()))
     own = std::make_unique<const AdmissibleStress>(solution, std::nullopt, discretisation,
                                                    factor.get(), cache);
   const double eta = own ? own->eta() : std::numeric_limits<double>::infinity();
