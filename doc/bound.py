@@ -41,6 +41,8 @@ SCENES = {"nearly-incompressible": "plane-strain", "inside": "stick-slip", "inco
 OVERKILL = ("han-6-12", "han-6-13", "opening", "resting", "varying", "weight", "turned")
 TIMED = ("stick-slip", "han-6-12", "han-6-13", "hertz", "opening", "resting", "varying", "weight", "turned",
          "nearly-incompressible")
+OTHER_METHODS = {"hup3": 6, "hup4": 5, "hap2": 12, "hap3": 12, "hpa1": 16, "pu": 9}
+OTHER_PROBLEMS = ("stick-slip", "nearly-incompressible", "varying")
 FLOOR = 1e-9  # relative error below which round-off shows
 
 
@@ -179,31 +181,51 @@ def shares(runs):
     put_table("shares", rows, page=PAGE)
 
 
-def cost(lab):
-    """Seconds of the bound beside those of all other stages, in the same run."""
+def seconds(lab, problems, methods):
+    """By problem and method: a run, and its rows of the table of costs, or none below 5000 unknowns."""
     samples = {}
     for repeat in range(4):  # all cases in turn, so that a busy moment meets each of them
         progress(f"  cost, round {repeat + 1}")
-        for problem in TIMED:
-            for method, steps in METHODS.items():
+        for problem in problems:
+            for method, steps in methods.items():
                 run = lab.run(SCENES.get(problem, problem), f"cost-{problem}-{method}",
                               *PROBLEMS[problem][1], *method_settings(method, steps, "bound"))
                 stages = [c for c in run.rows[0] if c.startswith("seconds_")]
                 samples.setdefault((problem, method), []).append(
-                    (run.column("dofs_free") >= 5000, {c: run.column(c) for c in stages}))
-    rows = []
-    for (problem, method), rounds in samples.items():
+                    (run, {c: run.column(c) for c in stages}))
+    result = {}
+    for key, rounds in samples.items():
         # What other processes take away shows in some rounds: the least time of each stage counts.
         least = {c: np.min([stages[c] for _, stages in rounds], axis=0) for c in rounds[0][1]}
-        large, own = rounds[0][0], least.pop("seconds_bound")
-        rest = sum(least.values())
-        if not large.any():
-            continue  # round-off ends the run before that
+        run, own = rounds[0][0], least.pop("seconds_bound")
+        rest, large = sum(least.values()), run.column("dofs_free") >= 5000
+        result[key] = run, {
+            "from 5000 unknowns on": plain(own[large].sum() / rest[large].sum(), 2),
+            "whole run": plain(own.sum() / rest.sum(), 2),
+            "seconds without it": plain(rest.sum(), 3),
+            "of it": plain(own.sum(), 3)} if large.any() else None
+    return result
+
+
+def cost(lab):
+    """Seconds of the bound beside those of all other stages, in the same run."""
+    put_table("cost", [{"problem": PROBLEMS[problem][0], "method": method, **row}
+                       for (problem, method), (_, row) in seconds(lab, TIMED, METHODS).items()
+                       if row], page=PAGE)
+
+
+def others(lab):
+    """Effectivity and cost with the methods that the charts leave out."""
+    rows = []
+    for (problem, method), (run, row) in seconds(lab, OTHER_PROBLEMS, OTHER_METHODS).items():
+        ratio = run.column("error_bound") / run.column("error_energy")
+        ratio = ratio[(run.column("error_relative") > FLOOR) & (ratio > 0)]
         rows.append({"problem": PROBLEMS[problem][0], "method": method,
-                     "from 5000 unknowns on": plain(own[large].sum() / rest[large].sum(), 2),
-                     "whole run": plain(own.sum() / rest.sum(), 2),
-                     "seconds without it": plain(rest.sum(), 3), "of it": plain(own.sum(), 3)})
-    put_table("cost", rows, page=PAGE)
+                     "steps": len(run.rows),
+                     "least bound/error": plain(ratio.min(), 2) if ratio.size else "",
+                     "largest bound/error": plain(ratio.max(), 2) if ratio.size else "",
+                     "cost from 5000 unknowns on": row["from 5000 unknowns on"] if row else ""})
+    put_table("others", rows, page=PAGE)
 
 
 def main():
@@ -223,6 +245,7 @@ def main():
         intervals(runs)
         shares(runs)
     cost(lab)
+    others(lab)
     progress(f"charts and tables: {GALLERY}")
 
 
