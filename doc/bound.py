@@ -43,6 +43,8 @@ TIMED = ("stick-slip", "han-6-12", "han-6-13", "hertz", "opening", "resting", "v
          "nearly-incompressible")
 OTHER_METHODS = {"hup3": 6, "hup4": 5, "hap2": 12, "hap3": 12, "hpa1": 16, "pu": 9}
 OTHER_PROBLEMS = ("stick-slip", "nearly-incompressible", "varying")
+STIFF = ["Material/Plane=strain", "Material/Poisson's ratio=0.4999"]
+STIFF_PROBLEMS = ("han-6-13", "opening", "varying", "weight", "turned")
 FLOOR = 1e-9  # relative error below which round-off shows
 
 
@@ -214,12 +216,34 @@ def cost(lab):
                        if row], page=PAGE)
 
 
+def bound_over_error(run):
+    """In those steps that round-off leaves alone."""
+    ratio = run.column("error_bound") / run.column("error_energy")
+    return ratio[(run.column("error_relative") > FLOOR) & (ratio > 0)]
+
+
+def stiff(lab):
+    """Effectivity near incompressibility with all contacts and loads, marked by the bound."""
+    rows = []
+    for problem in STIFF_PROBLEMS:
+        scene, settings = SCENES.get(problem, problem), PROBLEMS[problem][1] + STIFF
+        reference = lab.reference(scene, f"{problem}-stiff", *settings, unknowns=90000)[0]
+        for method, steps in METHODS.items():
+            progress(f"  {problem} with nu = 0.4999, {method}")
+            ratio = bound_over_error(lab.run(scene, f"{problem}-stiff-{method}", *settings,
+                                             reference, *method_settings(method, steps, "bound")))
+            rows.append({"problem": PROBLEMS[problem][0], "method": method, "steps": ratio.size,
+                         "least bound/error": plain(ratio.min(), 3),
+                         "largest bound/error": plain(ratio.max(), 2),
+                         "last bound/error": plain(ratio[-1], 2)})
+    put_table("stiff", rows, page=PAGE)
+
+
 def others(lab):
     """Effectivity and cost with the methods that the charts leave out."""
     rows = []
     for (problem, method), (run, row) in seconds(lab, OTHER_PROBLEMS, OTHER_METHODS).items():
-        ratio = run.column("error_bound") / run.column("error_energy")
-        ratio = ratio[(run.column("error_relative") > FLOOR) & (ratio > 0)]
+        ratio = bound_over_error(run)
         rows.append({"problem": PROBLEMS[problem][0], "method": method,
                      "steps": len(run.rows),
                      "least bound/error": plain(ratio.min(), 2) if ratio.size else "",
@@ -244,6 +268,7 @@ def main():
         marking(runs)
         intervals(runs)
         shares(runs)
+        stiff(lab)
     cost(lab)
     others(lab)
     progress(f"charts and tables: {GALLERY}")
