@@ -500,54 +500,65 @@ void EquilibratedStress::set_data(const unsigned int index, double *const r) con
   add_column(3, times(1, times_xi), both, times(1, force_xi));
 }
 
-/** `matrix' r` for r of each hat function, n_rows each. */
-std::vector<double> EquilibratedStress::on_hats(const Batch &batch,
-                                                const std::vector<double> &matrix,
-                                                const unsigned int n_data,
-                                                const unsigned int n_rows) const
+/** Appends `matrix' r` for each hat function of some cells, from r for each of the bilinear functions. */
+void EquilibratedStress::add_to_hats(const std::vector<unsigned int> &some_cells,
+                                     const std::vector<double> &matrix,
+                                     const std::vector<double> &r,
+                                     std::vector<double> &result) const
 {
-  const unsigned int n_columns = n_bilinear * batch.cells.size();
-  std::vector<double> products(std::size_t(n_rows) * n_columns),
-      result(std::size_t(n_rows) * batch.n_hats);
-  multiply('T', 'N', n_rows, n_columns, n_data, 1., {matrix.data(), n_data},
-           {batch.r.data(), n_data}, 0., products.data(), n_rows);
+  const unsigned int n_columns = n_bilinear * some_cells.size(), n_data = r.size() / n_columns,
+                     n_rows = matrix.size() / n_data;
+  std::vector<double> products(std::size_t(n_rows) * n_columns);
+  multiply('T', 'N', n_rows, n_columns, n_data, 1., {matrix.data(), n_data}, {r.data(), n_data}, 0.,
+           products.data(), n_rows);
   const double *product = products.data();
-  double *target = result.data();
-  for (const unsigned int index : batch.cells)
+  for (const unsigned int index : some_cells)
   {
     for (const VertexPatches::Hat &hat : vertex_patches.cells()[index].hats)
     {
       const std::array<double, n_bilinear> c = bilinear(hat.values);
       for (unsigned int i = 0; i < n_rows; ++i)
-        target[i] = c[0] * product[i] + c[1] * product[n_rows + i] +
-                    c[2] * product[2 * n_rows + i] + c[3] * product[3 * n_rows + i];
-      target += n_rows;
+        result.push_back(c[0] * product[i] + c[1] * product[n_rows + i] +
+                         c[2] * product[2 * n_rows + i] + c[3] * product[3 * n_rows + i]);
     }
     product += std::size_t(n_bilinear) * n_rows;
   }
-  return result;
 }
 
+/** Some cells at a time: what they need on the way stays in the cache. */
 void EquilibratedStress::set_data()
 {
+  constexpr unsigned int at_once = 64;
+  std::vector<unsigned int> some_cells;
+  std::vector<double> r;
   for (auto &[element, batch] : batches)
   {
-    const unsigned int n = element->n_data;
-    batch.r.resize(std::size_t(n) * n_bilinear * batch.cells.size());
-    for (const unsigned int index : batch.cells)
-      set_data(index, &batch.r[std::size_t(n) * n_bilinear * cells[index].place]);
-    batch.gradients = on_hats(batch, element->edge_energy(), n, element->n_edges);
-    batch.defects = on_hats(batch, element->conditions(), n, element->n_conditions());
+    const std::size_t n = element->n_data, column = n * n_bilinear;
+    batch.r.reserve(n * batch.cells.size());
+    batch.gradients.reserve(std::size_t(element->n_edges) * batch.n_hats);
+    batch.defects.reserve(std::size_t(element->n_conditions()) * batch.n_hats);
+    for (unsigned int first = 0; first < batch.cells.size(); first += at_once)
+    {
+      const auto begin = batch.cells.begin() + first;
+      some_cells.assign(begin, begin + std::min<std::size_t>(at_once, batch.cells.end() - begin));
+      r.resize(column * some_cells.size());
+      for (unsigned int k = 0; k < some_cells.size(); ++k)
+      {
+        set_data(some_cells[k], &r[column * k]);
+        batch.r.insert(batch.r.end(), &r[column * k], &r[column * k] + n);
+      }
+      add_to_hats(some_cells, element->edge_energy(), r, batch.gradients);
+      add_to_hats(some_cells, element->conditions(), r, batch.defects);
+    }
   }
 }
 
-/** Of sigma with divergence -F, in the column of psi = 1. */
+/** Of sigma with divergence -F. */
 void EquilibratedStress::set_own_data(const unsigned int index)
 {
   const Cell &cell = cells[index];
   const std::size_t n = cell.element->n_data;
-  cell.element->residual(cell.sigma, cell.force,
-                         &batches.at(cell.element).r[n * n_bilinear * cell.place]);
+  cell.element->residual(cell.sigma, cell.force, &batches.at(cell.element).r[n * cell.place]);
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigned int hat) const
@@ -641,8 +652,7 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int index) const
 {
   const Cell &cell = cells[index];
   const StressElement &element = *cell.element;
-  const double *const column =
-      &batches.at(&element).r[std::size_t(element.n_data) * n_bilinear * cell.place];
+  const double *const column = &batches.at(&element).r[std::size_t(element.n_data) * cell.place];
   std::vector<double> r(column, column + element.n_data);
   add_tractions(index, traction_energy(element), &r[element.n_divergence]);
   return r;

@@ -83,12 +83,12 @@ private:
   /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
   static constexpr unsigned int n_bilinear = 4;
 
-  /** All data of the cells of one element, r for psi each of the bilinear functions. */
+  /** All data of the cells of one element. */
   struct Batch
   {
     std::vector<unsigned int> cells;
     unsigned int n_hats = 0;
-    std::vector<double> r;
+    std::vector<double> r;                  ///< for psi = 1, by cell
     std::vector<double> gradients, defects; ///< G r and N' r by hat function
   };
 
@@ -107,8 +107,8 @@ private:
   void set_own_data(unsigned int cell);
   void set_force(unsigned int cell);
   void set_data(unsigned int cell, double *r) const;
-  std::vector<double> on_hats(const Batch &batch, const std::vector<double> &matrix,
-                              unsigned int n_data, unsigned int n_rows) const;
+  void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
+                   const std::vector<double> &r, std::vector<double> &result) const;
   void solve_patches();
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
   void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;
