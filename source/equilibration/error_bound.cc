@@ -154,7 +154,6 @@ std::optional<Solution<2>> moved(const Solution<2> &solution,
   u += solution.u;
   return Solution<2>(solution.scene, solution.spaces, u, solution.z);
 }
-
 } // namespace
 
 std::vector<double> ErrorBound::indicators() const
@@ -226,8 +225,8 @@ ErrorBounds::stress_of_mixed_problem(const Solution<2> &solution,
 }
 
 // A few steps of an hp-method bring degrees and cells that do not lock. So both stresses are made as soon as half
-// of the cells have a degree of 4 or more, until that of $u_N$ is at most a tenth farther from it; then that one alone, at half the cost, unless it has
-// not come nearer since the step before.
+// of the cells have a degree of 4 or more, until that of $u_N$ is less than a tenth farther from
+// $\sigma(u_N)$ than the other; then it alone, unless it has not come nearer since the step before.
 std::unique_ptr<const ErrorBounds::AdmissibleStress>
 ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2> &discretisation,
                             std::unique_ptr<LinearSolver> factor, double &own_stress)

@@ -22,7 +22,8 @@ namespace hpvi
  * alone would be of first order in u_Nt where the body sticks and u_Nt oscillates.
  *
  * Here w is in V_N. Where stick and slip, or contact and gap, share an edge, no polynomial of V_N has one sign and is near
- * zero on a part of it: there EdgeBubbles of four degrees more, eight near incompressibility, are added. The end of slip or contact may also be on the first
+ * zero on a part of it: there EdgeBubbles of four degrees more, eight near
+ * incompressibility, are added. The end of slip or contact may also be on the first
  * face that sticks or presses. w_t = u_Nt on the other faces that stick, w_n = u_Nn - u_0 on those that press, and elsewhere w
  * is one of these, whichever gives least: it has the least energy; or it makes `2 gap + |w|_a^2` least while u_Nt - w_t
  * keeps the direction of slip on faces with both stick and slip and on slipping ones nearby, and u_Nn - w_n stays
