@@ -189,8 +189,8 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
     if (!face.condition->has_pressure())
       continue;
     // With nodes the bounds of Coulomb's law could turn negative between them.
-    face.at_nodes = scene.solver.normal_contact == NormalContact::nodes &&
-                    !face.condition->friction.coefficient;
+    face.at_nodes =
+        scene.normal_contact() == NormalContact::nodes && !face.condition->friction.coefficient;
     if (face.at_nodes)
       number_nodes(face, displacement_space, tables);
     else

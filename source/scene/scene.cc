@@ -119,7 +119,6 @@ Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell
   {
     adaptivity.method = Method::hap2;
     adaptivity.start_degree = own_start_degree(Method::hap2);
-    solver.normal_contact = NormalContact::multiplier;
   }
 }
 
@@ -242,6 +241,15 @@ bool Scene<dim>::has_unilateral_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &b) { return b.is_unilateral(); });
+}
+
+template <int dim>
+NormalContact Scene<dim>::normal_contact() const
+{
+  if (solver.normal_contact != NormalContact::automatic)
+    return solver.normal_contact;
+  const bool has_nodes = dim == 2 && solver.path != SolutionPath::primal && !has_coulomb_friction();
+  return has_nodes ? NormalContact::nodes : NormalContact::multiplier;
 }
 
 template <int dim>

@@ -778,7 +778,7 @@ void check_adaptivity(const Scene<2> &scene)
 bool needs_multiplier(const Scene<2> &scene, const BoundaryCondition<2> &boundary)
 {
   return boundary.has_contact() && (!boundary.is_unilateral() || boundary.friction ||
-                                    scene.solver.normal_contact == NormalContact::multiplier);
+                                    scene.normal_contact() == NormalContact::multiplier);
 }
 
 void check_multiplier_degree(const Scene<2> &scene, const SceneUse use)

@@ -149,7 +149,7 @@ void add_method_entries(std::vector<Entry> &entries)
         "large indicator. pu: raise p everywhere. hpa1: bisect the first cells by indicator, raise "
         "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
         "the same where the indicator exceeds a share of the largest."},
-       {section, "Smoothness reading", "plain", one_of(reading_names), "plain or joint",
+       {section, "Smoothness reading", "joint", one_of(reading_names), "plain or joint",
         "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
         "the "
         "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
@@ -245,10 +245,13 @@ void add_program_entries(std::vector<Entry> &entries)
         "contact closes sticks, and warn where another equilibrium is found. Costs about as much "
         "as solving every step without a warm start: the time for the multipliers doubles at "
         "least. That nothing is found is no proof."},
-       {"Solver", "Normal contact", "nodes", one_of(normal_contact_names), "multiplier or nodes",
+       {"Solver", "Normal contact", "automatic", one_of(normal_contact_names),
+        "automatic, nodes or multiplier",
         "How unilateral contact is discretised. multiplier: a pressure >= 0 at the Gauss points of "
         "each edge, of the same degree as the friction. nodes: u_n <= u_0 at its Gauss-Lobatto "
-        "points, the thesis's set; not in space and not with Path = primal."},
+        "points, the thesis's set; not in space, with Path = primal or Coulomb friction. "
+        "automatic: "
+        "nodes where they are offered, else multiplier; scene.prm says which."},
        {"Solver", "Multiplier degree offset", "-2", matching(Patterns::Integer(-20, 4)),
         "an integer from -20 to -1, best -2",
         "The multiplier has degree p + offset on a contact edge of degree p. -2, the thesis's, and "
@@ -329,8 +332,8 @@ void take_to_space(std::vector<Entry> &entries)
   change("Geometry/Graded towards", "",
          Patterns::List(point, 0, Patterns::List::max_int_value, ";"),
          "points \"x, y, z; x, y, z; ...\" or nothing");
-  change("Solver/Normal contact", "multiplier",
-         Patterns::Selection(joined(normal_contact_names, "|")), "multiplier");
+  change("Solver/Normal contact", "automatic",
+         Patterns::Selection(joined(normal_contact_names, "|")), "automatic or multiplier");
   change("Adaptivity/Method", "hap2", Patterns::Selection(joined(method_names, "|")),
          "hup2, hup3, hup4, hap2, hap3 or hap4");
 }

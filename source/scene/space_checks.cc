@@ -334,7 +334,7 @@ void check_primal_path(const Scene<dim> &scene)
       reject(scene, section, "Friction coefficient",
              "is Coulomb's law, which " + why + " does not offer; give Friction bound, Tresca's");
   }
-  if (scene.has_unilateral_contact() && scene.solver.normal_contact == NormalContact::nodes)
+  if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",
            "is not offered by " + why + ", whose pressures are multipliers; set multiplier",
            "nodes");

@@ -199,7 +199,7 @@ inline void expect_equilibrium(const Solution<2> &solution, const Vector<double>
   forces -= loads;
   if (const unsigned int n = solution.z.size())
   {
-    const ContactOracle oracle(*solution.spaces, solution.scene.solver.normal_contact);
+    const ContactOracle oracle(*solution.spaces, solution.scene.normal_contact());
     Vector<double> contact(forces.size());
     ASSERT_EQ(oracle.B.m(), n);
     oracle.B.Tvmult(contact, solution.z);
@@ -221,7 +221,7 @@ inline void expect_equilibrium(const Solution<2> &solution, const Vector<double>
  */
 inline void expect_complementary(const Solution<2> &solution)
 {
-  const ContactOracle oracle(*solution.spaces, solution.scene.solver.normal_contact);
+  const ContactOracle oracle(*solution.spaces, solution.scene.normal_contact());
   const Vector<double> means = oracle.means(solution.u), &z = solution.z;
   double length = solution.u.linfty_norm();
   for (unsigned int i = 0; i < z.size(); ++i)

@@ -173,7 +173,7 @@ TEST(PartialSlip, FallsExponentiallyToItsClosedForm)
 double pressure_at_held_corners(const Solution<2> &solution)
 {
   double sum = 0;
-  if (solution.scene.solver.normal_contact == NormalContact::nodes)
+  if (solution.scene.normal_contact() == NormalContact::nodes)
     for (const ContactFace<2> &face : solution.contact_space.faces())
       if (face.condition->is_unilateral())
         for (const double s : {0., 1.})

@@ -46,7 +46,8 @@ enum class Contact
 enum class NormalContact
 {
   multiplier, ///< in the moments of a multiplier lambda_n >= 0 of degree p + offset
-  nodes       ///< at the Gauss-Lobatto points of each edge, the thesis's set (3.67)
+  nodes,      ///< at the Gauss-Lobatto points of each edge, the thesis's set (3.67)
+  automatic   ///< nodes where they are offered, see Scene::normal_contact()
 };
 
 /** What resists sliding on a contact boundary. */
@@ -131,7 +132,7 @@ unsigned int own_start_degree(Method method);
 struct Adaptivity
 {
   Method method = Method::hpa3;
-  SmoothnessReading reading = SmoothnessReading::plain;
+  SmoothnessReading reading = SmoothnessReading::joint;
   Indicator indicator = Indicator::bound; ///< what marks; the residual where there is no bound
   unsigned int start_degree = 3;    ///< p >= -offset of the multiplier at the contact boundary
   unsigned int maximum_degree = 12; ///< cells of this degree are bisected where p would rise
@@ -146,6 +147,7 @@ struct Adaptivity
   unsigned int maximum_unknowns = 1000000; ///< no step is started after one with more dofs_free
   double maximum_seconds = 0;              ///< no step is started after this time; 0: no limit
   double tolerance = 0;                    ///< stop where the relative error falls below; 0: never
+  bool is_default_tolerance = false; ///< the file named no limit: its reader chose the tolerance
   Indicator tolerance_on =
       Indicator::bound; ///< as this knows it; the residual where none is guaranteed
 };
@@ -183,7 +185,7 @@ struct SolverSettings
   double qp_tolerance = 1e-12;                      ///< |g^P| <= tolerance * max(|d|, |S z_0|)
   unsigned int qp_maximum_multiplications = 100000; ///< more products with S: exit status 2
   bool diagonal_scaling = true;
-  NormalContact normal_contact = NormalContact::nodes; ///< but for Coulomb friction: multiplier
+  NormalContact normal_contact = NormalContact::automatic;
   CoulombMethod coulomb_method = CoulombMethod::newton;
   bool check_uniqueness = false; ///< of Coulomb friction: solve from another start, too
   int multiplier_offset = -2;    ///< the multiplier has degree p_K + offset on a contact edge
@@ -191,9 +193,17 @@ struct SolverSettings
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
 };
 
+/** Of which steps the files with their number in the name are written. */
+enum class OutputSteps
+{
+  all,
+  last ///< the one that ends the run; of a load history that of each load step
+};
+
 /** Which files are written besides the tables. */
 struct OutputSettings
 {
+  OutputSteps steps = OutputSteps::all;
   bool vtu = true;
   bool mesh_picture = true;
   bool contact = true;
@@ -233,6 +243,16 @@ enum class SceneUse
 };
 
 /**
+ * Magnitudes of what a scene prescribes, its loads and displacements: what is below round-off of them
+ * is zero. In a load history those of all load steps so far.
+ */
+struct DataScale
+{
+  double stress = 0; ///< of tractions, body forces times the size of the body, friction bounds
+  double displacement = 0; ///< of prescribed displacements, gaps and past slip [length]
+};
+
+/**
  * One problem and how to solve it: plain data, built by code or by read_scene(). Later stages take
  * it by const reference.
  */
@@ -262,6 +282,7 @@ struct Scene
   SolverSettings solver;
   OutputSettings output;
   Loading<dim> loading;
+  DataScale past_data; ///< of the load steps before this one; zero without a history
 
   /** The file, for messages and scene.prm; null: the scene was built by code. */
   std::shared_ptr<const Parameters> parameters;
@@ -302,6 +323,8 @@ struct Scene
   bool has_friction() const;       ///< does any contact boundary name a bound or a coefficient?
   bool has_coulomb_friction() const;
   bool has_unilateral_contact() const;
+  /** What SolverSettings::normal_contact asks for; automatic: nodes, but multiplier for Coulomb's law and on the primal path. */
+  NormalContact normal_contact() const;
   /** Why no ErrorBound is guaranteed, in words; empty where one is. */
   std::string no_error_bound() const;
 

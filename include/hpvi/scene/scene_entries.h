@@ -26,9 +26,10 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       plane_names = {"stress", "strain"},
                                       contact_names = {"none", "bilateral", "unilateral",
                                                        "tangential"},
-                                      normal_contact_names = {"multiplier", "nodes"},
+                                      normal_contact_names = {"multiplier", "nodes", "automatic"},
                                       coulomb_method_names = {"newton", "fixed point"},
                                       load_adaptivity_names = {"first step", "every step"},
+                                      output_steps_names = {"all", "last"},
                                       path_names = {"auto", "reduced", "primal"},
                                       linear_names = {"amg", "direct"};
 
