@@ -103,6 +103,72 @@ std::string with_time(const std::map<std::string, double> &constants)
   return t == constants.end() ? "" : " with t = " + to_string(t->second);
 }
 
+/** The sign of comparison that begins at @p i; empty where none does. */
+std::string comparison_at(const std::string &text, const std::size_t i)
+{
+  for (const char *const sign : {"<=", ">=", "==", "!=", "<", ">"})
+    if (text.compare(i, std::strlen(sign), sign) == 0)
+      return sign;
+  return {};
+}
+
+/** Comparisons in a row, between parentheses or signs that bind less: a < b, or a < b < c. */
+struct Comparisons
+{
+  std::size_t begin = 0; ///< of the operand that is being read
+  std::vector<std::string> operands, signs;
+
+  void add(const std::string &text, const std::size_t end)
+  {
+    operands.push_back(printable(Utilities::trim(text.substr(begin, end - begin))));
+  }
+
+  /** As x > 0.4 && x < 0.6 for 0.4 < x < 0.6: what stands in the middle comes first. */
+  std::string one_by_one() const
+  {
+    const std::string &first = signs[0];
+    const std::string turned = (first[0] == '<'   ? ">"
+                                : first[0] == '>' ? "<"
+                                                  : first.substr(0, 1)) +
+                               first.substr(1);
+    std::string result = operands[1] + " " + turned + " " + operands[0];
+    for (std::size_t k = 1; k < signs.size(); ++k)
+      result += " && " + operands[k] + " " + signs[k] + " " + operands[k + 1];
+    return result;
+  }
+};
+
+/** The first chain of comparisons in @p text, one by one; empty where there is none. */
+std::string unchained(const std::string &text)
+{
+  std::vector<Comparisons> levels(1); // of parentheses
+  for (std::size_t i = 0; i <= text.size(); ++i)
+  {
+    Comparisons &level = levels.back();
+    const char c = i < text.size() ? text[i] : ')';
+    if (const std::string sign = comparison_at(text, i); !sign.empty())
+    {
+      level.add(text, i);
+      level.signs.push_back(sign);
+      i += sign.size() - 1;
+      level.begin = i + 1;
+    }
+    else if (c == '(')
+      levels.push_back({i + 1, {}, {}});
+    else if (std::strchr("&|?:,)", c) != nullptr)
+    {
+      level.add(text, i);
+      if (level.signs.size() > 1)
+        return level.one_by_one();
+      if (c == ')' && levels.size() > 1)
+        levels.pop_back();
+      else
+        level = {i + 1, {}, {}};
+    }
+  }
+  return {};
+}
+
 bool is_absent(const std::string &text, const std::string &absent)
 {
   double value;
@@ -167,11 +233,13 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   if (is_number(text, value))
     return std::make_shared<Functions::ConstantFunction<dim>>(value);
   check_misreadings(section, name, text);
-  const std::string problem = objection(text);
+  // Without spaces deal.II's operators & and | are read in their place.
+  const std::string spaced = std::regex_replace(text, std::regex("&&|\\|\\|"), " $& ");
+  const std::string problem = objection(spaced);
   if (!problem.empty())
     parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
   const auto function = std::make_shared<FunctionParser<dim>>(1);
-  function->initialize(FunctionParser<dim>::default_variable_names(), text, constants);
+  function->initialize(FunctionParser<dim>::default_variable_names(), spaced, constants);
   const Expression result = finite<dim>(function, parameters.place(section, name),
                                         "\"" + printable(text) + "\"" + with_time(constants));
   for (const Point<dim> &point : points)
@@ -251,6 +319,12 @@ void ExpressionReader<dim>::check_misreadings(const std::string &section, const 
                             "\" assigns a value; write the expression alone, and == "
                             "to compare");
   }
+  // "0.4 < x < 0.6" would compare the 0 or 1 of 0.4 < x with 0.6
+  if (const std::string remedy = unchained(text); !remedy.empty())
+    parameters.reject(section, name,
+                      "\"" + printable(text) +
+                          "\" compares the 0 or 1 of one comparison with a number; write " +
+                          remedy);
 }
 
 template class ExpressionReader<2>;

@@ -162,6 +162,12 @@ invalid "Boundary left/Traction = 1" "1 component(s) instead of 2" "';'" -- "Bou
 invalid "Boundary left/Traction = 1, 0" "1 component(s) instead of 2" "';'" -- "Boundary left/Traction=1, 0"
 invalid "Boundary left/Traction = ; 1" "empty component" "write 0" -- "Boundary left/Traction=; 1"
 invalid "Boundary left/Traction = 1,5; 0" "comma" "'.'" -- "Boundary left/Traction=1,5; 0"
+invalid "(0.4 < y < 0.6) ? -1 : 0" "write y > 0.4 && y < 0.6" -- "Boundary left/Traction=(0.4 < y < 0.6) ? -1 : 0; 0"
+invalid "write y >= 0.4 && y <= 0.6" -- "Boundary left/Traction=-(0.4<=y<=0.6); 0"
+invalid "write y < 3 && y > x && x != 2" -- "Boundary left/Traction=if(3>y>x != 2, 1, 0); 0"
+invalid "write (x + y) > sin(x) && (x + y) == 3" -- "Boundary left/Traction=0; y < 1 || sin(x) < (x + y) == 3 ? 1 : 2"
+invalid "write 2 != 1 && 2 < y" -- "Boundary left/Traction=0; 3*(x < 1 ? 4 : (1 != 2 < y))"
+invalid "Friction bound" "write x > 1 && x < 2" -- "Boundary bottom/Friction bound=1 < x < 2"
 invalid "Boundary left/Traction = y=3; 0" "assigns" "==" -- "Boundary left/Traction=y=3; 0"
 invalid "Boundary left/Traction = 1/y; 0" "not finite at (0, 0)" "finite everywhere" -- "Boundary left/Traction=1/y; 0"
 invalid "Boundary left/Traction = 0; log(y-4)" "not finite at (0, 0)" -- "Boundary left/Traction=0; log(y-4)"
@@ -400,6 +406,7 @@ valid() { # WHAT ENTRY=VALUE...
   "$hpvi" --validate "$scenes/base.prm" "${arguments[@]}" >"$scratch/stdout" 2>"$scratch/stderr" ||
     complain "base.prm" "$what is rejected"
 }
+valid "one comparison at a time" "Boundary left/Traction=(y>1)*(y<=2); if(y<1 && y>0.5||y==3&&x!=2, y < 2 ? 1 : y < 3, (x>0)==(y>0))"
 valid "contact that opens" "${open[@]}" "Boundary bottom/Gap=if(abs(x)<=1, 0, x/8)"
 valid "interference beside a free edge" "${open[@]}" "Boundary bottom/Gap=0.01*(x - 3)"
 valid "contact without multiplier of degree 1" "${open[@]}" "Boundary bottom/Friction bound=" "Adaptivity/Start degree=1"
