@@ -44,8 +44,10 @@ void Parameters::in_section(const std::string &section, const Action &action)
     prm.leave_subsection();
 }
 
-Parameters::Parameters(std::vector<Entry> all_entries, const std::string &file)
-    : entries(std::move(all_entries)), file(file), shown(printable(file, 400))
+Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Hint> all_hints,
+                       const std::string &file)
+    : entries(std::move(all_entries)), hints(std::move(all_hints)), file(file),
+      shown(printable(file, 400))
 {
   for (const Entry &entry : entries)
     in_section(entry.section,
@@ -177,8 +179,7 @@ const Entry *Parameters::known_entry(const Assignment &assignment) const
                   [&](const Entry &e) { return e.section == assignment.section; });
   if (!section_known)
     fail(assignment.where, assignment.section,
-         "is an unknown subsection; the nearest known one is \"" +
-             nearest_section(assignment.section) + "\"");
+         "is an unknown subsection; " + instead_of_section(assignment.section));
   if (assignment.name.empty())
     return nullptr;
   for (const Entry &entry : entries)
@@ -186,28 +187,116 @@ const Entry *Parameters::known_entry(const Assignment &assignment) const
       return &entry;
   const Entry written{assignment.section, assignment.name, "", nullptr, "", ""};
   fail(assignment.where, written.path() + " = " + assignment.value,
-       "is an unknown entry; the nearest known one is \"" + nearest_entry(written) + "\"");
+       "is an unknown entry; " + instead_of_entry(assignment.section, assignment.name));
 }
 
-std::string Parameters::nearest_section(const std::string &section) const
+// ---------------------------------------------------------------- remedies for unknown names
+
+namespace
 {
-  const auto cost = [&](const Entry &entry)
-  { return entry.section.empty() ? 1000 : edit_distance(entry.section, section); };
-  return std::min_element(entries.begin(), entries.end(),
-                          [&](const Entry &a, const Entry &b) { return cost(a) < cost(b); })
-      ->section;
+std::string quoted(const std::string &name)
+{
+  return "\"" + name + "\"";
 }
 
-/** A name that stands in the wrong section costs no more than one more letter. */
-std::string Parameters::nearest_entry(const Entry &written) const
+/** a, b @p conjunction c. */
+std::string listed(const std::vector<std::string> &names, const std::string &conjunction)
 {
-  const auto cost = [&](const Entry &entry)
-  {
-    return 2 * edit_distance(entry.name, written.name) + (entry.section == written.section ? 0 : 1);
-  };
-  return std::min_element(entries.begin(), entries.end(),
-                          [&](const Entry &a, const Entry &b) { return cost(a) < cost(b); })
-      ->path();
+  std::string result;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    result += (k == 0 ? "" : k + 1 == names.size() ? " " + conjunction + " " : ", ") + names[k];
+  return result;
+}
+
+/** May @p written be a slip of the pen for @p known? Word by word, for "Boundary low" is not meant for "Boundary top". */
+bool is_near(const std::string &written, const std::string &known)
+{
+  const unsigned int distance = edit_distance(written, known);
+  if (distance <= 1)
+    return known.size() > 2;
+  const std::vector<std::string> a = Utilities::split_string_list(written, ' '),
+                                 b = Utilities::split_string_list(known, ' ');
+  if (distance > 3 || a.size() != b.size())
+    return false;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (3 * edit_distance(a[k], b[k]) > std::max(a[k].size(), b[k].size()))
+      return false;
+  return true;
+}
+
+/** The one of @p names that @p written may be meant for; empty: none. */
+std::string nearest(const std::string &written, const std::vector<std::string> &names)
+{
+  std::string result;
+  for (const std::string &name : names)
+    if (is_near(written, name) &&
+        (result.empty() || edit_distance(written, name) < edit_distance(written, result)))
+      result = name;
+  return result;
+}
+} // namespace
+
+std::vector<std::string> Parameters::sections() const
+{
+  std::vector<std::string> result;
+  for (const Entry &entry : entries)
+    if (!entry.section.empty() && (result.empty() || result.back() != entry.section))
+      result.push_back(entry.section);
+  return result;
+}
+
+std::vector<std::string> Parameters::names_in(const std::string &section) const
+{
+  std::vector<std::string> result;
+  for (const Entry &entry : entries)
+    if (entry.section == section)
+      result.push_back(entry.name);
+  return result;
+}
+
+std::string Parameters::entries_called(const std::string &name) const
+{
+  std::vector<std::string> result;
+  for (const Entry &entry : entries)
+    if (lower_case(entry.name) == lower_case(name))
+      result.push_back(quoted(entry.path()));
+  return listed(result, "or");
+}
+
+std::string Parameters::hint(const std::string &word) const
+{
+  for (const Hint &hint : hints)
+    if (std::find(hint.words.begin(), hint.words.end(), lower_case(word)) != hint.words.end())
+      return hint.remedy;
+  return {};
+}
+
+std::string Parameters::instead_of_section(const std::string &section) const
+{
+  if (const std::string remedy = hint(section); !remedy.empty())
+    return remedy;
+  if (const std::string entry = entries_called(section); !entry.empty())
+    return "this is an entry: set " + entry;
+  if (const std::string near = nearest(section, sections()); !near.empty())
+    return "the nearest known one is " + quoted(near);
+  return "there are " + listed(sections(), "and");
+}
+
+std::string Parameters::instead_of_entry(const std::string &section, const std::string &name) const
+{
+  if (const std::string remedy = hint(name); !remedy.empty())
+    return remedy;
+  const std::vector<std::string> all = sections(), here = names_in(section);
+  if (const std::string near = nearest(name, here); !near.empty())
+    return "the nearest known one is " + quoted(section.empty() ? near : section + "/" + near);
+  if (std::find(all.begin(), all.end(), name) != all.end())
+    return "this is a subsection, which has " + listed(names_in(name), "and");
+  if (const std::string elsewhere = entries_called(name); !elsewhere.empty())
+    return "set " + elsewhere;
+  if (!section.empty())
+    return section + " has " + listed(here, "and");
+  return listed(here, "and") + " stand outside of subsections, all other entries in " +
+         listed(all, "or");
 }
 
 template std::vector<Point<2>> Parameters::points<2>(const std::string &,

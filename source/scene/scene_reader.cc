@@ -306,7 +306,7 @@ Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides,
                       const SceneUse use)
 {
-  const auto parameters = std::make_shared<Parameters>(scene_entries(dim), file);
+  const auto parameters = std::make_shared<Parameters>(scene_entries(dim), scene_hints(dim), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
@@ -336,7 +336,7 @@ int scene_dimension(const std::string &file,
 
 std::string default_parameters()
 {
-  return Parameters(scene_entries(2), "").print(true);
+  return Parameters(scene_entries(2), {}, "").print(true);
 }
 
 template Scene<2> read_scene(const std::string &,

@@ -87,7 +87,38 @@ invalid "Material/Yungs modulus = 3" "unknown entry" "Material/Young's modulus" 
 invalid "Adaptivity/Plane = stress" "unknown entry" "Material/Plane" -- "Adaptivity/Plane=stress"
 invalid "Method = pu" "unknown entry" "Adaptivity/Method" -- "Method=pu"
 invalid "Materail" "unknown subsection" '"Material"' -- "Materail/Plane=stress"
-invalid "Boundary front" "unknown subsection" '"Boundary ' -- "Boundary front/Traction=1; 0"
+invalid "Boundary front" "unknown subsection" '"Dimension"' -- "Boundary front/Traction=1; 0"
+
+# --- what is far from every name is answered by what people mean by it, or by all there is
+unknown() { # ENTRY WORD...
+  local entry="$1"
+  shift
+  invalid "unknown" "$@" -- "$entry=1"
+}
+unknown Material/Density '"Body force/Expression"'
+unknown Material/E "\"Material/Young's modulus\""
+unknown Material/nu "\"Material/Poisson's ratio\""
+unknown "Boundary bottom/mu" '"Boundary bottom/Friction coefficient"' "Poisson's ratio"
+unknown "Boundary bottom/Friction" '"Boundary bottom/Friction bound"'
+unknown "Boundary bottom/Coefficient" '"Boundary bottom/Friction coefficient"'
+unknown "Boundary top/Force" '"Boundary top/Traction"'
+unknown "Boundary top/PRESSURE" '"Boundary top/Traction"'
+unknown "Boundary left/Fixed" '"Boundary left/Displacement"'
+unknown 3D '"Dimension"'
+unknown Geometry/Thickness "of thickness 1"
+unknown Mesh/Size "unknown subsection" '"Geometry/Subdivisions"'
+unknown Constants/a "unknown subsection" "pi, E, nu and mu"
+unknown Gravity/g "unknown subsection" '"Body force/Expression"'
+unknown Adaptivity/Steps '"Adaptivity/Maximum steps"' '"Loading/Steps"'
+unknown Contact/Gap "unknown subsection" "this is an entry" '"Boundary bottom/Contact"'
+unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio and Plane"
+unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'
+unknown Units/Time "Loading/Steps"
+unknown Units/Mass "unknown entry; Units has Length and Stress"
+unknown "Boundary low/Traction" "unknown subsection; there are Units, Geometry," "Boundary top, Loading"
+unknown "Boundary 1/Traction" "unknown subsection; there are Units, Geometry,"
+unknown Colour "Title and Dimension stand outside of subsections" "Solver, Output or Error"
+unknown Boundary_top/Traction 'the nearest known one is "Boundary top"'
 invalid "names no entry" "Section/Entry=value" -- "Units/=mm"
 
 # --- the syntax of the file

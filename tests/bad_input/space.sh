@@ -51,9 +51,9 @@ check 1 "expression of x and y" -- "$hpvi" --validate prm/han-6-12.prm --set "Bo
 check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/slab.prm --set Dimension=2
 
 # --- what is of the plane
-invalid "Material/Plane" "unknown entry" -- "Material/Plane=stress"
+invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material/Plane=stress"
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
-invalid "Exact solution" "unknown subsection" -- "Exact solution/Solution=smooth"
+invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solution/Solution=smooth"
 
 # --- methods, laws and paths that space does not have
 for method in pu hpa1 hpa2 hpa3; do

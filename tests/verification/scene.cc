@@ -2,6 +2,7 @@
 // Scenes that are built by code: the same as from a file, and refused where they are wrong.
 #include "discretisation.h"
 
+#include <hpvi/base/text.h>
 #include <hpvi/output/output.h>
 #include <hpvi/scene/scene_entries.h>
 
@@ -123,6 +124,33 @@ TEST(SceneByCode, HasTheDefaultsOfAFile)
   {
     EXPECT_EQ(code.boundaries[b].name, file.boundaries[b].name);
     EXPECT_EQ(code.boundaries[b].contact, file.boundaries[b].contact);
+  }
+}
+
+// ---------------------------------------------------------------- words that no scene has
+
+/** What a hint tells to write is there, and what it is about is not told twice. */
+TEST(Hints, NameEntriesThatThereAre)
+{
+  for (const int dim : {2, 3})
+  {
+    std::vector<std::string> paths, words;
+    for (const Entry &entry : scene_entries(dim))
+      paths.push_back(entry.path());
+    for (const Hint &hint : scene_hints(dim))
+    {
+      words.insert(words.end(), hint.words.begin(), hint.words.end());
+      const std::regex quoted("\"([^\"]*)\"");
+      for (std::sregex_iterator it(hint.remedy.begin(), hint.remedy.end(), quoted), end; it != end;
+           ++it)
+        EXPECT_EQ(std::count(paths.begin(), paths.end(), (*it)[1]), 1) << hint.remedy;
+    }
+    EXPECT_GT(words.size(), 50U);
+    for (const std::string &word : words)
+    {
+      EXPECT_EQ(std::count(words.begin(), words.end(), word), 1) << word;
+      EXPECT_EQ(lower_case(word), word);
+    }
   }
 }
 

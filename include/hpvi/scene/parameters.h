@@ -31,6 +31,13 @@ struct Entry
   std::string objection(const std::string &value) const;
 };
 
+/** What to write in the place of names that people try first and no file has. */
+struct Hint
+{
+  std::vector<std::string> words; ///< of entries and subsections, in lower case
+  std::string remedy;             ///< completes "is unknown; ..."
+};
+
 /** @p text without what no parameter file can hold: '#', line breaks, a backslash at the end. */
 std::string storable(std::string text);
 
@@ -41,8 +48,8 @@ std::string storable(std::string text);
 class Parameters
 {
 public:
-  /** All entries have their defaults. @p file is for messages. */
-  Parameters(std::vector<Entry> entries, const std::string &file);
+  /** All entries have their defaults. @p hints and @p file are for messages. */
+  Parameters(std::vector<Entry> entries, std::vector<Hint> hints, const std::string &file);
 
   /** Take the assignments of the file, then @p overrides, pairs "Section/Entry", "value". */
   void read(const std::vector<std::pair<std::string, std::string>> &overrides);
@@ -79,10 +86,17 @@ private:
   void assign(const std::pair<std::string, std::string> &override);
   /** Null for the opening line of a known subsection. Throws where the name is unknown. */
   const Entry *known_entry(const Assignment &assignment) const;
-  std::string nearest_section(const std::string &section) const;
-  std::string nearest_entry(const Entry &written) const;
+  /** What to write instead: a hint, an entry of this name, a name that differs in few letters, or all that there are. */
+  std::string instead_of_section(const std::string &section) const;
+  std::string instead_of_entry(const std::string &section, const std::string &name) const;
+  std::string hint(const std::string &word) const; ///< empty: there is none
+  std::vector<std::string> sections() const;
+  std::vector<std::string> names_in(const std::string &section) const;
+  /** The quoted paths of all entries called @p name, "a", "b" or "c". */
+  std::string entries_called(const std::string &name) const;
 
   const std::vector<Entry> entries;
+  const std::vector<Hint> hints;
   const std::string file, shown; ///< as it is, and as messages name it
   dealii::ParameterHandler prm;
   std::map<std::string, std::string> origins;

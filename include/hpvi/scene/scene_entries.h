@@ -78,6 +78,9 @@ void for_each_value(Scene &scene, const Visitor &visit)
  * values and documentation.
  */
 std::vector<Entry> scene_entries(int dim);
+
+/** For names that are not among them: what users of other programs write first. Paths of entries stand in quotes. */
+std::vector<Hint> scene_hints(int dim);
 } // namespace hpvi
 
 #endif
