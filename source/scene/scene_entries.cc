@@ -150,9 +150,9 @@ void add_method_entries(std::vector<Entry> &entries)
         "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
         "the same where the indicator exceeds a share of the largest."},
        {section, "Smoothness reading", "joint", one_of(reading_names), "plain or joint",
-        "How hpa2 and hpa3 read the decay rate (4.81): plain: one fit per displacement component, "
-        "the "
-        "smaller slope; joint: one fit of the scaled Euclidean norm over the components."},
+        "How hpa2 and hpa3 read the decay rate (4.81): joint: one fit of the scaled Euclidean norm "
+        "over the displacement components, whatever the frame; plain: one fit per component, the "
+        "smaller slope."},
        {section, "Indicator", "bound", one_of(indicator_names), "residual or bound",
         "What marks cells. bound: their shares of the guaranteed bound (Error/Bound), or the "
         "indicator where there is none. residual: the indicator eta_K (4.50)."},

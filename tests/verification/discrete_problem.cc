@@ -828,6 +828,41 @@ TEST(Rotation, TurnsTheSolutionOfTheSquare)
   EXPECT_NEAR(estimate_error(v).total(), eta, 1e-9 * eta);
 }
 
+/** Cells and free unknowns of the last of six steps of the default method, on a block turned by @p angle and sheared. */
+std::pair<unsigned int, unsigned int> default_mesh(const double angle, Overrides overrides)
+{
+  const Block block{"", {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, angle};
+  const Tensor<1, 2> shear = block.turned(Point<2>(0.02, -0.01));
+  overrides.insert(overrides.end(),
+                   {{"Geometry/Shape", "quadrilateral"},
+                    {"Geometry/Corners", block.corner_text()},
+                    {"Geometry/Subdivisions", "2, 1"},
+                    {"Boundary top/Displacement", text(shear[0]) + "; " + text(shear[1])},
+                    {"Boundary bottom/Contact", "bilateral"},
+                    {"Boundary bottom/Friction bound", "0.005"},
+                    {"Adaptivity/Maximum steps", "6"}});
+  const Scene<2> scene = scene_of(overrides);
+  std::pair<unsigned int, unsigned int> mesh;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        const DisplacementSpace<2> &space = step.solution.displacement_space;
+        mesh = {space.degrees().size(), space.n_free_dofs()};
+      });
+  return mesh;
+}
+
+/** Of the two readings of decay rates only `joint` knows no axes. */
+TEST(Rotation, LeavesTheDefaultMeshAsItIs)
+{
+  const Overrides plain = {{"Adaptivity/Smoothness reading", "plain"}};
+  for (const double angle : {thirty_degrees, 2.5})
+  {
+    EXPECT_EQ(default_mesh(angle, {}), default_mesh(0, {})) << angle;
+    EXPECT_NE(default_mesh(angle, plain), default_mesh(0, plain)) << angle;
+  }
+}
+
 // ---------------------------------------------------------------- random hp meshes
 
 /** The largest jump of @p field over any interior edge, from values on both sides. */
