@@ -4,6 +4,7 @@
 #include <hpvi/evaluation/contact_traces.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -63,6 +64,19 @@ std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>>
   return result;
 }
 
+/** What most points between two places do, for those near a cut may still alternate: of equally many the first mode. */
+template <int dim>
+ContactMode mode_between(const std::vector<ContactPoint<dim>> &points, const Point<dim> &begin,
+                         const Point<dim> &end)
+{
+  std::array<unsigned int, 3> n_points{}; // by mode
+  for (const ContactPoint<dim> &point : points)
+    if ((point.x - begin) * (end - point.x) > 0)
+      ++n_points[static_cast<unsigned int>(point.mode())];
+  return static_cast<ContactMode>(std::max_element(n_points.begin(), n_points.end()) -
+                                  n_points.begin());
+}
+
 /** From end to end of the boundary, cut at its transitions; points and transitions follow the tangent. */
 template <int dim>
 std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Point<dim> &begin,
@@ -73,14 +87,7 @@ std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Poi
   cuts.push_back(end);
   std::vector<ContactZone<dim>> zones;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-  {
-    // Points near a cut may still alternate: the one in the middle speaks for the zone.
-    const Point<dim> middle = cuts[k] + 0.5 * (cuts[k + 1] - cuts[k]);
-    const auto &point = *std::min_element(state.points.begin(), state.points.end(),
-                                          [&](const auto &a, const auto &b)
-                                          { return a.x.distance(middle) < b.x.distance(middle); });
-    zones.push_back({point.mode(), cuts[k], cuts[k + 1]});
-  }
+    zones.push_back({mode_between(state.points, cuts[k], cuts[k + 1]), cuts[k], cuts[k + 1]});
   return zones;
 }
 
