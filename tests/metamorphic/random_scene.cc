@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "random_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace metamorphic
+{
+namespace
+{
+/** What random functions hold that is no polynomial. */
+const std::vector<std::string> transcendental = {"cos(", "exp(", "max(", "if("};
+
+/** Random numbers, choices and functions. */
+class Dice
+{
+public:
+  explicit Dice(std::mt19937 &random) : random(random)
+  {
+  }
+
+  double number(const double low, const double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+
+  bool happens(const double probability)
+  {
+    return number(0, 1) < probability;
+  }
+
+  std::string chosen(const std::vector<std::string> &choices)
+  {
+    return choices[random() % choices.size()];
+  }
+
+  /** A number of the size @p magnitude, of either sign. */
+  std::string about(const double magnitude)
+  {
+    return text(std::round(1000 * number(-1, 1)) / 1000 * magnitude);
+  }
+
+  /** A function of X and Y of that size. */
+  std::string function(const double magnitude)
+  {
+    const std::string variable = chosen({"X", "Y"});
+    switch (random() % 4)
+    {
+    case 0:
+      return about(magnitude);
+    case 1:
+      return about(magnitude) + " + " + about(magnitude) + "*" + variable;
+    case 2:
+      return about(magnitude) + " + " + about(magnitude) + "*X*Y + " + about(magnitude) + "*" +
+             variable + "^2";
+    default:
+      return about(magnitude) + "*cos(3*" + variable + ")";
+    }
+  }
+
+  /** Of one sign. */
+  std::string positive(const double magnitude)
+  {
+    const std::string size = text(magnitude * number(0.1, 1));
+    switch (random() % 5)
+    {
+    case 0:
+      return size + "*(0.2 + X^2 + Y)";
+    case 1:
+      return size + "*exp(-X - Y)";
+    case 2:
+      return happens(0.5) ? size + "*max(0, X + Y - 0.43)" : size + "*if(X + Y < 0.47, 1, 0.3)";
+    default:
+      return size;
+    }
+  }
+
+private:
+  std::mt19937 &random;
+};
+
+void choose_body(RandomScene &scene, Dice &dice)
+{
+  const double a = dice.number(0.5, 3), b = dice.number(0.5, 3);
+  scene.is_box = dice.happens(0.4);
+  const double shear = scene.is_box ? 0. : dice.number(-0.6, 0.6) * b;
+  scene.corners = {{{0, 0}, {a, 0}, {a + shear, b}, {shear, b}}};
+  if (!scene.is_box && dice.happens(0.3)) // no parallelogram
+    scene.corners[2] += Tensor<1, 2>({dice.number(-0.2, 0.2) * a, dice.number(-0.2, 0.2) * b});
+  for (unsigned int &n : scene.subdivisions)
+    n = static_cast<unsigned int>(dice.number(1, 4));
+  scene.young = std::pow(10, dice.number(-1, 2));
+  scene.poisson = dice.happens(0.1) ? 0.49 : dice.number(-0.2, 0.42);
+  scene.plane = dice.chosen({"stress", "strain"});
+}
+
+/** Bounds, gaps and loads that move the body by a hundredth of its size. */
+void choose_contact(RandomScene &scene, Side &side, const bool interferes, Dice &dice)
+{
+  side.contact = dice.chosen({"bilateral", "unilateral", "unilateral", "tangential"});
+  if (side.contact == "unilateral" && (!interferes || dice.happens(0.6)))
+    side.gap =
+        interferes && dice.happens(0.5) ? dice.function(0.01) : "0.0002 + " + dice.positive(0.02);
+  if (side.contact != "tangential" && dice.happens(0.25))
+    side.coefficient = dice.happens(0.7) ? text(dice.number(0.05, 0.4)) : "0.1 + 0.2*X*Y";
+  else if (side.contact == "tangential" || dice.happens(0.8))
+    side.bound = dice.positive(0.02 * scene.young * std::pow(10, dice.number(-1, 0.5)));
+}
+
+void choose_loads(RandomScene &scene, Dice &dice)
+{
+  for (Side &side : scene.sides)
+    if (side.displacement[0].empty() && side.displacement[1].empty() && side.contact.empty() &&
+        dice.happens(0.5))
+      side.traction = {{dice.function(0.01 * scene.young), dice.function(0.01 * scene.young)}};
+  if (dice.happens(0.3))
+    scene.body_force = {{dice.function(0.01 * scene.young), dice.function(0.01 * scene.young)}};
+}
+
+/** One, two or no side but the contact's holds the body. */
+void choose_sides(RandomScene &scene, Dice &dice)
+{
+  const unsigned int kind = dice.number(0, 6);
+  choose_contact(scene, scene.sides[0], kind < 2, dice);
+  switch (kind)
+  {
+  case 0: // pressed from above
+  case 1:
+    scene.sides[2].displacement = {
+        {dice.function(0.02), // tilted: a symmetric scene ties cells, and its mesh is not unique
+         "-0.02*(" + text(dice.number(0, 1)) + " + 0.2*X + " + dice.positive(1) + ")"}};
+    break;
+  case 2: // held beside it
+    scene.sides[1].displacement = {{"0", "0"}};
+    break;
+  case 3: // moved beside it, away from the corner
+    scene.sides[1].displacement = {
+        {"0.02*Y*(" + dice.function(1) + ")", "-0.02*Y*(" + dice.positive(1) + ")"}};
+    break;
+  case 4: // between two planes
+    choose_contact(scene, scene.sides[3], false, dice);
+    scene.sides[2].displacement = {
+        {"0.02*X*(" + dice.function(1) + ")", "0.02*X*(" + dice.function(1) + ")"}};
+    if (scene.sides[3].coefficient.empty() != scene.sides[0].coefficient.empty())
+      scene.sides[3] = {};
+    break;
+  default:
+    if (scene.is_box && dice.happens(0.5)) // one component
+      scene.sides[2].displacement = {
+          {dice.happens(0.5) ? "" : dice.function(0.02), "-0.01*(1 + 0.2*X)"}};
+    else // by contact alone
+      scene.sides[2].traction = {{text(dice.number(-0.001, 0.001) * scene.young),
+                                  text(-0.01 * scene.young) + "*(1 + 0.1*X)"}};
+  }
+  choose_loads(scene, dice);
+}
+
+void choose_method(RandomScene &scene, Dice &dice)
+{
+  auto &settings = scene.settings;
+  settings["Adaptivity/Method"] =
+      dice.chosen({"hup2", "hup3", "hap2", "hap3", "pu", "hpa1", "hpa2", "hpa3"});
+  settings["Adaptivity/Smoothness reading"] = "joint";
+  settings["Adaptivity/Indicator"] = "residual";
+  settings["Adaptivity/Start degree"] = "0";
+  settings["Adaptivity/Maximum steps"] = dice.chosen({"1", "2", "3"});
+  settings["Adaptivity/Maximum unknowns"] = "400";
+  settings["Adaptivity/Tolerance"] = "0";
+  settings["Solver/Path"] = "reduced";
+  settings["Solver/Coulomb solver"] = "newton";
+  settings["Solver/QP solver"] = dice.chosen({"active set", "mprgp"});
+  settings["Solver/Multiplier degree offset"] = "-2";
+  settings["Solver/Normal contact"] =
+      scene.has(&Side::coefficient) ? "multiplier" : dice.chosen({"nodes", "multiplier"});
+}
+
+/** The file, with sections and entries in an order of their own. */
+std::string written(std::vector<Section> sections, const unsigned int order)
+{
+  if (order > 0)
+  {
+    std::mt19937 random(order);
+    std::shuffle(sections.begin(), sections.end(), random);
+    for (auto &section : sections)
+      std::shuffle(section.second.begin(), section.second.end(), random);
+  }
+  std::string result = "set Dimension = 2\n";
+  for (const auto &[name, entries] : sections)
+  {
+    if (entries.empty())
+      continue;
+    result += "subsection " + name + "\n";
+    for (const auto &[entry, value] : entries)
+      result += "  set " + entry + " = " + value + "\n";
+    result += "end\n";
+  }
+  return result;
+}
+
+/** A vector of the body in the axes of the frame; components that are not given are @p missing. */
+std::string vector_text(const std::array<std::string, 2> &components, const Frame &frame,
+                        const double factor, const std::string &missing)
+{
+  std::string result;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    std::string sum;
+    for (unsigned int j = 0; j < 2; ++j)
+      if (frame.Q[c][j] != 0. && !components[j].empty())
+        sum += (sum.empty() ? "" : " + ") + frame.function(components[j], factor * frame.Q[c][j]);
+    result += (c == 0 ? "" : "; ") + (sum.empty() ? missing : sum);
+  }
+  return result;
+}
+
+bool is_given(const std::array<std::string, 2> &components)
+{
+  return !components[0].empty() || !components[1].empty();
+}
+} // namespace
+
+RandomScene::RandomScene(std::mt19937 &random)
+{
+  Dice dice(random);
+  choose_body(*this, dice);
+  choose_sides(*this, dice);
+  choose_method(*this, dice);
+  if (dice.happens(0.15)) // a load that comes and turns around
+  {
+    settings["Loading/Steps"] = dice.chosen({"2", "3"});
+    settings["Loading/Adapt"] = dice.chosen({"first step", "every step"});
+    for (Side &side : sides)
+      for (auto *components : {&side.displacement, &side.traction})
+        for (std::string &component : *components)
+          if (!component.empty() && component != "0")
+            component = "(" + component + ")*sin(4*t)";
+  }
+}
+
+Frame RandomScene::own_frame() const
+{
+  Frame frame;
+  frame.writes_box = is_box;
+  frame.origin = corners[0];
+  for (unsigned int d = 0; d < 2; ++d)
+  {
+    frame.edges[d][0] = corners[1][d] - corners[0][d];
+    frame.edges[d][1] = corners[3][d] - corners[0][d];
+  }
+  return frame;
+}
+
+bool RandomScene::needs_axes() const
+{
+  return std::any_of(sides.begin(), sides.end(),
+                     [](const Side &side)
+                     { return side.displacement[0].empty() != side.displacement[1].empty(); });
+}
+
+bool RandomScene::is_held() const
+{
+  return std::any_of(sides.begin(), sides.end(),
+                     [](const Side &side)
+                     { return !side.displacement[0].empty() && !side.displacement[1].empty(); });
+}
+
+bool RandomScene::has_polynomial_data() const
+{
+  const std::string all = text(own_frame());
+  return std::all_of(transcendental.begin(), transcendental.end(),
+                     [&](const std::string &word) { return all.find(word) == std::string::npos; });
+}
+
+bool RandomScene::has(std::string Side::*const entry) const
+{
+  return std::any_of(sides.begin(), sides.end(),
+                     [&](const Side &side) { return !(side.*entry).empty(); });
+}
+
+Section RandomScene::geometry(const Frame &frame) const
+{
+  using metamorphic::text;
+  const auto corner = [&](const unsigned int k)
+  {
+    const Point<2> x = frame.point(corners[frame.corner(k)]);
+    return text(x[0]) + ", " + text(x[1]);
+  };
+  const bool is_across = frame.side(0) % 2 == 1;
+  Section section{"Geometry",
+                  {{"Subdivisions", std::to_string(subdivisions[is_across ? 1 : 0]) + ", " +
+                                        std::to_string(subdivisions[is_across ? 0 : 1])},
+                   {"Shape", frame.writes_box ? "box" : "quadrilateral"}}};
+  if (frame.writes_box)
+  {
+    section.second.emplace_back("Lower corner", corner(0));
+    section.second.emplace_back("Upper corner", corner(2));
+  }
+  else
+    section.second.emplace_back("Corners",
+                                corner(0) + "; " + corner(1) + "; " + corner(2) + "; " + corner(3));
+  return section;
+}
+
+Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
+{
+  const std::array<std::string, 4> names = {{"bottom", "right", "top", "left"}};
+  const Side &side = sides[frame.side(k)];
+  const double u = frame.amplitude * frame.length, traction = frame.amplitude * frame.stress;
+  Section section{"Boundary " + names[k], {}};
+  const auto add = [&](const std::string &entry, const std::string &value)
+  {
+    if (!value.empty())
+      section.second.emplace_back(entry, value);
+  };
+  if (is_given(side.displacement))
+    add("Displacement", vector_text(side.displacement, frame, u, "free"));
+  if (is_given(side.traction))
+    add("Traction", vector_text(side.traction, frame, traction, "0"));
+  add("Contact", side.contact);
+  add("Gap", frame.function(side.gap, u));
+  add("Friction bound", frame.function(side.bound, traction));
+  add("Friction coefficient", frame.function(side.coefficient, 1));
+  return section;
+}
+
+std::string RandomScene::text(const Frame &frame) const
+{
+  using metamorphic::text;
+  std::vector<Section> sections = {geometry(frame),
+                                   {"Material",
+                                    {{"Young's modulus", text(young * frame.stress)},
+                                     {"Poisson's ratio", text(poisson)},
+                                     {"Plane", plane}}}};
+  if (is_given(body_force))
+    sections.push_back(
+        {"Body force",
+         {{"Expression",
+           vector_text(body_force, frame, frame.amplitude * frame.stress / frame.length, "0")}}});
+  for (unsigned int k = 0; k < 4; ++k)
+    sections.push_back(boundary(k, frame));
+  for (const auto &[path, value] : settings)
+  {
+    const std::string section = path.substr(0, path.find('/'));
+    if (sections.back().first != section)
+      sections.push_back({section, {}});
+    sections.back().second.emplace_back(path.substr(path.find('/') + 1), value);
+  }
+  return written(sections, frame.order);
+}
+} // namespace metamorphic

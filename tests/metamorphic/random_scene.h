@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_metamorphic_random_scene_h
+#define hpvi_metamorphic_random_scene_h
+
+#include "frame.h"
+
+#include <array>
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace metamorphic
+{
+/** What a side says; functions of X and Y in [0,1], the coordinates along sides 0 and 3; empty: nothing. */
+struct Side
+{
+  std::array<std::string, 2> displacement, traction; ///< in the axes of the body
+  std::string contact, gap, bound, coefficient;
+};
+
+/** Its name, its entries with their values. */
+using Section = std::pair<std::string, std::vector<std::pair<std::string, std::string>>>;
+
+/** A problem without a frame, and how it is solved. */
+struct RandomScene
+{
+  explicit RandomScene(std::mt19937 &random);
+
+  /** The scene as a file, told in @p frame. */
+  std::string text(const Frame &frame) const;
+
+  /** The frame of the body itself: all others start from it. */
+  Frame own_frame() const;
+
+  bool needs_axes() const; ///< is one component prescribed, and the other not?
+  bool is_held() const;    ///< without its contact
+  bool has_polynomial_data() const;
+  bool has(std::string Side::*entry) const;
+
+  bool is_box = false;
+  std::array<Point<2>, 4> corners; ///< counterclockwise, side k from corner k to corner k+1
+  std::array<unsigned int, 2> subdivisions{}; ///< of sides 0 and 2, of sides 1 and 3
+  double young = 1, poisson = 0.3;
+  std::string plane;
+  std::array<std::string, 2> body_force;
+  std::array<Side, 4> sides;
+  std::map<std::string, std::string> settings; ///< entries "Section/Name" that no frame changes
+
+private:
+  Section geometry(const Frame &frame) const;
+  Section boundary(unsigned int k, const Frame &frame) const; ///< side k as the frame counts them
+};
+} // namespace metamorphic
+
+#endif
