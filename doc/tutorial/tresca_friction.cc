@@ -127,12 +127,12 @@ void Mprgp::split(const Vector<double> &z, const Vector<double> &r)
 
 // The projection on a box acts on each component for itself. It also puts a component that
 // round-off left a hair inside its wall on the wall: the comparisons in <code>split()</code> are
-// for equality.
+// for equality. A hair is small beside $z$: walls may be zero or infinite.
 void Mprgp::project(Vector<double> &z) const
 {
+  const double hair = 1e-14 * z.linfty_norm();
   for (unsigned int i = 0; i < z.size(); ++i)
   {
-    const double hair = 1e-14 * (upper[i] - lower[i]);
     if (z[i] < lower[i] + hair)
       z[i] = lower[i];
     if (z[i] > upper[i] - hair)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Build the tutorial program as a user does, and compare it with hpvi on the same meshes.
+"""Build the tutorial program as a user does, and compare it with hpvi on the same meshes; also with the
+exercise done that lets the block lift off, which asks for walls at zero and at infinity.
 
 energy.py HPVI TUTORIAL SCENE.prm CMAKE GENERATOR
 """
@@ -8,6 +9,7 @@ import csv
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,6 +20,56 @@ TOLERANCE = 1e-10
 # A column of the tutorial's table and that of convergence.csv.
 COLUMNS = {"cells": "elements", "dofs": "dofs_free", "multipliers": "multipliers",
            "lagrangian": "lagrangian", "energy": "energy"}
+
+
+# The exercise: a second argument lets the block lift off. What is inserted, and before which line.
+EXERCISE = {
+    "/** The traction on the left edge. */": "bool lifts = false;\n",
+    "  VectorTools::interpolate_boundary_values(dof_handler, Problem::bottom,": "  if (!Problem::lifts)\n",
+    "// @sect3{Solving}": """void Block::assemble_pressure()
+{
+  const QGauss<1> quadrature(degree);
+  const auto psi = Polynomials::generate_complete_Lagrange_basis(multiplier_points.get_points());
+  const FEValuesExtractors::Scalar upward(1);
+  Vector<double> row(fe.n_dofs_per_cell());
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  for_each_contact_edge(quadrature, update_values | update_JxW_values,
+                        [&](const unsigned int, const auto &cell, const FEFaceValues<2> &values)
+                        {
+                          cell->get_dof_indices(dofs);
+                          for (const auto &psi_i : psi)
+                          {
+                            row = 0;
+                            for (const unsigned int q : values.quadrature_point_indices())
+                              for (unsigned int j = 0; j < row.size(); ++j)
+                                row[j] -= psi_i.value(quadrature.point(q)[0]) *
+                                          values[upward].value(j, q) * values.JxW(q);
+                            B.emplace_back(dof_handler.n_dofs());
+                            constraints.distribute_local_to_global(row, dofs, B.back());
+                          }
+                        });
+}
+
+""",
+    "  void solve();": "  void assemble_pressure();\n",
+    "  steps = Mprgp(S, d, lower, upper)": """  for (unsigned int i = n / 2; Problem::lifts && i < n; ++i)
+  {
+    lower[i] = 0.;
+    upper[i] = std::numeric_limits<double>::infinity();
+  }
+""",
+    "    solve();": "    if (Problem::lifts)\n      assemble_pressure();\n",
+    "    const int degree = argc": "    TrescaFriction::Problem::lifts = argc > 2;\n",
+}
+
+
+def do_exercise(source):
+    text = source.read_text()
+    for line, inserted in EXERCISE.items():
+        if text.count(line) != 1:
+            sys.exit(f"{source.name}: not one line begins {line!r}")
+        text = text.replace(line, inserted + line)
+    source.write_text(text)
 
 
 def run(*command, **options):
@@ -33,15 +85,15 @@ def table(text):
     return [dict(zip(header, row)) for row in rows]
 
 
-def full_program(directory, degree, n_meshes):
-    run(HPVI, "--output", directory, "--set", f"Adaptivity/Method=hup{degree}", "--set",
-        f"Adaptivity/Maximum steps={n_meshes}", "--set", "Error/Bound=false", SCENE)
+def full_program(directory, degree, n_meshes, *settings):
+    settings = [f"Adaptivity/Method=hup{degree}", f"Adaptivity/Maximum steps={n_meshes}", "Error/Bound=false", *settings]
+    run(HPVI, "--output", directory, *(word for setting in settings for word in ("--set", setting)), SCENE)
     with open(directory / "convergence.csv") as file:
         return list(csv.DictReader(file))
 
 
-def compare(directory, rows, degree):
-    reference = full_program(directory / f"hpvi-{degree}", degree, len(rows))
+def compare(directory, rows, degree, *settings):
+    reference = full_program(directory / f"hpvi-{degree}-{len(settings)}", degree, len(rows), *settings)
     if len(rows) != 4 or len(reference) != len(rows):
         sys.exit(f"{len(rows)} meshes, {len(reference)} of hpvi")
     for row, other in zip(rows, reference):
@@ -81,7 +133,9 @@ def main():
         sys.exit(f"tresca_friction.cc has {n_lines} lines, more than 600")
     with tempfile.TemporaryDirectory() as scratch:
         directory = pathlib.Path(scratch)
-        run(CMAKE, "-S", TUTORIAL, "-B", directory, "-G", GENERATOR,
+        shutil.copytree(TUTORIAL, directory / "source")
+        do_exercise(directory / "source/tresca_friction.cc")
+        run(CMAKE, "-S", directory / "source", "-B", directory, "-G", GENERATOR,
             "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
         run(CMAKE, "--build", directory)
         for degree in (2, 4, 3):
@@ -90,6 +144,8 @@ def main():
             compare(directory, rows, degree)
         check_contact(directory)
         check_readme(rows)
+        rows = table(run(directory / "tresca_friction", 3, "lifts", cwd=directory))
+        compare(directory, rows, 3, "Boundary bottom/Contact=unilateral", "Solver/Normal contact=multiplier")
 
 
 if __name__ == "__main__":
