@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run every scene of prm/ and draw what it ends with: doc/gallery/SCENE.png.
+"""Run every scene of prm/ and draw what it ends with: doc/gallery/SCENE.png. Scenes of others are drawn into DIR.
 
 gallery.py --program build/hpvi --output DIR [SCENE.prm...]
 """
@@ -62,16 +62,22 @@ def draw_foundation(axes, run):
     return "friction on the bottom, from above"
 
 
-def draw(scene, run):
+def folder(scene, output):
+    """Pictures of the shipped scenes are part of the manual, those of others are not."""
+    return GALLERY if scene.resolve().parent == ROOT / "prm" else output
+
+
+def draw(scene, run, output):
     figure, axes = plt.subplots(figsize=(3.6, 2.7), constrained_layout=True)
     is_flat = "z" not in read_csv(run.last("contact", "csv"))[0]
     note = (draw_body if is_flat else draw_foundation)(axes, run)
     axes.set_axis_off()
     axes.set_title(scene.stem + (f"\n{note}" if note else ""), fontsize=8)
-    GALLERY.mkdir(exist_ok=True)
-    figure.savefig(GALLERY / f"{scene.stem}.png", dpi=110, metadata={"Software": None})
+    picture = folder(scene, output) / f"{scene.stem}.png"
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(picture, dpi=110, metadata={"Software": None})
     plt.close(figure)
-    print(f"  {scene.stem}.png", flush=True)
+    print(f"  {picture}", flush=True)
 
 
 def main():
@@ -81,7 +87,7 @@ def main():
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
     for scene in options.scenes or sorted((ROOT / "prm").glob("*.prm")):
-        draw(scene, solve(options.program.resolve(), scene, options.output))
+        draw(scene, solve(options.program.resolve(), scene, options.output), options.output)
 
 
 if __name__ == "__main__":
