@@ -143,17 +143,17 @@ def compare(title, method, pair):
 
 
 def intervals(runs):
-    """J(u_N) and J(u_N) - energy_bound close on the least energy."""
+    """energy_low and energy_high close on the least energy."""
     figure, panels = chart(2, "Both ends of the interval that holds the least energy J(u)",
                            width=10)
     for axes, problem in zip(panels, ("han-6-12", "han-6-13")):
         run = runs[problem, "hpa3", "bound"]
-        N, J, width = (run.column(c) for c in ("dofs_free", "energy", "energy_bound"))
-        lower, upper = (J - width).max(), J.min()
+        N, high, low = (run.column(c) for c in ("dofs_free", "energy_high", "energy_low"))
+        lower, upper = low.max(), high.min()
         centre = (lower + upper) / 2
-        ends = (J - centre) / abs(centre), (J - width - centre) / abs(centre)
+        ends = (high - centre) / abs(centre), (low - centre) / abs(centre)
         axes.fill_between(N, *ends, color=COLOURS[6], alpha=0.3, linewidth=0)
-        for values, marker, label in zip(ends, "v^", ("J(u_N)", "J(u_N) - energy_bound")):
+        for values, marker, label in zip(ends, "v^", ("energy_high", "energy_low")):
             axes.plot(N, values, marker + "-", color=COLOURS[0 if marker == "v" else 1],
                       markersize=4, label=label)
         axes.set_xscale("log")

@@ -56,6 +56,15 @@ double distance_from_admissible(const ContactCorrection<2> &correction, const Da
   return std::sqrt(square);
 }
 
+/** A = (sum_K (eta_K + O_K)^2)^{1/2}: each cell pays for its own loads. */
+double stress_and_oscillation(const EquilibratedStress &stress, const DataError &data)
+{
+  double square = 0;
+  for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
+    square += std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2);
+  return std::sqrt(square);
+}
+
 // @sect3{By cell}
 //
 // A bound is one number, but its square is a sum over cells: a second indicator to mark by, without
@@ -74,8 +83,10 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 
 // @sect3{In the energy norm}
 //
-// The general form, with $O$ for the oscillation of loads and $d$ for displacements outside the
-// space: $O + (\eta^2 + 2\,\mathrm{gap} + (b + O)^2)^{1/2}$ with $b \ge |d - w|_a$.
+// Two proofs, two numbers, of which the smaller one is taken. With $O$ for the oscillation of loads
+// and $b \ge |d - w|_a$ the first is $O + (\eta^2 + 2\,\mathrm{gap} + (b + O)^2)^{1/2}$, the smaller one
+// where $w$ counts. The second, $(A + b)/2 + ((A + b)^2/4 + \mathrm{gap} + A b)^{1/2}$ with
+// $A^2 = \sum_K (\eta_K + O_K)^2$, counts oscillation and gap once.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                const ContactCorrection<2> &correction, const DataError &data)
 {
@@ -87,14 +98,16 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
       data.oscillation.begin(), data.oscillation.end(), data.oscillation.begin(), 0.));
   result.data = data.lift;
   const double b = distance_from_admissible(correction, data);
-  result.total =
-      result.oscillation + std::sqrt(eta_square + 2 * gap + std::pow(b + result.oscillation, 2));
+  const double A = stress_and_oscillation(stress, data);
+  result.total = std::min(result.oscillation +
+                              std::sqrt(eta_square + 2 * gap + std::pow(b + result.oscillation, 2)),
+                          (A + b) / 2 + std::sqrt(std::pow(A + b, 2) / 4 + gap + A * b));
 }
 
 /** Of U = u_N - w + d; w, in V_N, is none but where u_N may penetrate. */
 void set_energy(ErrorBound &result, const Solution<2> &solution,
-                const Discretisation<2> &discretisation, const ContactCorrection<2> &correction,
-                const DataError &data)
+                const Discretisation<2> &discretisation, const EquilibratedStress &stress,
+                const ContactCorrection<2> &correction, const DataError &data)
 {
   const bool is_moved = solution.scene.has_unilateral_contact();
   const double w = is_moved ? norm(correction) : 0.,
@@ -107,7 +120,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
     v *= -1.;
     change = energy_change(solution, discretisation, v);
   }
-  result.energy = std::pow(result.stress + b + result.oscillation, 2) / 2 + gap;
+  result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift;
@@ -268,11 +281,11 @@ try
   set_norms(result, stress, correction, data);
   if (solution.scene.has_unilateral_contact())
     set_energy(
-        result, solution, discretisation,
+        result, solution, discretisation, stress,
         ContactCorrection<2>(solution, discretisation, made->friction, made->pressure, nullptr),
         data);
   else
-    set_energy(result, solution, discretisation, correction, data);
+    set_energy(result, solution, discretisation, stress, correction, data);
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, stress, correction, data);
   return result;

@@ -9,7 +9,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from runs import PROGRAM, RunTest, read_vtu
+from runs import PROGRAM, SCENES, RunTest, read_vtu
 
 SVG = "{http://www.w3.org/2000/svg}"
 STEPS = 4
@@ -144,6 +144,8 @@ class Adaptive(RunTest):
             self.assertLess(abs(seconds - sum(float(row["seconds_" + stage]) for row in rows)),
                             1e-4 * seconds + 1e-12)
         self.assertNotIn("message", summary)
+        self.assertEqual(summary["error_bound"]["energy"],
+                         [float(rows[-1][end]) for end in ("energy_low", "energy_high")])
 
     def check_printed(self):
         self.assertRegex(self.printed[0], r"^hpvi \S+ \(\w+ build\), deal.II \S+$")
@@ -166,6 +168,18 @@ class Adaptive(RunTest):
         self.assertEqual(self.printed[-1], f"results in {self.out}")
         for warning in self.summary()["warnings"]:
             self.assertIn("warning: " + warning, self.printed)
+
+
+class Intervals(RunTest):
+    def test_that_of_each_step_holds_the_least_energy(self):
+        """Where u_N penetrates J(u_N) may be below the least energy; the interval is about another displacement."""
+        for scene in ("han-6-12", "han-6-12-unilateral", "resting"):
+            self.run_scene("Adaptivity/Maximum steps=6", scene=SCENES / f"{scene}.prm")
+            ends = [(float(row["energy_low"]), float(row["energy_high"])) for row in self.rows()]
+            self.assertEqual(len(ends), 6)
+            low, high = max(low for low, _ in ends), min(high for _, high in ends)
+            self.assertLessEqual(low, high, scene)
+            self.assertLess(high - low, 0.02 * (ends[0][1] - ends[0][0]), scene)
 
 
 if __name__ == "__main__":

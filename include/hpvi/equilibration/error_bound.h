@@ -17,14 +17,15 @@ namespace hpvi
  * stress s in equilibrium, friction -g lam*, |lam*| <= 1, along the contact, and a pressure pi >= 0 where that
  * is unilateral,
  *
- *     |u - u_N|_a <= O + (eta^2 + 2 gap(u_N - w) + (b + O)^2)^{1/2},     b^2 = sum_K (|w|_K + |d|_K)^2,
+ *     |u - u_N|_a <= min{O + (eta^2 + 2 gap + (b + O)^2)^{1/2}, (A + b)/2 + ((A + b)^2/4 + gap + A b)^{1/2}},
+ *     gap = gap(u_N - w),   b^2 = sum_K (|w|_K + |d|_K)^2,   A^2 = sum_K (eta_K + O_K)^2,
  *     eta = |s - sigma(u_N)| in energy,   gap(v) = int g (|v_t| - lam* v_t) + int pi (u_0 - v_n),
  *
  * w from ContactCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. The energy
  * of an admissible displacement, U = u_N + d, or u_N - w + d where contact is unilateral, is above the least
  * one by at most
  *
- *     J(U) - J(u) <= (eta + |d|_a + O)^2/2 + gap(u_N),   or   (eta + b + O)^2/2 + gap(u_N - w).
+ *     J(U) - J(u) <= (A + |d|_a)^2/2 + gap(u_N),   or   (A + b)^2/2 + gap(u_N - w).
  *
  * Where the friction bound varies so much that no admissible friction is in balance with u_N, s is near the stress of
  * u_N + x, x the displacement by what is missing, and near incompressibility that of MixedProblem, or of u_N once
