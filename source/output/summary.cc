@@ -4,6 +4,7 @@
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/scene/scene_entries.h>
 
 namespace hpvi
 {
@@ -82,7 +83,11 @@ std::string json_head(const Scene<dim> &scene, const std::string &status,
          ",\n  \"build\": " + json_string(build_type()) +
          ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
          ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
-         ",\n    \"stress\": " + json_string(scene.stress_unit) + "\n  },\n";
+         ",\n    \"stress\": " + json_string(scene.stress_unit) + "\n  },\n  \"normal_contact\": " +
+         (scene.has_unilateral_contact()
+              ? json_string(normal_contact_names[static_cast<unsigned int>(scene.normal_contact())])
+              : "null") +
+         ",\n";
 }
 
 std::string json_tail(const StageTimes &times, const std::vector<std::string> &warnings,

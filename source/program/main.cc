@@ -259,13 +259,29 @@ void print_inf_sup(const Scene<dim> &scene)
       });
 }
 
+/** Several processes decide the path, and what follows it: Normal contact. scene.prm says both. */
+template <int dimension>
+Scene<dimension> read_scene(const CommandLine &command_line)
+{
+  const auto read = [&](const auto &overrides)
+  {
+    return read_scene<dimension>(command_line.scene_file, overrides,
+                                 command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
+  };
+  Scene<dimension> scene = read(command_line.overrides);
+  if (n_started_processes() == 1 || command_line.inf_sup ||
+      scene.solver.path != SolutionPath::automatic)
+    return scene;
+  auto overrides = command_line.overrides;
+  overrides.emplace_back("Solver/Path", "primal");
+  return read(overrides);
+}
+
 /** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
 template <int dimension>
 void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
-  const auto scene =
-      read_scene<dimension>(command_line.scene_file, command_line.overrides,
-                            command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
+  const Scene<dimension> scene = read_scene<dimension>(command_line);
   const std::string directory = command_line.output_directory.empty()
                                     ? "output/" + scene.name
                                     : command_line.output_directory;

@@ -774,6 +774,18 @@ void check_adaptivity(const Scene<2> &scene)
            text(adaptivity.hpa1_raised));
 }
 
+/** Coulomb's bounds follow the pressure, which nodes would let turn negative between them. */
+void check_normal_contact(const Scene<2> &scene)
+{
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+    if (scene.solver.normal_contact == NormalContact::nodes && boundary.is_unilateral() &&
+        boundary.friction.coefficient)
+      reject(scene, "Solver", "Normal contact",
+             "is not offered with the Friction coefficient of Boundary " + boundary.name +
+                 "; set multiplier, or automatic",
+             "nodes");
+}
+
 /** Only contact without friction that closes at nodes needs no multiplier. */
 bool needs_multiplier(const Scene<2> &scene, const BoundaryCondition<2> &boundary)
 {
@@ -885,6 +897,7 @@ void check_scene(const Scene<2> &scene, const SceneUse use)
   for_each_value(scene, CheckValue(scene));
   check_adaptivity(scene);
   check_first_step(scene);
+  check_normal_contact(scene);
   check_multiplier_degree(scene, use);
 }
 } // namespace hpvi

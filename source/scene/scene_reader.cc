@@ -252,6 +252,15 @@ void complete(Parameters &parameters, const std::string &name)
                        read_choice<Method>(parameters, "Adaptivity", "Method", method_names))));
 }
 
+/** What `automatic` is for the scene that was read, in it and for scene.prm. */
+template <int dim>
+void settle_normal_contact(Parameters &parameters, Scene<dim> &scene)
+{
+  scene.solver.normal_contact = scene.normal_contact();
+  parameters.set("Solver", "Normal contact",
+                 normal_contact_names[static_cast<unsigned int>(scene.solver.normal_contact)]);
+}
+
 /** All but the load history; @p t is its time, if there is one. */
 template <int dim>
 Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
@@ -316,6 +325,7 @@ Scene<dim> read_scene(const std::string &file,
   const Loading<dim> loading = read_loading<dim>(parameters, name);
   Scene<dim> scene =
       loading.at ? loading.at(loading.time(1)) : read_problem<dim>(parameters, name, std::nullopt);
+  settle_normal_contact(*parameters, scene);
   scene.loading = loading;
   scene.check(use);
   return scene;

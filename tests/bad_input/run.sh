@@ -277,7 +277,9 @@ invalid "Boundary top/Friction coefficient" "needs contact" -- "Boundary top/Fri
 invalid "Boundary bottom/Friction coefficient" "needs a pressure" "tangential" -- \
   "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
 invalid "Solver/Coulomb solver = anderson" "newton or fixed point" -- "Solver/Coulomb solver=anderson"
-invalid "Solver/Normal contact = penalty" "multiplier or nodes" -- "Solver/Normal contact=penalty"
+invalid "Solver/Normal contact = nodes" "Boundary bottom" "Friction coefficient" "set multiplier" -- "${open[@]}" \
+  "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Solver/Normal contact=nodes"
+invalid "Solver/Normal contact = penalty" "automatic, nodes or multiplier" -- "Solver/Normal contact=penalty"
 invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Boundary bottom/Friction bound=" \
   "Solver/Normal contact=multiplier" "Adaptivity/Start degree=1"
 invalid "Start degree = 1" "contact" "at least 2" -- "${open[@]}" "Adaptivity/Start degree=1"

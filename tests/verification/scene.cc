@@ -510,6 +510,41 @@ TEST(SceneByCode, HasNoGapUnlessItSaysSo)
   EXPECT_EQ(shipped_scene("partial-slip").boundaries[2].contact, Contact::tangential);
 }
 
+/** What `automatic` is taken for, and that scene.prm repeats it. */
+TEST(NormalContactOf, AScene)
+{
+  using Kind = NormalContact;
+  const Overrides opens = {{"Boundary bottom/Contact", "unilateral"}},
+                  coulomb = {{"Boundary bottom/Contact", "unilateral"},
+                             {"Boundary bottom/Friction bound", ""},
+                             {"Boundary bottom/Friction coefficient", "0.3"}},
+                  primal = {{"Boundary bottom/Contact", "unilateral"},
+                            {"Solver/Path", "primal"},
+                            {"Adaptivity/Method", "hap2"}},
+                  named = {{"Boundary bottom/Contact", "unilateral"},
+                           {"Solver/Normal contact", "multiplier"}};
+  for (const auto &[overrides, kind] :
+       {std::pair(opens, Kind::nodes), std::pair(coulomb, Kind::multiplier),
+        std::pair(primal, Kind::multiplier), std::pair(named, Kind::multiplier)})
+  {
+    const Scene<2> scene = shipped_scene("han-6-12", overrides);
+    EXPECT_EQ(scene.normal_contact(), kind);
+    const std::regex line(std::string("set Normal contact += ") +
+                          (kind == Kind::nodes ? "nodes" : "multiplier"));
+    EXPECT_TRUE(std::regex_search(scene.effective_parameters(), line));
+  }
+  Scene<2> code = pushed_block();
+  BoundaryCondition<2> &bottom = code.boundary("bottom");
+  bottom.contact = Contact::unilateral;
+  EXPECT_EQ(code.normal_contact(), Kind::nodes);
+  bottom.friction = {nullptr, expression<2>(0.3), nullptr};
+  EXPECT_EQ(code.normal_contact(), Kind::multiplier);
+  EXPECT_NO_THROW(code.check());
+  code.solver.normal_contact = Kind::nodes;
+  EXPECT_THROW(code.check(), InputError);
+  EXPECT_EQ(Scene<3>().normal_contact(), Kind::multiplier);
+}
+
 /** A corner may lie on the obstacle, lift from it, or be of two edges that both may open. */
 TEST(SceneByCode, MayMeetItsGapAtACorner)
 {
