@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/deformation.h>
 #include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/solver/quadratic_program.h>
 
@@ -117,20 +119,40 @@ std::string pulling_pressure(const Solution<dim> &solution,
               " % of the largest pressure; refine there");
 }
 
+/** How far u_N moves the nodes of the body, its nearest rigid motion aside. */
+template <int dim>
+double deformation(const Solution<dim> &solution)
+{
+  Deformation<dim> deformation;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    const auto &nodes = cell->get_fe().base_element(0).get_unit_support_points();
+    const std::vector<double> u = solution.coefficients(cell->active_cell_index());
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        value[c] = u[c * nodes.size() + i];
+      deformation.add(map.point(nodes[i]), value);
+    }
+  }
+  return deformation.largest();
+}
+
 /** The foundation holds the body at points or in moments only. */
 template <int dim>
 std::string penetration(const Solution<dim> &solution,
                         const std::vector<ContactState<dim>> &contact)
 {
+  const ContactState<dim> *worst = nullptr;
   for (const ContactState<dim> &state : contact)
-    if (state.deepest_penetration > 0.01 * solution.u.linfty_norm())
-      return line("the body penetrates the foundation of ",
-                  solution.scene.boundaries[state.boundary].name, " by up to ",
-                  labelled(state.deepest_penetration, solution.scene.length_unit), " at (",
-                  state.deepest_penetration_point,
-                  "), more than 1 % of the largest displacement; "
-                  "refine there, or put a vertex where Gap has a kink or a jump");
-  return {};
+    if (!worst || state.deepest_penetration > worst->deepest_penetration)
+      worst = &state;
+  if (!worst || worst->deepest_penetration == 0)
+    return {};
+  return deep_penetration(solution.scene, worst->boundary, worst->deepest_penetration,
+                          worst->deepest_penetration_point, deformation(solution));
 }
 
 template <int dim>
@@ -148,6 +170,24 @@ std::string unseen_contact(const Solution<dim> &solution)
       "more steps of an adaptive method that bisects");
 }
 
+/** The length of the longest edge of a contact boundary that @p x lies on, its vertices included; 0: none. */
+template <int dim>
+double longest_edge_at(const Point<dim> &x, const types::boundary_id boundary,
+                       const Solution<dim> &solution)
+{
+  const double hair = 1e-6;
+  double longest = 0;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  {
+    const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
+    const double s = (x - face.point(0.)) * edge / edge.norm_square();
+    if (face.condition->id == boundary && s >= -hair && s <= 1 + hair &&
+        (x - face.point(s)).norm() < hair * face.length)
+      longest = std::max(longest, face.length);
+  }
+  return longest;
+}
+
 template <int dim>
 std::string coarse_transition(const Solution<dim> &solution,
                               const std::vector<ContactState<dim>> &contact)
@@ -155,21 +195,28 @@ std::string coarse_transition(const Solution<dim> &solution,
   std::string list;
   for (const ContactState<dim> &state : contact)
     for (const Point<dim> &x : state.transitions)
-      for (const ContactFace<dim> &face : solution.contact_space.faces())
-      {
-        const Tensor<1, dim> edge = face.point(1.) - face.point(0.);
-        const double s = (x - face.point(0.)) * edge / edge.norm_square();
-        if (face.condition->id == state.boundary && s >= 0 && s < 1 &&
-            (x - face.point(s)).norm() < 1e-6 * face.length && face.length > 0.01 * state.length)
-          list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
-                       labelled(face.length, solution.scene.length_unit));
-      }
+      if (const double edge = longest_edge_at(x, state.boundary, solution);
+          edge > 0.01 * state.length)
+        list += line(list.empty() ? "" : ", ", "(", x, ") to +-",
+                     labelled(edge, solution.scene.length_unit));
   if (list.empty())
     return {};
   return (solution.scene.has_unilateral_contact() ? "zones of contact meet at "
                                                   : "stick and slip meet at ") +
          list +
          " only: more than 1 % of the contact boundary; take more steps of an adaptive method";
+}
+
+template <int dim>
+std::string open_friction(const std::vector<ContactState<dim>> &contact)
+{
+  double open = 0, all = 0;
+  for (const ContactState<dim> &state : contact)
+  {
+    open += state.open_friction;
+    all += state.absolute_friction;
+  }
+  return friction_without_contact(open, all);
 }
 
 /** Three steps in a row that bring less than a tenth each. */
@@ -413,7 +460,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
   for (const std::string &warning :
        {tensile_contact(solution, contact), overshooting_multiplier(solution),
         pulling_pressure(solution, contact), penetration(solution, contact),
-        coarse_transition(solution, contact), stagnating_estimate(history),
+        coarse_transition(solution, contact), open_friction(contact), stagnating_estimate(history),
         rising_estimate(history, solution.scene.has_unilateral_contact()), unseen_contact(solution),
         round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
         locking(solution), rich_multiplier(solution), whole_body_slips(solution, contact),
@@ -422,6 +469,27 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
     if (!warning.empty())
       result.push_back(warning);
   return result;
+}
+
+template <int dim>
+std::string deep_penetration(const Scene<dim> &scene, const types::boundary_id boundary,
+                             const double depth, const Point<dim> &where, const double deformation)
+{
+  if (!(depth > 0.01 * deformation))
+    return {};
+  return line("the body penetrates the foundation of ", scene.boundaries[boundary].name,
+              " by up to ", labelled(depth, scene.length_unit), " at (", where,
+              "), more than 1 % of the ", labelled(deformation, scene.length_unit),
+              " by which it deforms; refine there, or put a vertex where Gap has a kink or a jump");
+}
+
+std::string friction_without_contact(const double open, const double all)
+{
+  if (!(open > 0.01 * all))
+    return {};
+  return line("friction acts where contact is open: ", 100 * open / all,
+              " % of it, because Friction bound is Tresca's and knows no pressure; let it vanish "
+              "there, or take Friction coefficient");
 }
 
 std::string round_off_of_bound(const double relative, const double imbalance)
@@ -449,6 +517,10 @@ std::string several_solutions(const CoulombReport &report)
       "Friction coefficient");
 }
 
+template std::string deep_penetration(const Scene<2> &, types::boundary_id, double,
+                                      const Point<2> &, double);
+template std::string deep_penetration(const Scene<3> &, types::boundary_id, double,
+                                      const Point<3> &, double);
 template std::vector<std::string> warnings(const Solution<2> &,
                                            const std::vector<ContactState<2>> &, const History &,
                                            const AlgebraicError &);

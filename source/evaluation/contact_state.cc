@@ -87,7 +87,13 @@ std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Poi
   cuts.push_back(end);
   std::vector<ContactZone<dim>> zones;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-    zones.push_back({mode_between(state.points, cuts[k], cuts[k + 1]), cuts[k], cuts[k + 1]});
+  {
+    const ContactMode mode = mode_between(state.points, cuts[k], cuts[k + 1]);
+    if (!zones.empty() && zones.back().mode == mode) // slip that turns around is slip
+      zones.back().end = cuts[k + 1];
+    else
+      zones.push_back({mode, cuts[k], cuts[k + 1]});
+  }
   return zones;
 }
 
@@ -197,15 +203,19 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
 
 template <int dim>
 void add_friction(const ContactFace<dim> &face, const Solution<dim> &solution,
-                  ContactState<dim> &state)
+                  const double negligible, ContactState<dim> &state)
 {
   for (unsigned int i = 0; i < face.n_multipliers; ++i)
   {
+    const double s = solution.tables.gauss(face.n_multipliers).point(i)[0];
     const unsigned int unknown = face.first_multiplier + i;
     const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[unknown];
     const double force = multiplier.weight * solution.z[unknown];
     state.friction_resultant -= force;
     state.friction_force -= force * multiplier.direction;
+    state.absolute_friction += std::abs(force);
+    if (is_open(face, solution.z, s, negligible))
+      state.open_friction += std::abs(force);
   }
 }
 
@@ -253,7 +263,7 @@ std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
     for (const ContactPoint<dim> &point : points_of(face, solution, negligible))
       state.points.push_back(point);
     add_normal_traction(face, solution, state);
-    add_friction(face, solution, state);
+    add_friction(face, solution, negligible, state);
   }
   for (unsigned int k = 0; k < states.size(); ++k)
   {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/text.h>
+#include <hpvi/body/deformation.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/primal/primal_solver.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/scene/space_checks.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -35,7 +38,23 @@ double expected_bytes(const MomentSpace<dim> &space)
   return 19 * n_cells * n * n;
 }
 
-/** What in the last step asks for care, one line each; of the contact on the first process. */
+/** How far u_N moves the nodes of the body, its nearest rigid motion aside; collective. */
+template <int dim>
+double deformation(const MomentSpace<dim> &space, const DistributedVector &u)
+{
+  Deformation<dim> deformation;
+  const auto &nodes = space.tables.fe.base_element(0).get_unit_support_points();
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const CellField<dim> field = space.field(cell, u);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        deformation.add(MomentSpace<dim>::point_of(cell, nodes[i]), field[i]);
+    }
+  return deformation.largest(space.communicator());
+}
+
+/** What in the last step asks for care, one line each; collective, of the contact on the first process. */
 template <int dim>
 std::vector<std::string> warnings(const PrimalReport<dim> &step)
 {
@@ -51,14 +70,31 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
   if (step.newton.fell_back)
     result.push_back("multigrid broke down, and a sparse factorisation took its place; "
                      "Solver/Linear = direct begins with it");
-  double pull = 0, press = 0;
+  double pull = 0, press = 0, friction = 0, open = 0;
   for (const MomentPoint<dim> &point : step.contact)
+  {
+    const double force = point.area * point.bound * point.lambda.norm();
+    friction += force;
+    open += point.mode() == ContactMode::open ? force : 0.;
     if (step.space.scene.boundaries[point.boundary].contact == Contact::bilateral)
       (point.normal_traction > 0 ? pull : press) += point.area * std::abs(point.normal_traction);
+  }
   if (pull > 1e-3 * (pull + press))
     result.push_back("bilateral contact pulls with a force of " + to_string(pull) +
                      " where it presses with " + to_string(press) +
                      ": a body free to lift off needs unilateral contact");
+  const auto add = [&](const std::string &warning)
+  {
+    if (!warning.empty())
+      result.push_back(warning);
+  };
+  add(friction_without_contact(open, friction));
+  const auto deepest =
+      std::max_element(step.penetrations.begin(), step.penetrations.end(),
+                       [](const auto &a, const auto &b) { return a.depth < b.depth; });
+  if (deepest->depth > 0)
+    add(deep_penetration(step.space.scene, deepest - step.penetrations.begin(), deepest->depth,
+                         deepest->x, deformation(step.space, step.u)));
   return result;
 }
 

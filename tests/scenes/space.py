@@ -131,6 +131,27 @@ with tempfile.TemporaryDirectory() as scratch:
         assert ("newton_steps" in summary["final"]) == primal, (n, extra)
         if primal:
             assert summary["error_bound"] is None and "primal" in summary["no_error_bound"]
+        assert summary["normal_contact"] == ("multiplier" if "Boundary bottom/Contact=unilateral" in extra else None)
+
+    # What normal contact is follows the processes, and both files say so.
+    for n, taken in ((1, "nodes"), (2, "multiplier")):
+        subprocess.run([*([MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", "2"] if n == 2 else []), HPVI, "--output",
+                        str(scratch / "taken"), "prm/han-6-12.prm", "--set", "Adaptivity/Method=hap2", "--set",
+                        "Adaptivity/Maximum steps=1", "--set", "Boundary bottom/Contact=unilateral"], check=True,
+                       capture_output=True)
+        assert json.loads((scratch / "taken/summary.json").read_text())["normal_contact"] == taken
+        assert re.search(f"set Normal contact += {taken}", (scratch / "taken/scene.prm").read_text())
+
+    # A foundation with a kink inside the one cell is penetrated, wherever supports are moved along it; friction where
+    # nothing presses is warned of too.
+    for shift in (0, 100):
+        done = subprocess.run([HPVI, "--output", str(scratch / "kink"), "prm/slab.prm", "--set", "Boundary left/Traction=",
+                               "--set", "Boundary right/Displacement=", "--set", f"Boundary top/Displacement={shift}; -0.1; 0",
+                               "--set", "Boundary bottom/Contact=unilateral", "--set", "Boundary bottom/Gap=0.1*abs(x - 1.7)",
+                               "--set", "Geometry/Subdivisions=1, 1, 1", "--set", "Adaptivity/Maximum steps=1"],
+                              check=True, capture_output=True, text=True).stdout
+        assert "warning: the body penetrates the foundation of bottom by up to" in done, done
+        assert "warning: friction acts where contact is open" in done, done
 
     # A terminal hears of steps within a step.
     controller, terminal = pty.openpty()

@@ -3,6 +3,7 @@
 #include "discretisation.h"
 
 #include <hpvi/adaptivity/warnings.h>
+#include <hpvi/body/deformation.h>
 
 #include <algorithm>
 
@@ -178,5 +179,118 @@ TEST(Warnings, ABoundOfRoundOffSaysSo)
   const std::string line = round_off_of_bound(6.3e-11, 1.4e-14);
   EXPECT_NE(line.find("6.3e-11 of the solution"), std::string::npos) << line;
   EXPECT_NE(line.find("1.4e-14 of their stresses"), std::string::npos) << line;
+}
+
+// ---------------------------------------------------------------- contact
+
+/** A unit square whose top is moved by @p displacement onto what lies below; further @p entries. */
+Scene<2> pressed_square(const std::string &displacement, const Overrides &entries)
+{
+  return scene_of(with({{"Boundary top/Displacement", displacement},
+                        {"Boundary bottom/Contact", "unilateral"},
+                        {"Adaptivity/Method", "hup3"},
+                        {"Adaptivity/Maximum steps", "1"}},
+                       entries));
+}
+
+/** The foundation has a kink inside the one cell, which degree 3 cannot follow. */
+TEST(Warnings, PenetrationWhateverTheFrame)
+{
+  const Overrides kink = {{"Boundary bottom/Gap", "0.05*abs(x - 0.4)"}};
+  for (const std::string normal : {"nodes", "multiplier"})
+    for (const std::string shift : {"0", "100"}) // along the foundation
+      EXPECT_TRUE(
+          warns(pressed_square(shift + "; -0.02", with(kink, {{"Solver/Normal contact", normal}})),
+                "penetrates the foundation of bottom"))
+          << normal << shift;
+  // Turned by 0.5 about the origin and moved, supports and foundation alike.
+  EXPECT_TRUE(warns(pressed_square("3 - 0.5*y; 0.5*x - 0.02",
+                                   {{"Boundary bottom/Gap", "0.05*abs(x - 0.4) - 0.5*x"}}),
+                    "penetrates the foundation of bottom"));
+  EXPECT_FALSE(
+      warns(pressed_square("0; -0.02", {{"Boundary bottom/Gap", "0.001*x"}}), "penetrates"));
+}
+
+/** Points of a bending mode of amplitude 0.3 beside any rigid motion; in space turns about all axes. */
+TEST(Deformation, LeavesRigidMotionsAside)
+{
+  for (const double size : {1e-60, 1., 1e60})
+  {
+    Deformation<2> plane;
+    Deformation<3> space;
+    for (const double x : {-1., 0., 1.})
+      for (const double y : {-1., 1.})
+      {
+        const double bend = 0.3 * (x * x - 2. / 3) * 1.5; // 0.15 at the ends, -0.3 in the middle
+        plane.add(size * Point<2>(x + 7, y), size * Point<2>(20 - 4 * y, 5 + 4 * x + bend));
+        for (const double z : {-1., 1.})
+          space.add(size * Point<3>(x, y + 3, z),
+                    size * Point<3>(1 - 2 * y + 3 * z, 2 * x - 5 * z + bend, 9 - 3 * x + 5 * y));
+      }
+    EXPECT_NEAR(plane.largest(), 0.3 * size, 1e-12 * size);
+    EXPECT_NEAR(space.largest(), 0.3 * size, 1e-12 * size);
+  }
+  EXPECT_EQ(Deformation<2>().largest(), 0.);
+}
+
+/** Half of it acts where nothing presses: of a bound that follows the pressure, or Coulomb's, nothing does. */
+TEST(Warnings, FrictionWithoutContact)
+{
+  const Overrides fine = {{"Adaptivity/Method", "hap2"}, {"Adaptivity/Maximum steps", "6"}};
+  const auto with_friction = [&](const std::string &entry, const std::string &value)
+  {
+    return pressed_square("0.03; -0.02", with(fine, {{"Boundary bottom/Gap", "0.1*max(0, x - 0.5)"},
+                                                     {"Boundary bottom/" + entry, value}}));
+  };
+  const std::string words = "friction acts where contact is open";
+  EXPECT_TRUE(warns(with_friction("Friction bound", "0.005"), words));
+  EXPECT_FALSE(warns(with_friction("Friction bound", "0.02*max(0, 0.25 - x)"), words));
+  EXPECT_FALSE(warns(with_friction("Friction coefficient", "0.3"), words));
+  EXPECT_EQ(friction_without_contact(0.009, 1.), "");
+  EXPECT_NE(friction_without_contact(0.011, 1.).find("1.1 % of it"), std::string::npos);
+  EXPECT_EQ(friction_without_contact(0., 0.), "");
+}
+
+/** On both sides of a vertex, and where edges begin at it or end. */
+TEST(Warnings, TransitionOnAVertex)
+{
+  const Scene<2> scene = shipped_scene("han-6-12");
+  const RandomMesh mesh(scene, 1, 0);
+  const Laboratory discrete(scene, mesh);
+  const Solution<2> solution = discrete.solve();
+  std::vector<ContactState<2>> contact = contact_states(solution);
+  for (const double x : {0., 1., 1 + 1e-15, 1 - 1e-15, 2., 3., 3.5, 4.})
+  {
+    contact.at(0).transitions = {Point<2>(x, 0)};
+    unsigned int found = 0;
+    for (const std::string &line : warnings(solution, contact, History(), AlgebraicError()))
+      found += line.find("stick and slip meet at (") != std::string::npos &&
+               line.find("to +-1 mm only") != std::string::npos;
+    EXPECT_EQ(found, 1U) << x;
+  }
+}
+
+/** A block that is squeezed slips outwards on both sides of its middle. */
+TEST(Zones, AreNoTwoAlikeInARow)
+{
+  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; -0.02"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary bottom/Friction bound", "1e-5"},
+                                   {"Geometry/Subdivisions", "2, 1"},
+                                   {"Adaptivity/Method", "hup3"},
+                                   {"Adaptivity/Maximum steps", "1"}});
+  AdaptiveSolver<2>(scene).run(
+      [](const StepReport<2> &step)
+      {
+        const ContactState<2> &state = step.contact.at(0);
+        ASSERT_EQ(state.transitions.size(), 1U); // the slip turns around
+        EXPECT_NEAR(state.transitions[0][0], 0.5, 1e-12);
+        ASSERT_EQ(state.zones.size(), 1U);
+        EXPECT_EQ(state.zones[0].mode, ContactMode::slip);
+        EXPECT_NEAR(state.zones[0].begin.distance(state.zones[0].end), 1., 1e-12);
+        EXPECT_NEAR(state.absolute_friction, 1e-5, 1e-15);
+        EXPECT_NEAR(state.friction_resultant, 0., 1e-15);
+        EXPECT_EQ(state.open_friction, 0.);
+      });
 }
 } // namespace

@@ -27,6 +27,17 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
 /** Where a second start was asked for: that it led to another solution, or to none; else empty. */
 std::string several_solutions(const CoulombReport &report);
 
+/**
+ * That a body penetrates its foundation by more than 1 % of what it deforms, Deformation::largest(); else
+ * empty. Rigid motions of the whole scene do not change the verdict.
+ */
+template <int dim>
+std::string deep_penetration(const Scene<dim> &scene, dealii::types::boundary_id boundary,
+                             double depth, const dealii::Point<dim> &where, double deformation);
+
+/** That of the friction `int |T_t|`, @p all, more than 1 % acts where unilateral contact is open; else empty. */
+std::string friction_without_contact(double open, double all);
+
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; else empty. */
 std::string round_off_of_bound(double relative, double imbalance);
 } // namespace hpvi

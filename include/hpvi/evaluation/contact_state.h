@@ -69,10 +69,12 @@ struct ContactState
    * points whose states differ, along the tangent.
    */
   std::vector<dealii::Point<dim>> transitions;
-  std::vector<ContactZone<dim>> zones;   ///< between the ends of the boundary and the transitions
-  double normal_resultant = 0;           ///< int T_n [stress length^(dim-1)]
-  double friction_resultant = 0;         ///< int T_t = -int z_N, likewise
+  std::vector<ContactZone<dim>> zones; ///< between the ends of the boundary, no two alike in a row
+  double normal_resultant = 0;         ///< int T_n [stress length^(dim-1)]
+  double friction_resultant = 0;       ///< int T_t = -int z_N, likewise
   dealii::Tensor<1, dim> friction_force; ///< int T_t t, likewise
+  double absolute_friction = 0;          ///< int |T_t|, likewise
+  double open_friction = 0;              ///< that part of it where contact is open
   double tension = 0;                    ///< int max(T_n, 0), likewise
   double highest_tension = 0;            ///< max(T_n, 0) [stress]
   dealii::Point<dim> highest_tension_point;
