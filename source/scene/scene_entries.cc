@@ -130,7 +130,7 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
         "empty or 0: no friction."},
        {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
-        "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f |T_n|, instead of a bound; of "
+        "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f max(0, -T_n), instead of a bound; of "
         "unilateral "
         "or bilateral contact; empty or 0: no friction."}});
 }
@@ -239,7 +239,7 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Solver", "Coulomb solver", "newton", one_of(coulomb_method_names), "newton or fixed point",
         "newton: semismooth Newton on pressures and frictions at once, with fallbacks. fixed "
         "point: "
-        "problems of Tresca, each with the bounds mu_f |T_n| of the last, accelerated."},
+        "problems of Tresca, each with the bounds mu_f max(0, -T_n) of the last, accelerated."},
        {"Solver", "Check uniqueness", "false", boolean, yes_no,
         "Solve Coulomb friction in each step from a second start, too, where all that frictionless "
         "contact closes sticks, and warn where another equilibrium is found. Costs about as much "

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What README.md shows to a new user works: its first scene runs, in ten lines at most, all scenes of prm/ are in
-its gallery, and what it links to is there.
+"""What README.md shows to a new user works: its first scene runs, in ten lines at most, with a bound of the error and
+without a warning, and with Coulomb's friction; all scenes of prm/ are in its gallery, and what it links to is there.
 
 readme.py HPVI ROOT
 """
+import json
 import pathlib
 import re
 import subprocess
@@ -15,23 +16,35 @@ HPVI, ROOT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 README = (ROOT / "README.md").read_text()
 
 
-def check_first_scene():
-    scene = re.search(r"`first\.prm`.*?```\n(.*?)```", README, re.S)
-    if not scene:
-        sys.exit("README.md: there is no first.prm")
-    n_lines = len(scene[1].splitlines())
-    if n_lines > 10:
-        sys.exit(f"README.md: first.prm has {n_lines} lines, more than 10")
+def check_run(what, scene, has_bound):
+    """@p scene has parts that are open, stick and slip, no warning, and a guaranteed bound or none."""
     with tempfile.TemporaryDirectory() as directory:
         path = pathlib.Path(directory) / "first.prm"
-        path.write_text(scene[1])
+        path.write_text(scene)
         done = subprocess.run([HPVI, path], cwd=directory, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT)
         if done.returncode != 0:
             sys.exit(done.stdout)
         for state in ("open", "stick", "slip"):
             if not re.search(rf"^  {state} from", done.stdout, re.M):
-                sys.exit(f"README.md: first.prm has nothing that is {state}\n{done.stdout}")
+                sys.exit(f"README.md: {what} has nothing that is {state}\n{done.stdout}")
+        if "warning" in done.stdout:
+            sys.exit(f"README.md: {what} is warned of\n{done.stdout}")
+        summary = json.loads((pathlib.Path(directory) / "output/first/summary.json").read_text())
+        if (summary["error_bound"] is not None) != has_bound:
+            sys.exit(f"README.md: {what} has {'no' if has_bound else 'a'} bound of its error")
+
+
+def check_first_scene():
+    scene = re.search(r"`first\.prm`.*?```\n(.*?)```.*?```\n(subsection Boundary bottom.*?)```", README, re.S)
+    if not scene:
+        sys.exit("README.md: there is no first.prm, or none with Coulomb's friction")
+    n_lines = len(scene[1].splitlines())
+    if n_lines > 10:
+        sys.exit(f"README.md: first.prm has {n_lines} lines, more than 10")
+    check_run("first.prm", scene[1], True)
+    coulomb = re.sub(r"subsection Boundary bottom.*?\nend\n", lambda _: scene[2], scene[1], flags=re.S)
+    check_run("first.prm with Coulomb's friction", coulomb, False)
 
 
 def main():

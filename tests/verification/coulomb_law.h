@@ -19,7 +19,7 @@ struct Outcome
   double imbalance = 0;
 };
 
-/** |T_t| <= mu_f |T_n| at the points, slip against friction, u_n <= u_0 and z_n >= 0 in the moments. */
+/** |T_t| <= mu_f max(0, -T_n) at the points, slip against friction, u_n <= u_0 and z_n >= 0 in the moments. */
 inline void expect_coulomb(const Solution<2> &solution)
 {
   const auto &multipliers = solution.contact_space.multipliers();
