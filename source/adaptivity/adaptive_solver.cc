@@ -56,7 +56,9 @@ struct AdaptiveSolver<dim>::Stages
   ErrorBounds error_bounds;
   std::string no_bound; ///< why the current step has none
   std::unique_ptr<const Discretisation<dim>> discretisation;
-  std::unique_ptr<LinearSolver> kept_factor; ///< of it, for a bound that needs it once more
+  std::shared_ptr<FactoredSystem> factored;  ///< of it, or of the last load step
+  bool is_load_step = false;                 ///< then the factor stays for the next one
+  std::unique_ptr<LinearSolver> kept_factor; ///< for a bound that needs it once more
   MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
   Vector<double> motion;         ///< likewise, of the free motions of the scene
   AlgebraicError algebraic;      ///< of the current step
@@ -66,19 +68,35 @@ struct AdaptiveSolver<dim>::Stages
   std::function<void(const Progress &)> about_to = [](const Progress &) {};
 
   explicit Stages(const Scene<dim> &scene)
-      : scene(scene), tables(std::make_shared<const ShapeTables<dim>>()), elements(scene, *tables),
-        smoothness(scene.adaptivity.reading), true_error(scene)
+      : Stages(scene, std::make_shared<const ShapeTables<dim>>())
   {
-    prepare_blas();
     const auto coarse = std::make_shared<Triangulation<dim>>();
     make_mesh(scene, *coarse);
     degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
     mesh = coarse;
   }
 
+  Stages(const Scene<dim> &scene, const Start &start) : Stages(scene, start.tables)
+  {
+    mesh = start.mesh;
+    degrees = start.degrees;
+    previous = start.multiplier;
+    motion = start.motion;
+    factored = start.factored;
+    is_load_step = true;
+  }
+
+  Stages(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> all_tables)
+      : scene(scene), tables(std::move(all_tables)), elements(scene, *tables),
+        smoothness(scene.adaptivity.reading), true_error(scene)
+  {
+    prepare_blas();
+  }
+
   void begin(const std::string &stage, const std::string &note = {}) const;
   std::string dense_note() const;
   void discretise();
+  void factor();
   Solution<dim> solve(ReducedSolution &reduced);
   void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
@@ -138,20 +156,33 @@ void AdaptiveSolver<dim>::Stages::discretise()
 // stick and slip change little from mesh to mesh, and most programs then end after a few
 // factorisations. <code>IterativeRefinement</code> wraps the whole, because on deep meshes the
 // round-off of one solution is larger than the discretisation error of a well-resolved field.
+//
+// The load steps of a history that share a mesh share <code>factored</code>: prescribed values and loads
+// are in the right-hand side alone.
+template <int dim>
+void AdaptiveSolver<dim>::Stages::factor()
+{
+  const ElasticSystem<dim> &system = discretisation->system;
+  const ConditionRows &rows = discretisation->contact_rows;
+  if (factored && factored->is_of(system.A, discretisation->stabilisation(), rows))
+  {
+    factored->reduction.set_load(system.f, rows.prescribed);
+    return;
+  }
+  begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
+  factored.reset(); // there may not be room for two
+  factored = std::make_shared<FactoredSystem>(discretisation->factor(), system.f, rows);
+}
+
 template <int dim>
 Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
 {
   const ElasticSystem<dim> &system = discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
-  std::unique_ptr<LinearSolver> solver;
-  std::unique_ptr<const SchurComplement> schur_complement;
-  begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
   {
     StageTimer timer(times.factor);
-    solver = std::make_unique<LinearSolver>(discretisation->factor());
-    schur_complement =
-        std::make_unique<const SchurComplement>(*solver, system.f, discretisation->contact_rows);
+    factor();
   }
   begin(contact_space.n_multipliers() > 0
             ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
@@ -162,8 +193,9 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   if (motions)
     reduced.motion = motions->from_basis(motion);
   const Timer timer;
-  Vector<double> u = IterativeRefinement<dim>(*discretisation, elements, *solver, *schur_complement)
-                         .solve(reduced, algebraic);
+  Vector<double> u =
+      IterativeRefinement<dim>(*discretisation, elements, factored->solver, factored->reduction)
+          .solve(reduced, algebraic);
   times.qp += reduced.seconds;
   times.recover += timer.wall_time() - reduced.seconds;
   keep_start(reduced.z, motions ? motions->in_basis(reduced.motion) : Vector<double>());
@@ -171,7 +203,9 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
       (scene.is_nearly_incompressible() ||
        std::any_of(contact_space.faces().begin(), contact_space.faces().end(),
                    [](const auto &face) { return varies(face.friction); })))
-    kept_factor = std::move(solver);
+    kept_factor = std::make_unique<LinearSolver>(std::move(factored->solver));
+  if (kept_factor || !is_load_step)
+    factored.reset();
   return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
 
@@ -382,14 +416,31 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
   step.equilibrium = equilibrium(step.solution, discretisation->system);
 }
 
+namespace
+{
+/** It may have been built by code, or changed since it was read. */
 template <int dim>
-AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
+void check_one_problem(const Scene<dim> &scene)
 {
   if (scene.has_load_history())
     throw InputError(scene.origin() + ": Loading/Steps: asks for a history, of which this is one "
                                       "load step only; run it by LoadHistory, or remove it");
-  scene.check(); // it may have been built by code, or changed since it was read
+  scene.check();
+}
+} // namespace
+
+template <int dim>
+AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene)
+{
+  check_one_problem(scene);
   stages = std::make_unique<Stages>(scene);
+}
+
+template <int dim>
+AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const Start &start)
+{
+  check_one_problem(scene);
+  stages = std::make_unique<Stages>(scene, start);
 }
 
 template <int dim>
@@ -401,22 +452,17 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState &sta
 }
 
 template <int dim>
-AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const Start &start)
-    : AdaptiveSolver(scene)
-{
-  stages->mesh = start.mesh;
-  stages->degrees = start.degrees;
-  stages->previous = start.multiplier;
-  stages->motion = start.motion;
-}
-
-template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 
 template <int dim>
 typename AdaptiveSolver<dim>::Start AdaptiveSolver<dim>::end() const
 {
-  return {stages->mesh, stages->degrees, stages->previous, stages->motion};
+  const auto &discretisation = *stages->discretisation;
+  if (stages->factored)
+    stages->factored->remember(discretisation.system.A, discretisation.stabilisation(),
+                               discretisation.contact_rows);
+  return {stages->mesh,   stages->degrees, stages->previous,
+          stages->motion, stages->tables,  stages->factored};
 }
 
 template <int dim>

@@ -20,12 +20,14 @@ using namespace dealii;
 // done by BLAS.
 SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double> &f,
                                  const ConditionRows &rows)
-    : solver(solver), y(solver.forward(f)), schur_matrix(rows.n_rows()),
-      reduced_load(rows.prescribed)
+    : solver(solver), schur_matrix(rows.n_rows())
 {
   const unsigned int n_kept = rows.kept.size();
   if (n_kept == 0)
+  {
+    set_load(f, rows.prescribed);
     return;
+  }
   std::vector<unsigned int> row_of(n_kept); // of C and Y, by place in kept
   for (unsigned int k = 0; k < n_kept; ++k)
     row_of[solver.kept_order()[k]] = k;
@@ -35,7 +37,16 @@ SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double
       Y(row_of[place], i) = weight;
   solver.kept_factor().solve(Y);
   Y.Tmmult(schur_matrix, Y);
-  const Vector<double> kept(y.end() - n_kept, y.end());
+  set_load(f, rows.prescribed);
+}
+
+void SchurComplement::set_load(const Vector<double> &f, const Vector<double> &prescribed)
+{
+  y = solver.forward(f);
+  reduced_load = prescribed;
+  if (Y.m() == 0)
+    return;
+  const Vector<double> kept(y.end() - Y.m(), y.end());
   Y.Tvmult(reduced_load, kept, /*adding=*/true);
 }
 

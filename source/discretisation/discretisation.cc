@@ -81,8 +81,13 @@ Vector<double> Discretisation<dim>::displacement(const Vector<double> &x) const
 template <int dim>
 void Discretisation<dim>::factor(LinearSolver &other) const
 {
-  other.factor_again(system.A,
-                     free_motions ? free_motions->stabilisation() : std::vector<Stabilisation>());
+  other.factor_again(system.A, stabilisation());
+}
+
+template <int dim>
+std::vector<Stabilisation> Discretisation<dim>::stabilisation() const
+{
+  return free_motions ? free_motions->stabilisation() : std::vector<Stabilisation>();
 }
 
 template <int dim>
@@ -92,7 +97,7 @@ LinearSolver Discretisation<dim>::factor() const
   if (dense.n_multipliers > 0)
     require_memory(dense.bytes(), dense.name());
   return LinearSolver(system.A, contact_rows.kept, dense.n_multipliers > 0 ? dense.bytes() : 0.,
-                      free_motions ? free_motions->stabilisation() : std::vector<Stabilisation>());
+                      stabilisation());
 }
 
 template class Spaces<2>;

@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/checkpoint.h>
 #include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/step_report.h>
+#include <hpvi/algebra/factored_system.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/contact/multiplier_trace.h>
 
@@ -26,8 +27,10 @@ public:
   {
     std::shared_ptr<const dealii::Triangulation<dim>> mesh;
     Degrees degrees;
-    MultiplierTrace<dim> multiplier; ///< a guess; zero unless it is wanted
-    dealii::Vector<double> motion;   ///< likewise, of the free motions of the scene
+    MultiplierTrace<dim> multiplier;                ///< a guess; zero unless it is wanted
+    dealii::Vector<double> motion;                  ///< likewise, of the free motions of the scene
+    std::shared_ptr<const ShapeTables<dim>> tables; ///< of both
+    std::shared_ptr<FactoredSystem> factored; ///< used where the new system is the same; or null
   };
 
   /**

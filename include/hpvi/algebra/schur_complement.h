@@ -34,6 +34,9 @@ public:
   SchurComplement(const LinearSolver &solver, const dealii::Vector<double> &f,
                   const ConditionRows &rows);
 
+  /** The same A and B with another f and another prescribed part. */
+  void set_load(const dealii::Vector<double> &f, const dealii::Vector<double> &prescribed);
+
   const dealii::LAPACKFullMatrix<double> &S() const; ///< n_rows x n_rows
   const dealii::Vector<double> &d() const;           ///< n_rows
 

@@ -52,6 +52,8 @@ public:
   /** All displacements from values of the unknowns of A. */
   dealii::Vector<double> displacement(const dealii::Vector<double> &x) const;
 
+  std::vector<Stabilisation> stabilisation() const; ///< of A, where a motion is free
+
   /** A factored with the unknowns of contact_rows last, and stabilised where a motion is free. */
   LinearSolver factor() const;
 
