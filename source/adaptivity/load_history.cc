@@ -6,7 +6,9 @@
 #include <hpvi/discretisation/interpolation.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <vector>
@@ -21,6 +23,18 @@ namespace
 std::string kind(const std::string &warning)
 {
   return warning.substr(0, warning.find_first_of("(0123456789"));
+}
+
+/** The first number of a warning outside its parentheses, where places stand: how bad it is; without one 0. */
+double severity(const std::string &warning)
+{
+  unsigned int depth = 0;
+  for (std::size_t k = 0; k < warning.size(); ++k)
+    if (depth == 0 && std::isdigit(static_cast<unsigned char>(warning[k])))
+      return std::strtod(&warning[k], nullptr);
+    else
+      depth += warning[k] == '(' ? 1 : warning[k] == ')' ? -1 : 0;
+  return 0.;
 }
 
 /** The end of a load step: the mesh and the slip with which the next begins. */
@@ -43,13 +57,16 @@ struct LoadHistory<dim>::Evolution
   LoadStep load;
   unsigned int n_steps = 0; ///< of finished load steps
   double seconds = 0;       ///< likewise
-  double tolerance = 0;     ///< that the first load step with an error sets for the others
+  unsigned int first = 0;   ///< load step with an error; 0: none yet
+  double tolerance = 0;     ///< that it sets for those after it
   std::vector<std::string> warnings;
 
   explicit Evolution(const Scene<dim> &scene);
 
   void begin(unsigned int load_step);
+  bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
+  std::string reason(const std::string &stopped_by) const;
   void conclude(StepReport<dim> &report);
   void collect(StepReport<dim> &report);
   std::string place() const;
@@ -84,7 +101,7 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int load_step)
     if (boundary.has_contact() && boundary.friction)
       boundary.friction.past = std::make_shared<const TangentialTrace<dim>>(
           last.contact_space, last.displacement_space, last.tables, last.u, boundary.id);
-  if (scene.loading.adapt == LoadAdaptivity::first_step)
+  if (keeps_mesh())
     next->adaptivity.maximum_steps = 1;
   if (next->adaptivity.tolerance == 0)
   {
@@ -93,6 +110,22 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int load_step)
   }
   current = next;
   solver = std::make_unique<AdaptiveSolver<dim>>(*current, past->start);
+}
+
+/** What is exact on the coarse mesh, as no load at all, says nothing of the mesh that others need. */
+template <int dim>
+bool LoadHistory<dim>::Evolution::keeps_mesh() const
+{
+  return scene.loading.adapt == LoadAdaptivity::first_step && first > 0 && first < load.number;
+}
+
+/** Why the load step is done, where that is no limit that the scene names. */
+template <int dim>
+std::string LoadHistory<dim>::Evolution::reason(const std::string &stopped_by) const
+{
+  if (stopped_by == "Tolerance" && scene.adaptivity.tolerance == 0)
+    return "error of load step " + std::to_string(first);
+  return stopped_by == "Maximum steps" && keeps_mesh() ? "Adapt = first step" : stopped_by;
 }
 
 /** @p step, one of the load step, as one of the whole run. */
@@ -111,30 +144,43 @@ template <int dim>
 void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
 {
   const Solution<dim> &solution = report.solution;
-  const Work done = work(solution, report.system,
-                         past ? interpolate(past->solution, solution.displacement_space)
-                              : Vector<double>(solution.u.size()));
+  const Vector<double> &loads = report.system.loads();
+  const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
+                         : work_from_rest(solution, loads);
   load.work += done.external;
   load.dissipated += done.dissipated;
+  load.released += done.released;
+  load.unbalanced += done.unbalanced;
   load.stored = 0.5 * report.energies.norm * report.energies.norm;
   report.load = load;
   n_steps = report.number;
   seconds = report.seconds;
-  if (tolerance == 0 && report.stopped_by != "round-off")
+  report.stopped_by = reason(report.stopped_by);
+  if (first == 0 && report.stopped_by != "round-off")
+  {
+    first = load.number;
     tolerance = 1.2 * report.relative_estimate;
+  }
   past.emplace(Past<dim>{current, solution, solver->end()});
   collect(report);
 }
 
-/** The last load step says what there was to say of all. */
+/** The last load step says what there was to say of all, each with the numbers of the worst. */
 template <int dim>
 void LoadHistory<dim>::Evolution::collect(StepReport<dim> &report)
 {
   const bool is_last = load.number == scene.loading.steps;
   for (const std::string &warning : report.warnings)
-    if (std::none_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &known) { return kind(known) == kind(warning); }))
-      warnings.push_back(warning + " (" + place() + ")");
+  {
+    const auto known =
+        std::find_if(warnings.begin(), warnings.end(),
+                     [&](const std::string &other) { return kind(other) == kind(warning); });
+    const std::string line = warning + " (" + place() + ")";
+    if (known == warnings.end())
+      warnings.push_back(line);
+    else if (severity(warning) > severity(*known))
+      *known = line;
+  }
   if (is_last)
     report.warnings = warnings;
 }

@@ -24,9 +24,8 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   const Unknowns<dim> &unknowns,
                                   const Condensation<dim> &condensation,
                                   const ShapeTables<dim> &tables, CondensedElements<dim> &elements)
-    : f(unknowns.n()), load(space.n_dofs())
+    : f(unknowns.n()), load(load_vector(scene, space, tables))
 {
-  assemble_loads(scene, space, tables);
   Vector<double> boundary_load(load);
   if (scene.has_body_force())
     condensation.eliminate(boundary_load);
@@ -200,10 +199,10 @@ void integrate_load(const ShapeTable<dim> &table, const LocalNumbering &numberin
 } // namespace
 
 template <int dim>
-void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene,
-                                        const DisplacementSpace<dim> &space,
-                                        const ShapeTables<dim> &tables)
+Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                           const ShapeTables<dim> &tables)
 {
+  Vector<double> load(space.n_dofs());
   const bool interior_loads = scene.has_body_force();
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned() && (interior_loads || cell->at_boundary()))
@@ -236,6 +235,7 @@ void ElasticSystem<dim>::assemble_loads(const Scene<dim> &scene,
       for (unsigned int i = 0; i < local.size(); ++i)
         load[dofs[i]] += local[i];
     }
+  return load;
 }
 
 template <int dim>
@@ -252,4 +252,6 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 }
 
 template class ElasticSystem<2>;
+template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
+                                    const ShapeTables<2> &);
 } // namespace hpvi

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/discretisation/interpolation.h>
 
 #include <array>
@@ -96,5 +97,19 @@ Vector<double> interpolate(const Solution<dim> &coarse, const DisplacementSpace<
   return Interpolation<dim>(coarse, finer).run();
 }
 
+template <int dim>
+Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer)
+{
+  const Degrees &degrees = finer.displacement_space.degrees();
+  if (finer.mesh == coarse.spaces->mesh && degrees == coarse.displacement_space.degrees())
+    return coarse;
+  const auto spaces =
+      std::make_shared<const Spaces<dim>>(coarse.scene, finer.mesh, degrees, finer.tables);
+  return {coarse.scene, spaces, interpolate(coarse, spaces->displacement_space),
+          MultiplierTrace<dim>(coarse.contact_space, coarse.z)
+              .values(spaces->contact_space, *finer.tables)};
+}
+
+template Solution<2> carry(const Solution<2> &, const Spaces<2> &);
 template Vector<double> interpolate(const Solution<2> &, const DisplacementSpace<2> &);
 } // namespace hpvi

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/energies.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace hpvi
@@ -82,26 +82,81 @@ Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &syste
   return {potential + coupling, potential + friction, norm, friction - coupling};
 }
 
-template <int dim>
-Work work(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-          const Vector<double> &last)
+namespace
 {
-  Vector<double> du(solution.u);
-  du -= last;
-  Work result;
-  result.external =
-      system.work(du) + work_of_supports(solution, system, du) -
-      0.5 * internal_forces(solution.scene, solution.displacement_space, solution.tables, du)
-                .energy_product;
-  const Vector<double> moments = solution.spaces->contact_operator.moments(du);
-  for (unsigned int i = 0; i < moments.size(); ++i)
-    if (solution.contact_space.multipliers()[i].kind == ContactMultiplier<dim>::Kind::friction)
-      result.dissipated += solution.z[i] * moments[i];
-    else
-      result.external -= solution.z[i] * moments[i];
+/** u_0 in the moments of all pressures. */
+template <int dim>
+std::vector<double> gaps(const ContactSpace<dim> &contact_space)
+{
+  std::vector<double> result;
+  for (const ContactMultiplier<dim> &multiplier : contact_space.multipliers())
+    if (multiplier.kind == ContactMultiplier<dim>::Kind::pressure)
+      result.push_back(multiplier.gap);
   return result;
 }
 
-template Work work(const Solution<2> &, const ElasticSystem<2> &, const Vector<double> &);
+/** What acts in one state while the body moves by du and its foundation by du_0. */
+struct Acting
+{
+  double outside = 0;  ///< loads, supports and foundation
+  double friction = 0; ///< int z du_t
+  double pressure = 0; ///< int p d(u_n - u_0)
+  double residual = 0; ///< what has no balance
+};
+
+/** @p change of gaps(). */
+template <int dim>
+Acting acting(const Solution<dim> &state, const Vector<double> &loads, const Vector<double> &du,
+              const std::vector<double> &change)
+{
+  const ReactionWork reactions = reaction_work(state, loads, du);
+  Acting result;
+  result.outside = std::inner_product(loads.begin(), loads.end(), du.begin(), reactions.supports);
+  result.residual = -reactions.elsewhere;
+  const Vector<double> moments = state.spaces->contact_operator.moments(du);
+  auto du_0 = change.begin();
+  for (unsigned int i = 0; i < moments.size(); ++i)
+    if (state.contact_space.multipliers()[i].kind == ContactMultiplier<dim>::Kind::friction)
+      result.friction += state.z[i] * moments[i];
+    else
+    {
+      result.outside -= state.z[i] * *du_0;
+      result.pressure += state.z[i] * (moments[i] - *du_0++);
+    }
+  return result;
+}
+
+Work between(const Acting &last, const Acting &next)
+{
+  return {0.5 * (last.outside + next.outside), next.friction,
+          0.5 * (last.friction - next.friction + last.pressure + next.pressure),
+          0.5 * last.residual};
+}
+} // namespace
+
+template <int dim>
+Work work(const Solution<dim> &last, const Solution<dim> &next, const Vector<double> &loads)
+{
+  Vector<double> du(next.u);
+  du -= last.u;
+  std::vector<double> change = gaps(next.contact_space);
+  const std::vector<double> before = gaps(last.contact_space);
+  std::transform(change.begin(), change.end(), before.begin(), change.begin(), std::minus<>());
+  return between(
+      acting(last, load_vector(last.scene, last.displacement_space, last.tables), du, change),
+      acting(next, loads, du, change));
+}
+
+template <int dim>
+Work work_from_rest(const Solution<dim> &next, const Vector<double> &loads)
+{
+  std::vector<double> change = gaps(next.contact_space);
+  for (double &gap : change)
+    gap = std::min(gap, 0.);
+  return between({}, acting(next, loads, next.u, change));
+}
+
+template Work work(const Solution<2> &, const Solution<2> &, const Vector<double> &);
+template Work work_from_rest(const Solution<2> &, const Vector<double> &);
 template Energies energies(const Solution<2> &, const ElasticSystem<2> &, double);
 } // namespace hpvi

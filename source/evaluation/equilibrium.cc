@@ -5,6 +5,7 @@
 #include <hpvi/evaluation/equilibrium.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace hpvi
 {
@@ -153,12 +154,12 @@ void carry_to_masters(const AffineConstraints<double> &hanging, Vector<double> &
 }
 /** `a(u_N, v_i) + b(v_i, z_N) - L(v_i)`: what supports do, on nodes that do not hang. */
 template <int dim>
-Vector<double> support_reactions(const Solution<dim> &solution, const ElasticSystem<dim> &system)
+Vector<double> support_reactions(const Solution<dim> &solution, const Vector<double> &loads)
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ShapeTables<dim> &tables = solution.tables;
   Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
-  reactions -= system.loads();
+  reactions -= loads;
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
       reactions += solution.spaces->contact_operator.forces(solution.z, boundary.id);
@@ -171,11 +172,11 @@ Vector<double> support_reactions(const Solution<dim> &solution, const ElasticSys
 } // namespace
 
 template <int dim>
-double work_of_supports(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                        const Vector<double> &v)
+ReactionWork reaction_work(const Solution<dim> &solution, const Vector<double> &loads,
+                           const Vector<double> &v)
 {
-  const Vector<double> reactions = support_reactions(solution, system);
-  double sum = 0;
+  const Vector<double> reactions = support_reactions(solution, loads);
+  ReactionWork work;
   for (const SupportedNode<dim> &node :
        supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
   {
@@ -187,9 +188,11 @@ double work_of_supports(const Solution<dim> &solution, const ElasticSystem<dim> 
     }
     const std::vector<double> shares = node.split(force); // of what supports can exert there
     for (unsigned int k = 0; k < shares.size(); ++k)
-      sum += shares[k] * (node.conditions[k].direction * at_node);
+      work.supports += shares[k] * (node.conditions[k].direction * at_node);
   }
-  return sum;
+  work.elsewhere =
+      std::inner_product(reactions.begin(), reactions.end(), v.begin(), -work.supports);
+  return work;
 }
 
 template <int dim>
@@ -217,7 +220,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
         }
     }
 
-  const Vector<double> reactions = support_reactions(solution, system);
+  const Vector<double> reactions = support_reactions(solution, system.loads());
   for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space.numbering(), tables))
   {
     Tensor<1, dim> force;
@@ -234,6 +237,6 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
 template class Resultants<2>;
 template class Resultants<3>;
 template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &);
-template double work_of_supports(const Solution<2> &, const ElasticSystem<2> &,
-                                 const Vector<double> &);
+template ReactionWork reaction_work(const Solution<2> &, const Vector<double> &,
+                                    const Vector<double> &);
 } // namespace hpvi

@@ -21,7 +21,8 @@ std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
          ",\n    \"finished\": " + text(load.number) + ",\n    \"t\": " + text(load.t) +
          ",\n    \"dissipated_energy\": " + text(load.dissipated) +
          ",\n    \"work\": " + text(load.work) + ",\n    \"stored_energy\": " + text(load.stored) +
-         "\n  },\n";
+         ",\n    \"released_energy\": " + text(load.released) +
+         ",\n    \"unbalanced_energy\": " + text(load.unbalanced) + "\n  },\n";
 }
 } // namespace
 

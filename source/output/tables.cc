@@ -159,6 +159,8 @@ Record loading_record(const StepReport<dim> &step)
                               step.solution.scene.boundaries[state.boundary].name,
                           text(length(state, mode)));
   record.emplace_back("stopped_by", step.stopped_by);
+  record.emplace_back("released_energy", text(step.load.released));
+  record.emplace_back("unbalanced_energy", text(step.load.unbalanced));
   return record;
 }
 

@@ -7,6 +7,9 @@
 #include <hpvi/contact/tangential_trace.h>
 #include <hpvi/discretisation/interpolation.h>
 
+#include <array>
+#include <cstdio>
+
 namespace
 {
 using namespace verification;
@@ -142,13 +145,16 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
   const unsigned int steps = 24;
   const std::vector<State> states = evolution(block(path, contact, steps));
   ASSERT_EQ(states.size(), steps);
-  double dissipated = 0, slip = 0;
+  double dissipated = 0, slip = 0, work = 0, tau = 0, last_p = 0, U = 0;
   for (unsigned int k = 1; k <= steps; ++k)
   {
     const State &state = states[k - 1];
     const double t = k / double(steps), p = path.pressure(t);
     const Jenkins exact = jenkins(path, steps, k);
     dissipated += width * exact.tau * (exact.slip - slip);
+    // The support above and the pressure on it, by the trapezoidal rule; the sides cancel.
+    work += width * (tau + exact.tau) / 2 * (wave(t) - U) +
+            width * (last_p + p) / 2 * (p - last_p) / young;
     for (const ContactPoint<2> &point : state.points)
     {
       // The tangent of the bottom points to the right.
@@ -161,9 +167,14 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
     EXPECT_NEAR(state.load.dissipated, dissipated, 1e-10);
     EXPECT_NEAR(state.load.stored, width * (exact.tau * exact.tau / (2 * mu) + p * p / (2 * young)),
                 1e-10);
-    EXPECT_NEAR(state.load.work, state.load.dissipated + state.load.stored, 1e-12);
+    EXPECT_NEAR(state.load.work, work, 1e-10);
+    EXPECT_NEAR(state.load.released, work - dissipated - state.load.stored, 1e-10);
+    EXPECT_NEAR(state.load.unbalanced, 0, 1e-12);
     EXPECT_NEAR(state.slack, 0, 1e-12);
     slip = exact.slip;
+    tau = exact.tau;
+    last_p = p;
+    U = wave(t);
   }
   EXPECT_GT(dissipated, 0.3);
 }
@@ -341,6 +352,76 @@ TEST(LoadHistory, DoesNotDependOnItsRate)
   EXPECT_GT(few.back().load.dissipated, 0.1 * few.back().load.work);
 }
 
+/** Friction gives way below a support that stands still, by and by or at once: nothing outside moves. */
+TEST(LoadHistory, DoesNoWorkWhereNothingOutsideMoves)
+{
+  for (const char *const bound : {"0.1*(1.3 - t)", "if(t < 0.9, 0.1, 0)",
+                                  "if(t < 0.9 | x > 3, 0.1, 0)"}) // edges lose their multipliers
+  {
+    const std::vector<State> states =
+        evolution(bar(6, "0.03*min(2*t, 1)", {{"Boundary bottom/Friction bound", bound}}));
+    const LoadStep &moved = states[2].load, &last = states.back().load;
+    for (unsigned int k = 3; k < 6; ++k)
+      EXPECT_NEAR(states[k].load.work, moved.work, 1e-13 * moved.work) << bound;
+    EXPECT_LT(last.stored, 0.95 * moved.stored) << bound;
+    EXPECT_GT(last.released, moved.released + 0.01 * moved.stored) << bound;
+    EXPECT_NEAR(last.work, last.stored + last.dissipated + last.released, 1e-12 * last.work)
+        << bound;
+  }
+}
+
+/** Of a path that is smooth the trapezoidal rule loses dt^2, but dt where the bounds change. */
+TEST(LoadHistory, ReleasesLessTheSmallerItsSteps)
+{
+  const auto released = [](const unsigned int steps, const char *const bound)
+  {
+    const LoadStep load =
+        evolution(bar(steps, "0.03*t", {{"Boundary bottom/Friction bound", bound}})).back().load;
+    return std::abs(load.released / load.dissipated);
+  };
+  const double constant = released(10, "0.1") / released(80, "0.1"),
+               changing = released(10, "0.05*(1 + t)") / released(80, "0.05*(1 + t)");
+  EXPECT_GT(constant, 30);
+  EXPECT_GT(changing, 5);
+  EXPECT_LT(changing, 15);
+}
+
+/** A foundation that comes nearer does work; one that stands at a distance does none. */
+TEST(LoadHistory, CountsTheWorkOfMovingGaps)
+{
+  const auto pressed = [](const std::string &top, const std::string &gap, const unsigned int steps)
+  {
+    return evolution(scene_of({{"Material/Young's modulus", "3"},
+                               {"Material/Poisson's ratio", "0"},
+                               {"Boundary top/Displacement", "0; " + top},
+                               {"Boundary bottom/Contact", "unilateral"},
+                               {"Boundary bottom/Gap", gap},
+                               {"Adaptivity/Method", "hap2"},
+                               {"Adaptivity/Maximum steps", "1"},
+                               {"Loading/Steps", std::to_string(steps)}}))
+        .back()
+        .load;
+  };
+  for (const unsigned int steps : {1, 4})
+  {
+    const LoadStep lifted = pressed("0", "-0.2*t", steps);
+    EXPECT_NEAR(lifted.work, 3 * 0.2 * 0.2 / 2, 1e-12);
+    EXPECT_NEAR(lifted.stored, lifted.work, 1e-12);
+    EXPECT_NEAR(lifted.released, 0, 1e-12);
+    const LoadStep interference = pressed("0", "-0.2", steps);
+    EXPECT_NEAR(interference.work, 3 * 0.2 * 0.2 / 2, 1e-12);
+    EXPECT_NEAR(interference.released, 0, 1e-12);
+  }
+  // Half the force acts over the whole way, a quarter of which is free.
+  const LoadStep at_once = pressed("-0.2", "0.05", 1);
+  EXPECT_NEAR(at_once.work, 3 * 0.15 / 2 * 0.2, 1e-12);
+  EXPECT_NEAR(at_once.stored, 3 * 0.15 * 0.15 / 2, 1e-12);
+  EXPECT_NEAR(at_once.released, 3 * 0.15 / 2 * 0.05, 1e-12);
+  const LoadStep slowly = pressed("-0.2*t", "0.05", 4); // touches at the end of the first step
+  EXPECT_NEAR(slowly.work, 3 * 0.15 * 0.15 / 2, 1e-12);
+  EXPECT_NEAR(slowly.released, 0, 1e-12);
+}
+
 TEST(LoadHistory, BeginsEachLoadStepWithTheFrictionOfTheLast)
 {
   unsigned int multiplications[2] = {0, 0};
@@ -434,7 +515,7 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
             EXPECT_EQ(step.number, ++number);
             if (step.stopped_by.empty())
               return;
-            tolerances += step.stopped_by == "Tolerance";
+            tolerances += step.stopped_by == "error of load step 1";
             if (step.load.number == 1)
               first = step.relative_estimate;
             else
@@ -468,7 +549,114 @@ TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
                 stopped_by.push_back(step.stopped_by);
             });
     EXPECT_EQ(stopped_by,
-              (std::vector<std::string>{"round-off", "Maximum steps", "Tolerance", "Tolerance"}));
+              (std::vector<std::string>{"round-off", "Maximum steps", "error of load step 2",
+                                        "error of load step 2"}));
+  }
+}
+
+/** What is exact on the coarse mesh, as no load at all, leaves the mesh to the next load step. */
+TEST(LoadHistory, AdaptsInTheFirstLoadStepThatHasAnError)
+{
+  std::vector<std::string> stopped_by;
+  std::vector<unsigned int> elements;
+  LoadHistory<2>(bar(5, "0.03*max(0, t - 0.3)^2", {{"Adaptivity/Maximum steps", "4"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            if (step.stopped_by.empty())
+              return;
+            stopped_by.push_back(step.stopped_by);
+            elements.push_back(step.solution.displacement_space.degrees().size());
+          });
+  EXPECT_EQ(stopped_by[0], "round-off");
+  EXPECT_EQ(stopped_by[1], "Maximum steps");
+  EXPECT_EQ(elements[0], 8U);
+  EXPECT_GT(elements[1], 8U);
+  for (unsigned int k = 2; k < 5; ++k)
+  {
+    EXPECT_EQ(elements[k], elements[1]);
+    EXPECT_TRUE(stopped_by[k] == "error of load step 2" || stopped_by[k] == "Adapt = first step")
+        << stopped_by[k];
+  }
+}
+
+/** @p scene load step by load step, as LoadHistory does it, with the factor of the last one or its own. */
+std::vector<State> chain(const Scene<2> &scene, const bool keeps, unsigned int &kept)
+{
+  std::vector<State> states;
+  std::vector<std::shared_ptr<const Scene<2>>> scenes; // solutions refer to them
+  typename AdaptiveSolver<2>::Start start;
+  std::unique_ptr<AdaptiveSolver<2>> solver;
+  std::array<std::shared_ptr<const TangentialTrace<2>>, 4> past;
+  for (unsigned int k = 1; k <= scene.loading.steps; ++k)
+  {
+    auto next = std::make_shared<Scene<2>>(scene.loading.at(scene.loading.time(k)));
+    for (BoundaryCondition<2> &boundary : next->boundaries)
+      if (boundary.has_contact() && boundary.friction)
+        boundary.friction.past = past[boundary.id];
+    scenes.push_back(next);
+    if (!keeps)
+      start.factored = nullptr;
+    const auto before = start.factored;
+    solver = k == 1 ? std::make_unique<AdaptiveSolver<2>>(*next)
+                    : std::make_unique<AdaptiveSolver<2>>(*next, start);
+    solver->run(
+        [&](const StepReport<2> &step)
+        {
+          const Solution<2> &solution = step.solution;
+          states.push_back({{}, solution.u, solution.z, 0, 0, 0., 0., 0., 0., {}});
+          for (const BoundaryCondition<2> &boundary : next->boundaries)
+            if (boundary.has_contact())
+              past[boundary.id] = std::make_shared<const TangentialTrace<2>>(
+                  solution.contact_space, solution.displacement_space, solution.tables, solution.u,
+                  boundary.id);
+          start = solver->end();
+        });
+    kept += start.factored && start.factored == before;
+  }
+  return states;
+}
+
+/** Of one mesh: to the last bit what it would be with a factor of its own. */
+TEST(LoadHistory, KeepsTheFactorWhileTheMatrixStays)
+{
+  struct Case
+  {
+    Overrides entries;
+    unsigned int kept; ///< of six load steps: the second is the first to find one
+  };
+  const std::vector<Case> cases = {
+      {{}, 4},
+      {{{"Boundary bottom/Friction bound", "0.1*(1 + t)"},
+        {"Boundary top/Traction", "0; -t"},
+        {"Body force/Expression", "0; -0.1*t"}},
+       4},
+      {{{"Boundary bottom/Friction bound", "if(t < 0.6 | x > 2, 0.1, 0)"}}, 3}, // edges lose it
+      {{{"Boundary bottom/Contact", "unilateral"},
+        {"Boundary bottom/Gap", "-0.01*t"},
+        {"Boundary right/Displacement", ""}, // contact alone holds the body
+        {"Boundary right/Traction", "0.3*t; 0"},
+        {"Boundary top/Traction", "0; -0.2"}},
+       4},
+      {{{"Boundary bottom/Friction bound", ""},
+        {"Boundary bottom/Friction coefficient", "0.3"},
+        {"Boundary top/Traction", "0; -0.2"}},
+       4}};
+  for (const Case &one : cases)
+  {
+    const Scene<2> scene = bar(6, "0.03*sin(6*t)", one.entries);
+    unsigned int kept = 0, never = 0;
+    const std::vector<State> with = chain(scene, true, kept), without = chain(scene, false, never),
+                             history = evolution(scene);
+    const unsigned int which = &one - cases.data();
+    EXPECT_EQ(kept, one.kept) << which;
+    EXPECT_EQ(never, 0U);
+    for (unsigned int k = 0; k < 6; ++k)
+    {
+      EXPECT_EQ(with[k].u, without[k].u) << which << ", " << k;
+      EXPECT_EQ(with[k].z, without[k].z) << which << ", " << k;
+      EXPECT_EQ(with[k].u, history[k].u) << which << ", " << k;
+    }
   }
 }
 
@@ -531,18 +719,38 @@ TEST(LoadHistory, RemembersTheWarningsOfAllLoadSteps)
 {
   std::vector<std::string> last;
   unsigned int earlier = 0;
-  LoadHistory<2>(bar(4, "0.03*t", {{"Boundary top/Traction", "0; if(t < 0.9, 0.2, -5)"}}))
+  double worst = 0, share = 0;
+  std::string where;
+  LoadHistory<2>(
+      bar(4, "0.03*t",
+          {{"Boundary top/Traction", "0; if(t < 0.4, 0.01 - x/100, if(t < 0.9, 0.2 - x/20, -5))"}}))
       .run(
           [&](const StepReport<2> &step)
           {
             last = step.warnings;
-            earlier += mentions(step.warnings, "bilateral contact pulls") && step.load.number < 4;
+            for (const std::string &warning : step.load.number < 4 ? last : decltype(last)())
+              if (std::sscanf(warning.c_str(), "bilateral contact pulls: %lf", &share) == 1)
+              {
+                ++earlier;
+                if (share > worst)
+                {
+                  worst = share;
+                  where = "(load step " + std::to_string(step.load.number) + ",";
+                }
+              }
           });
   EXPECT_EQ(earlier, 3U);
   EXPECT_EQ(std::count_if(last.begin(), last.end(),
                           [](const std::string &warning)
                           { return warning.find("bilateral contact pulls") == 0; }),
             1);
+  for (const std::string &warning : last)
+    if (std::sscanf(warning.c_str(), "bilateral contact pulls: %lf", &share) == 1)
+    {
+      EXPECT_EQ(share, worst) << warning; // of the worst load step, which is not the first
+      EXPECT_NE(warning.find(where), std::string::npos) << warning;
+      EXPECT_EQ(warning.find("(load step 1,"), std::string::npos) << warning;
+    }
 }
 
 struct History
@@ -560,7 +768,7 @@ class Balance : public ::testing::TestWithParam<History>
 {
 };
 
-/** External work is what is stored and what friction takes, through refinement too. */
+/** External work is what is stored, dissipated and released, through refinement too. */
 TEST_P(Balance, HoldsInEachLoadStep)
 {
   Overrides entries = {
@@ -574,7 +782,9 @@ TEST_P(Balance, HoldsInEachLoadStep)
   double last = 0;
   for (const State &state : states)
   {
-    EXPECT_NEAR(state.load.work, state.load.dissipated + state.load.stored,
+    EXPECT_NEAR(state.load.work,
+                state.load.dissipated + state.load.stored + state.load.released +
+                    state.load.unbalanced,
                 1e-10 * states.back().load.work)
         << "t = " << state.load.t;
     EXPECT_GE(state.load.dissipated, last - 1e-14 * states.back().load.work);
@@ -582,6 +792,18 @@ TEST_P(Balance, HoldsInEachLoadStep)
   }
   EXPECT_GT(last, 1e-3 * states.back().load.work);
   EXPECT_GT(states.back().n_elements, states.front().n_elements);
+  EXPECT_GT(std::abs(states.back().load.unbalanced), 1e-9 * states.back().load.work);
+
+  entries.push_back({"Adaptivity/Maximum steps", "1"});
+  const std::vector<State> on_one_mesh = evolution(scene_of(entries));
+  const double all = on_one_mesh.back().load.work;
+  for (const State &state : on_one_mesh)
+  {
+    const LoadStep &load = state.load;
+    EXPECT_NEAR(load.unbalanced, 0, 1e-12 * all) << "t = " << load.t;
+    EXPECT_NEAR(load.work, load.dissipated + load.stored + load.released, 1e-11 * all)
+        << "t = " << load.t;
+  }
 }
 
 const Overrides shears = {

@@ -28,9 +28,11 @@ public:
 
   /**
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
-   * StepReport::stopped_by says of each load step why it is done. The last one has
-   * the warnings of all, those that differ in numbers alone once, with the load step that gave them first. Throws NumericalFailure and InputError, which
-   * name the load step.
+   * StepReport::stopped_by says of each load step why it is done: as AdaptiveSolver does, or "error of
+   * load step k", as small as which those after it are where the scene names no tolerance, or
+   * "Adapt = first step". The last one has the warnings of all, those that differ in numbers alone once,
+   * with the load step whose first number outside parentheses is the largest. Throws NumericalFailure
+   * and InputError, which name the load step.
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,

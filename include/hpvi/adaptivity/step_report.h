@@ -29,6 +29,8 @@ struct LoadStep
   double work = 0;       ///< the sum of Work::external [stress length^dim]
   double dissipated = 0; ///< the sum of Work::dissipated, likewise
   double stored = 0;     ///< a(u_N,u_N)/2, likewise
+  double released = 0;   ///< the sum of Work::released, likewise
+  double unbalanced = 0; ///< the sum of Work::unbalanced, likewise
 };
 
 /** Everything known after one SOLVE, ESTIMATE; references live until the next step begins. */

@@ -43,8 +43,6 @@ private:
     unsigned int add_target(unsigned int unknown); ///< its place among the targets
   };
 
-  void assemble_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                      const ShapeTables<dim> &tables);
   Contribution reduce(const std::shared_ptr<const CondensedElement> &element,
                       dealii::ArrayView<const dealii::types::global_dof_index> dofs,
                       const Unknowns<dim> &unknowns, CondensedElements<dim> &elements);
@@ -54,6 +52,11 @@ private:
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>>
       constrained; ///< kept for the next step
 };
+
+/** L(v_i) of the loads of @p scene for every displacement unknown, constrained or not. */
+template <int dim>
+dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                                   const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif

@@ -13,6 +13,10 @@ namespace hpvi
 template <int dim>
 dealii::Vector<double> interpolate(const Solution<dim> &coarse,
                                    const DisplacementSpace<dim> &finer);
+
+/** @p coarse, its multiplier too, as a state of the mesh of @p finer: of its own scene still, and there no solution. */
+template <int dim>
+Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer);
 } // namespace hpvi
 
 #endif

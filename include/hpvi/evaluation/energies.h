@@ -23,26 +23,46 @@ struct Energies
   double slack = 0;
 };
 
-/** What happens while a load step goes from one displacement to the next by du [stress length^dim]. */
+/**
+ * What happens while a load step takes the displacement u' and the tractions z', p' of friction and
+ * pressure to u, z, p, with du = u - u' [stress length^dim]. In the discrete problem
+ *
+ *     external = a(u,u)/2 - a(u',u')/2 + dissipated + released + unbalanced
+ *
+ * up to round-off. `external` is formed from forces at loads and supports, not from stresses at free
+ * nodes, and `unbalanced` from what is left there: each says that the body is in equilibrium.
+ */
 struct Work
 {
   /**
-   * `L(du) + R(du) - int lambda_Nn du_n - a(du,du)/2`: of loads, of prescribed displacements through
-   * their reactions R and of the foundation's normal traction, all at the end of the load step; without
-   * the energy that they would have left over had they acted so from its beginning.
+   * Mean forces of begin and end times increments, the trapezoidal rule: of loads and of prescribed
+   * displacements through their reactions on du, of the foundation, -(p' + p)/2, on the increment of the gap.
    */
   double external = 0;
-  double dissipated = 0; ///< int z_N du_t, of friction
+  double dissipated = 0; ///< int z du_t, of friction
+  /**
+   * `1/2 int [(z' - z) du_t + (p' + p) d(u_n - u_0)]`: what a smooth path would not lose. It vanishes
+   * with the load step, like dt^2 and where bounds change like dt, but where equilibrium jumps.
+   */
+  double released = 0;
+  /** Half of what the forces of the last load step leave on du: zero on its own mesh, not on a finer one. */
+  double unbalanced = 0;
 };
 
 /**
- * Of the load step from @p last, a displacement of the same space, to @p solution. `external` is formed
- * from forces, not from stresses at free nodes: that it is `dissipated` and the change of
- * `a(u_N,u_N)/2` together says that the solution is in equilibrium.
+ * From @p last to @p next, two solutions of the same mesh and degrees whose scenes may differ in
+ * loads, prescribed values, bounds and gaps; @p loads, L(v_i), are those of @p next.
  */
 template <int dim>
-Work work(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-          const dealii::Vector<double> &last);
+Work work(const Solution<dim> &last, const Solution<dim> &next,
+          const dealii::Vector<double> &loads);
+
+/**
+ * From the unloaded body, without displacement or traction, to @p next. A foundation that reaches
+ * into the body has come there from its boundary; one at a distance has stood there.
+ */
+template <int dim>
+Work work_from_rest(const Solution<dim> &next, const dealii::Vector<double> &loads);
 
 /** The integral of g |u_Nt| cuts each edge where g jumps or u_Nt changes sign. */
 template <int dim>

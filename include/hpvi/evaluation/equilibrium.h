@@ -74,10 +74,17 @@ private:
 template <int dim>
 Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system);
 
-/** What the reactions of prescribed displacements do on @p v [stress length^dim]. */
+/** What nodal reactions do on a displacement [stress length^dim]. */
+struct ReactionWork
+{
+  double supports = 0;  ///< those of prescribed displacements
+  double elsewhere = 0; ///< all others, which are round-off where the body is in equilibrium
+};
+
+/** Of the reactions of @p solution under @p loads, L(v_i), on @p v. */
 template <int dim>
-double work_of_supports(const Solution<dim> &solution, const ElasticSystem<dim> &system,
-                        const dealii::Vector<double> &v);
+ReactionWork reaction_work(const Solution<dim> &solution, const dealii::Vector<double> &loads,
+                           const dealii::Vector<double> &v);
 } // namespace hpvi
 
 #endif
