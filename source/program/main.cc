@@ -128,7 +128,8 @@ std::string work_in_words(const LoadStep &load)
   if (load.number == 0)
     return {};
   return "load history: work " + text(load.work, 6) + ", stored " + text(load.stored, 6) +
-         ", dissipated by friction " + text(load.dissipated, 6) + "\n";
+         ", dissipated by friction " + text(load.dissipated, 6) + ", released " +
+         text(load.released, 2) + ", unbalanced " + text(load.unbalanced, 2) + "\n";
 }
 
 // ---------------------------------------------------------------- what the program does
@@ -139,9 +140,8 @@ void run(const Scene<dim> &scene, const std::string &directory)
   note_interruptions();
   Output<dim> output(scene, directory);
   StageTimes times;
-  std::string stopped_by;
   std::vector<std::string> warnings;
-  std::string closing_words; ///< of the last step
+  std::string closing_words, reason; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
   print_table_head(scene);
@@ -153,7 +153,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
           progress.erase();
           print_row(step);
           times += step.times;
-          stopped_by = step.stopped_by;
+          reason = last_word(step.stopped_by, scene.adaptivity, bool(step.bound));
           warnings = step.warnings;
           if (!step.stopped_by.empty())
             closing_words = contact_in_words(scene, step.contact, step.equilibrium) +
@@ -189,9 +189,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
             << (scene.has_load_history()
                     ? std::to_string(scene.loading.steps) + " load steps; the last "
                     : "")
-            << (stopped_by == "round-off" ? "stopped: exact to round-off"
-                                          : "stopped by Adaptivity/" + stopped_by)
-            << "\nresults in " << directory << std::endl;
+            << reason << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
 

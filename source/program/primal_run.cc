@@ -191,8 +191,9 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   std::cout << ending.balance;
   for (const std::string &warning : ending.warnings)
     std::cout << "\nwarning: " << warning;
-  std::cout << (ending.warnings.empty() ? "" : "\n") << "\nstopped by Adaptivity/"
-            << ending.stopped_by << "\nresults in " << directory << std::endl;
+  std::cout << (ending.warnings.empty() ? "" : "\n") << '\n'
+            << last_word(ending.stopped_by, scene.adaptivity, /*has_bound=*/false)
+            << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
 

@@ -104,6 +104,11 @@ const std::string &Parameters::file_name() const
   return file;
 }
 
+bool Parameters::is_named(const std::string &section, const std::string &name) const
+{
+  return origins.count(section.empty() ? name : section + "/" + name) > 0;
+}
+
 std::string Parameters::text(const std::string &section, const std::string &name) const
 {
   return section.empty() ? prm.get(name) : prm.get({section}, name);

@@ -19,6 +19,33 @@ std::shared_ptr<const Patterns::PatternBase> matching(const Pattern &pattern)
   return std::make_shared<Pattern>(pattern);
 }
 
+/** "automatic", or what another pattern accepts. */
+class OrAutomatic : public Patterns::PatternBase
+{
+public:
+  explicit OrAutomatic(const Patterns::PatternBase &other) : other(other.clone())
+  {
+  }
+
+  bool match(const std::string &text) const override
+  {
+    return text == "automatic" || other->match(text);
+  }
+
+  std::string description(const OutputStyle style) const override
+  {
+    return "automatic or " + other->description(style);
+  }
+
+  std::unique_ptr<Patterns::PatternBase> clone() const override
+  {
+    return std::make_unique<OrAutomatic>(*this);
+  }
+
+private:
+  std::shared_ptr<const Patterns::PatternBase> other;
+};
+
 std::string joined(const std::vector<std::string> &words, const std::string &separator)
 {
   std::string result;
@@ -182,8 +209,12 @@ void add_method_entries(std::vector<Entry> &entries)
         "more of them is refused."},
        {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
         "No step is started after this time of computing; 0: no limit."},
-       {section, "Tolerance", "0", matching(Patterns::Double(0)), "a number >= 0",
-        "Stop where the relative error falls below, as Tolerance on knows it; 0: never."},
+       {section, "Tolerance", "automatic", matching(OrAutomatic(Patterns::Double(0))),
+        "automatic or a number >= 0",
+        "Stop where the relative error falls below, as Tolerance on knows it; 0: never. automatic: "
+        "1e-3, but 0 where Maximum steps, Maximum unknowns or Maximum seconds is named, in a load "
+        "history, with an exact or a reference solution, and where one is written; scene.prm says "
+        "which."},
        {section, "Tolerance on", "bound", one_of(indicator_names), "residual or bound",
         "bound: the guaranteed bound of |u - u_N|_a/|u_N|_a, or the indicator with a warning where "
         "none is guaranteed. residual: the relative indicator eta/((2 mu)^(1/2) |u_N|_a), with "

@@ -241,6 +241,38 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   scene.solver.normal_contact =
       read_choice<NormalContact>(parameters, "Solver", "Normal contact", normal_contact_names);
 }
+bool is_in_space(const Parameters &parameters)
+{
+  return parameters.text("", "Dimension") == "3";
+}
+
+/** Does the scene leave it to the program when to stop, and is its error the only thing to look at? */
+bool names_no_end(const Parameters &parameters)
+{
+  const std::vector<std::string> limits = {"Maximum steps", "Maximum unknowns", "Maximum seconds"};
+  return std::none_of(limits.begin(), limits.end(),
+                      [&](const std::string &limit)
+                      { return parameters.is_named("Adaptivity", limit); }) &&
+         parameters.text("Loading", "Steps").empty() &&
+         (is_in_space(parameters) || parameters.text("Exact solution", "Solution") == "none") &&
+         parameters.text("Error", "Reference solution").empty() &&
+         !parameters.boolean("Output", "Reference solution");
+}
+
+/** The number for Adaptivity/Tolerance = automatic; returns whether it is the default. */
+bool choose_tolerance(Parameters &parameters, const SceneUse use)
+{
+  if (parameters.text("Adaptivity", "Tolerance") != "automatic")
+    return false;
+  const bool is_default = use == SceneUse::solve && names_no_end(parameters);
+  parameters.set("Adaptivity", "Tolerance", is_default ? default_tolerance : "0");
+  // No bound is asked for where there can be none.
+  if (is_default && !parameters.is_named("Adaptivity", "Tolerance on") &&
+      (is_in_space(parameters) || parameters.text("Solver", "Path") == "primal"))
+    parameters.set("Adaptivity", "Tolerance on", "residual");
+  return is_default;
+}
+
 /** What the file leaves to the program, which scene.prm shall say. */
 void complete(Parameters &parameters, const std::string &name)
 {
@@ -322,11 +354,13 @@ Scene<dim> read_scene(const std::string &file,
                        "is not that of the program; set Dimension = " + std::to_string(dim));
   const std::string name = std::filesystem::path(file).stem().string();
   complete(*parameters, name);
+  const bool is_default_tolerance = choose_tolerance(*parameters, use);
   const Loading<dim> loading = read_loading<dim>(parameters, name);
   Scene<dim> scene =
       loading.at ? loading.at(loading.time(1)) : read_problem<dim>(parameters, name, std::nullopt);
   settle_normal_contact(*parameters, scene);
   scene.loading = loading;
+  scene.adaptivity.is_default_tolerance = is_default_tolerance;
   scene.check(use);
   return scene;
 }

@@ -303,6 +303,63 @@ TEST(Limits, EachStopsTheRunAndSaysSo)
   EXPECT_EQ(rows.back().stopped_by, "Maximum degree");
 }
 
+/** The tolerance of a scene in which something holds the body. */
+template <int dim>
+Adaptivity limits(const Overrides &more, const SceneUse use = SceneUse::solve)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-" + std::to_string(std::random_device()()) + ".prm");
+  std::ofstream(file) << "set Dimension = " << dim << '\n';
+  Overrides entries = {{"Boundary bottom/Displacement", dim == 2 ? "0; 0" : "0; 0; 0"}};
+  entries.insert(entries.end(), more.begin(), more.end());
+  const Adaptivity result = read_scene<dim>(file.string(), entries, use).adaptivity;
+  std::filesystem::remove(file);
+  return result;
+}
+
+TEST(Limits, ATakenToleranceIsTheOnlyOne)
+{
+  for (const Overrides &none :
+       {Overrides{}, Overrides{{"Adaptivity/Tolerance", "automatic"}},
+        Overrides{{"Adaptivity/Method", "hup2"}, {"Adaptivity/Maximum degree", "5"}}})
+  {
+    EXPECT_EQ(limits<2>(none).tolerance, 1e-3);
+    EXPECT_TRUE(limits<2>(none).is_default_tolerance);
+    EXPECT_EQ(limits<2>(none).tolerance_on, Indicator::bound);
+  }
+  EXPECT_EQ(limits<3>({}).tolerance, 1e-3);
+  EXPECT_EQ(limits<3>({}).tolerance_on, Indicator::residual);
+  EXPECT_EQ(limits<2>({{"Solver/Path", "primal"}, {"Adaptivity/Method", "hup2"}}).tolerance_on,
+            Indicator::residual);
+  for (const auto &named : Overrides{{"Adaptivity/Maximum steps", "16"},
+                                     {"Adaptivity/Maximum unknowns", "1000000"},
+                                     {"Adaptivity/Maximum seconds", "0"},
+                                     {"Loading/Steps", "2"},
+                                     {"Output/Reference solution", "true"},
+                                     {"Error/Reference solution", "other.dat"}})
+    for (const char *const value : {"", "automatic"})
+    {
+      Overrides entries = {named};
+      if (*value != '\0')
+        entries.push_back({"Adaptivity/Tolerance", value});
+      EXPECT_EQ(limits<2>(entries).tolerance, 0) << named.first;
+      EXPECT_FALSE(limits<2>(entries).is_default_tolerance) << named.first;
+    }
+  EXPECT_EQ(limits<2>({}, SceneUse::measure).tolerance, 0);
+  EXPECT_EQ(limits<2>({{"Adaptivity/Tolerance", "0.001"}}).is_default_tolerance, false);
+  EXPECT_EQ(limits<2>({{"Adaptivity/Tolerance", "0"}}).tolerance, 0);
+  EXPECT_EQ(Scene<2>().adaptivity.tolerance, 0);
+  EXPECT_EQ(scene_of({{"Exact solution/Solution", "smooth"},
+                      {"Geometry/Lower corner", "-1, 0"},
+                      {"Boundary left/Displacement", "exact"},
+                      {"Boundary right/Displacement", "exact"},
+                      {"Boundary top/Traction", "exact"},
+                      {"Boundary bottom/Contact", "bilateral"},
+                      {"Boundary bottom/Friction bound", "0.1"}})
+                .adaptivity.tolerance,
+            0);
+}
+
 TEST(Limits, SecondsAreThoseOfAllStepsSoFar)
 {
   double sum = 0;

@@ -4,6 +4,7 @@
 
 #include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/stage_times.h>
+#include <hpvi/scene/scene.h>
 
 #include <string>
 
@@ -11,6 +12,9 @@ namespace hpvi
 {
 /** As in "hpvi 0.1.0 (Release build), deal.II 9.4.1". */
 std::string version_line();
+
+/** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
+std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivity, bool has_bound);
 
 /** What could not be printed is no result; @p complete says what is there nonetheless. Throws OutputFailure. */
 void check_standard_output(const std::string &complete);

@@ -59,6 +59,9 @@ public:
 
   const std::string &file_name() const; ///< as the user wrote it
 
+  /** Does the file or an override give the entry a value? */
+  bool is_named(const std::string &section, const std::string &name) const;
+
   std::string text(const std::string &section, const std::string &name) const;
   double number(const std::string &section, const std::string &name) const;
   unsigned int integer(const std::string &section, const std::string &name) const;

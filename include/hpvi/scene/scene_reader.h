@@ -10,6 +10,9 @@
 
 namespace hpvi
 {
+/** What Adaptivity/Tolerance = automatic stands for where a scene names no other end of its run. */
+inline constexpr const char *default_tolerance = "1e-3";
+
 /**
  * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
  * Throws InputError with one line (file, entry, value, remedy).

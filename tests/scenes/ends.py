@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""ends.py HPVI: a scene that names no limit is done below a relative error of 1e-3, and says so."""
+
+import unittest
+
+from runs import RunTest
+
+PRESSED = """
+subsection Geometry
+  set Subdivisions = 2, 2
+end
+subsection Boundary bottom
+  set Contact        = bilateral
+  set Friction bound = 0.01
+end
+subsection Boundary top
+  set Displacement = 0.03; -0.02
+end
+"""
+CUBE = """
+set Dimension = 3
+subsection Boundary bottom
+  set Displacement = 0; 0; 0
+end
+subsection Boundary top
+  set Displacement = 0; 0; -0.01 # the sides stay free, the strain is nearly the same everywhere
+end
+subsection Material
+  set Poisson's ratio = 0.001
+end
+subsection Solver
+  set Linear = direct
+end
+"""
+
+
+class Ends(RunTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.home / "scene.prm"
+        self.scene.write_text(PRESSED)
+
+    def tolerance(self):
+        lines = (self.out / "scene.prm").read_text().splitlines()
+        return next(line.split("=")[1].strip() for line in lines if "set Tolerance  " in line
+                    or "set Tolerance =" in line)
+
+    def test_default(self):
+        printed = self.run_scene()
+        self.assertIn("\ndone: the error is below 1e-3, the default of Adaptivity/Tolerance\n", printed)
+        rows = self.rows()
+        bounds = [float(row["error_bound_relative"]) for row in rows]
+        self.assertLess(bounds[-1], 1e-3)
+        self.assertTrue(all(bound >= 1e-3 for bound in bounds[:-1]), bounds)
+        self.assertEqual(self.summary()["stopped_by"], "Tolerance")
+        self.assertEqual(self.tolerance(), "1e-3")
+
+        scene = self.home / "again.prm"
+        scene.write_bytes((self.out / "scene.prm").read_bytes())
+        once = self.contents()
+        self.assertIn("\nstopped by Adaptivity/Tolerance\n", self.run_scene(scene=scene))
+        self.assertEqual(self.contents()["scene.prm"], once["scene.prm"])
+        self.assertEqual([row["energy"] for row in self.rows()], [row["energy"] for row in rows])
+
+    def test_named_limit(self):
+        self.assertIn("\nstopped by Adaptivity/Maximum steps\n",
+                      self.run_scene("Adaptivity/Maximum steps=2"))
+        self.assertEqual(self.tolerance(), "0")
+
+    def test_without_bound(self):
+        printed = self.run_scene("Boundary bottom/Friction bound=",
+                                 "Boundary bottom/Friction coefficient=0.3",
+                                 "Boundary top/Displacement=0.003; -0.02")
+        self.assertIn("\ndone: the error indicator is below 1e-3, the default of "
+                      "Adaptivity/Tolerance\n", printed)
+        self.assertIn("which guarantees nothing", printed)
+        self.assertLess(float(self.rows()[-1]["estimate_relative"]), 1e-3)
+
+    def test_in_space(self):
+        self.scene.write_text(CUBE)
+        printed = self.run_scene()
+        self.assertIn("\ndone: the error indicator is below 1e-3, the default of "
+                      "Adaptivity/Tolerance\n", printed)
+        self.assertNotIn("warning", printed)
+        self.assertLess(float(self.rows()[-1]["estimate_relative"]), 1e-3)
+        self.assertEqual(self.tolerance(), "1e-3")
+
+
+if __name__ == "__main__":
+    unittest.main()
