@@ -231,10 +231,10 @@ void add_loading_entries(std::vector<Entry> &entries)
         "Number n of load steps: every expression may use t, which runs through 1/n, 2/n, ..., 1, "
         "and friction acts on the increment of the tangential displacement; empty: no history."},
        {section, "Adapt", "every step", one_of(load_adaptivity_names), "first step or every step",
-        "first step: the mesh of the first load step stays. every step: each load step adapts "
-        "that of the one before; without Adaptivity/Tolerance until its relative indicator is no "
-        "more than a fifth above that of the first. The limits of Adaptivity hold for each load "
-        "step."}});
+        "first step: the mesh of the first load step stays, or of the first whose solution is not "
+        "exact, as that of no load is. every step: each load step adapts that of the one before; "
+        "without Adaptivity/Tolerance until its relative indicator is no more than a fifth above "
+        "that of the first. The limits of Adaptivity hold for each load step."}});
 }
 
 void add_program_entries(std::vector<Entry> &entries)
