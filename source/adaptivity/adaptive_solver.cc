@@ -12,6 +12,7 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/one_thread.h>
+#include <hpvi/base/text.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
@@ -51,10 +52,13 @@ struct AdaptiveSolver<dim>::Stages
   Degrees degrees;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   CondensedElements<dim> elements;
+  std::shared_ptr<const LoadRules<dim>> loads;
   const LegendreSmoothness<dim> smoothness;
   const TrueError<dim> true_error;
   ErrorBounds error_bounds;
-  std::string no_bound; ///< why the current step has none
+  std::string no_bound;                        ///< why the current step has none
+  std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as the next
+  std::vector<MissedDisplacement<dim>> missed;
   std::unique_ptr<const Discretisation<dim>> discretisation;
   std::shared_ptr<FactoredSystem> factored;  ///< of it, or of the last load step
   bool is_load_step = false;                 ///< then the factor stays for the next one
@@ -74,6 +78,7 @@ struct AdaptiveSolver<dim>::Stages
     make_mesh(scene, *coarse);
     degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
     mesh = coarse;
+    loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
   }
 
   Stages(const Scene<dim> &scene, const Start &start) : Stages(scene, start.tables)
@@ -105,7 +110,8 @@ struct AdaptiveSolver<dim>::Stages
                   const std::optional<ErrorBound> &bound);
   StepReport<dim> report(const Solution<dim> &solution, const ErrorEstimate &estimate,
                          const std::optional<ErrorBound> &bound, const ReducedSolution &reduced);
-  std::string end_of_run(const Solution<dim> &solution, const Refinement &refinement) const;
+  std::string end_of_run(const Solution<dim> &solution, const std::optional<ErrorBound> &bound,
+                         const Refinement &refinement) const;
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
   void resume(const RunState &state);
@@ -140,10 +146,12 @@ void AdaptiveSolver<dim>::Stages::discretise()
   std::shared_ptr<const Spaces<dim>> spaces;
   {
     StageTimer timer(times.setup);
-    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, degrees, tables);
+    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, degrees, tables, loads);
   }
   begin("assembling " + std::to_string(degrees.size()) + " elements");
   StageTimer timer(times.assemble);
+  unresolved = loads->unresolved(*mesh);
+  missed = loads->missed_displacements(*mesh, degrees);
   // The previous one goes last: it keeps the element matrices that the new one shares.
   discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
 }
@@ -240,6 +248,9 @@ template <int dim>
 std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim> &solution)
 {
   no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  if (no_bound.empty() && !unresolved.empty())
+    no_bound = lower_case(unresolved[0].name.substr(0, 1)) + unresolved[0].name.substr(1) +
+               " is not resolved near (" + to_string(unresolved[0].where) + ")";
   if (!no_bound.empty())
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
@@ -253,10 +264,11 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
 // @sect3{Mark}
 //
 // The strategy sees numbers only: degrees, indicators, and on demand the decay rate of a cell,
-// which costs a transformation of its coefficients and is asked for marked cells alone. Three
+// which costs a transformation of its coefficients and is asked for marked cells alone. Some
 // things override it, because no indicator can see them: a jump of the friction bound inside an
-// edge, contact that the points of the multiplier have missed, and a bound that varies between
-// these points. Their cells are bisected until it is resolved.
+// edge, contact that the points of the multiplier have missed, a bound that varies between
+// these points, loads that no quadrature resolves and displacements that nodes miss. Their cells are
+// bisected until it is resolved.
 template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
                                              const ErrorEstimate &estimate,
@@ -277,6 +289,10 @@ Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
       refinement.bisect[contact.face->cell->active_cell_index()] = true;
     for (const UnresolvedBound<dim> &bound : solution.contact_space.unresolved_bounds())
       refinement.bisect[bound.face->cell->active_cell_index()] = true;
+    for (const UnresolvedLoad<dim> &load : unresolved)
+      refinement.bisect[load.cell] = true;
+    for (const MissedDisplacement<dim> &displacement : missed)
+      refinement.bisect[displacement.cell] = true;
   }
   return refinement;
 }
@@ -327,9 +343,10 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState &state)
   const Solution<dim> solution(scene, spaces, state.u, state.z);
   history.assign(state.history.begin(), state.history.end() - 1); // as the last step found it
   keep_start(solution.z, state.motion);
-  const Refinement refinement = mark(solution, estimate(solution), bound(solution));
+  const std::optional<ErrorBound> last_bound = bound(solution);
+  const Refinement refinement = mark(solution, estimate(solution), last_bound);
   history = state.history;
-  const std::string limit = end_of_run(solution, refinement);
+  const std::string limit = end_of_run(solution, last_bound, refinement);
   if (!limit.empty())
     format.reject(state.name, "there is nothing to go on with after step " +
                                   std::to_string(history.size()) + ": " +
@@ -392,9 +409,14 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
 /** What makes the last step the last of all; else empty. */
 template <int dim>
 std::string AdaptiveSolver<dim>::Stages::end_of_run(const Solution<dim> &solution,
+                                                    const std::optional<ErrorBound> &bound,
                                                     const Refinement &refinement) const
 {
-  const std::string limit = reached_limit(solution, history);
+  const bool sees_data = unresolved.empty() && missed.empty();
+  const std::string limit = reached_limit(solution, history,
+                                          !sees_data ? std::numeric_limits<double>::infinity()
+                                          : bound    ? bound->oscillation
+                                                     : 0.);
   return limit.empty() && refinement.is_empty(degrees) ? nothing_marked(scene.adaptivity) : limit;
 }
 
@@ -494,7 +516,7 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
     const std::optional<ErrorBound> bound = stages->bound(solution);
     const Refinement refinement = stages->mark(solution, estimate, bound);
     StepReport<dim> step = stages->report(solution, estimate, bound, reduced);
-    step.stopped_by = stages->end_of_run(solution, refinement);
+    step.stopped_by = stages->end_of_run(solution, bound, refinement);
     finished = !step.stopped_by.empty();
     if (finished)
       stages->conclude(step);

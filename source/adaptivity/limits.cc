@@ -4,6 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/residual_estimator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -42,14 +43,16 @@ void check_algebraic_error(const AlgebraicError &error)
 }
 
 /**
- * Is the indicator no more than that of round-off in u_N? Where it is, refinement goes on for nothing.
- * Asked only where it is small, because it costs an indicator.
+ * Is the indicator no more than that of round-off in u_N, and likewise what it does not see of the data? Where it is,
+ * refinement goes on for nothing. Asked only where it is small, because it costs an indicator.
  */
 template <int dim>
-bool is_exact_to_round_off(const Solution<dim> &solution, const double estimate)
+bool is_exact_to_round_off(const Solution<dim> &solution, const double estimate,
+                           const double missed)
 {
-  const double small = 1e-7 * solution.scene.largest_mu() * solution.u.linfty_norm();
-  return estimate <= small && estimate <= 4 * round_off_of_estimate(solution);
+  const double small = 1e-7 * solution.scene.largest_mu() * solution.u.linfty_norm(),
+               larger = std::max(estimate, missed * std::sqrt(solution.scene.coercivity()));
+  return larger <= small && larger <= 4 * round_off_of_estimate(solution);
 }
 } // namespace
 
@@ -65,11 +68,12 @@ void check_numbers(const Solution<dim> &solution, const Energies &energies,
 }
 
 template <int dim>
-std::string reached_limit(const Solution<dim> &solution, const History &history)
+std::string reached_limit(const Solution<dim> &solution, const History &history,
+                          const double missed)
 {
   const Adaptivity &limits = solution.scene.adaptivity;
   const PastStep &last = history.back();
-  if (is_exact_to_round_off(solution, last.estimate))
+  if (is_exact_to_round_off(solution, last.estimate, missed))
     return "round-off";
   const bool on_bound = limits.tolerance_on == Indicator::bound && !std::isnan(last.relative_bound);
   if ((on_bound ? last.relative_bound : last.relative_estimate) < limits.tolerance)
@@ -84,5 +88,5 @@ std::string reached_limit(const Solution<dim> &solution, const History &history)
 }
 
 template void check_numbers(const Solution<2> &, const Energies &, const AlgebraicError &);
-template std::string reached_limit(const Solution<2> &, const History &);
+template std::string reached_limit(const Solution<2> &, const History &, double);
 } // namespace hpvi

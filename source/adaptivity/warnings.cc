@@ -436,6 +436,49 @@ std::string unresolved_jump(const Solution<dim> &solution)
               "Geometry/Graded towards, or take more steps of an adaptive method");
 }
 
+/** "there", or "there and in so many other places". */
+std::string places(const std::size_t n)
+{
+  return n == 1 ? "there"
+                : line("there, and in ", n - 1, n == 2 ? " other place" : " other places");
+}
+
+template <int dim>
+std::string unresolved_load(const Solution<dim> &solution)
+{
+  const auto loads = solution.spaces->loads->unresolved(*solution.spaces->mesh);
+  if (loads.empty())
+    return {};
+  const auto &worst =
+      *std::max_element(loads.begin(), loads.end(),
+                        [](const auto &a, const auto &b) { return a.deviation < b.deviation; });
+  return worst.name + " is not resolved near (" + text(worst.where[0], 3) + " " +
+         text(worst.where[1], 3) + "): its force on the edge or cell " + places(loads.size()) +
+         " is (" + line(worst.force) + ") by the rule of the run and (" + line(worst.finer) +
+         ") by one four times finer; put vertices where it jumps, or write it smoother";
+}
+
+template <int dim>
+std::string missed_displacement(const Solution<dim> &solution)
+{
+  auto missed = solution.spaces->loads->missed_displacements(*solution.spaces->mesh,
+                                                             solution.displacement_space.degrees());
+  missed.erase(std::remove_if(missed.begin(), missed.end(), [](const auto &m) { return m.is_gap; }),
+               missed.end());
+  if (missed.empty())
+    return {};
+  const auto size = [](const auto &m) { return std::abs(m.value - m.interpolated); };
+  const auto &worst =
+      *std::max_element(missed.begin(), missed.end(),
+                        [&](const auto &a, const auto &b) { return size(a) < size(b); });
+  return worst.name + " lies between the nodes near (" + text(worst.where[0], 3) + " " +
+         text(worst.where[1], 3) + "): " + places(missed.size()) + " it is " +
+         labelled(worst.value, solution.scene.length_unit) + ", and " +
+         labelled(worst.interpolated, solution.scene.length_unit) +
+         " in the discrete problem; refine there, or take more steps of an adaptive method that "
+         "bisects";
+}
+
 /** Empty fields of the table are explained once. */
 std::string no_condition_number(const History &history)
 {
@@ -458,13 +501,26 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
 {
   std::vector<std::string> result;
   for (const std::string &warning :
-       {tensile_contact(solution, contact), overshooting_multiplier(solution),
-        pulling_pressure(solution, contact), penetration(solution, contact),
-        coarse_transition(solution, contact), open_friction(contact), stagnating_estimate(history),
-        rising_estimate(history, solution.scene.has_unilateral_contact()), unseen_contact(solution),
-        round_off(algebraic), elongated_elements(solution), sharp_corners(solution.scene.geometry),
-        locking(solution), rich_multiplier(solution), whole_body_slips(solution, contact),
-        free_place(solution, contact), coarse_bound(solution), unresolved_jump(solution),
+       {tensile_contact(solution, contact),
+        overshooting_multiplier(solution),
+        pulling_pressure(solution, contact),
+        penetration(solution, contact),
+        coarse_transition(solution, contact),
+        open_friction(contact),
+        stagnating_estimate(history),
+        rising_estimate(history, solution.scene.has_unilateral_contact()),
+        unseen_contact(solution),
+        round_off(algebraic),
+        elongated_elements(solution),
+        sharp_corners(solution.scene.geometry),
+        locking(solution),
+        rich_multiplier(solution),
+        whole_body_slips(solution, contact),
+        free_place(solution, contact),
+        coarse_bound(solution),
+        unresolved_jump(solution),
+        unresolved_load(solution),
+        missed_displacement(solution),
         no_condition_number(history)})
     if (!warning.empty())
       result.push_back(warning);

@@ -19,8 +19,11 @@ using namespace dealii;
 template <int dim>
 Spaces<dim>::Spaces(const Scene<dim> &scene,
                     std::shared_ptr<const Triangulation<dim>> triangulation, const Degrees &degrees,
-                    std::shared_ptr<const ShapeTables<dim>> shape_tables)
+                    std::shared_ptr<const ShapeTables<dim>> shape_tables,
+                    std::shared_ptr<const LoadRules<dim>> rules)
     : mesh(std::move(triangulation)), tables(std::move(shape_tables)),
+      loads(rules ? std::move(rules)
+                  : std::make_shared<const LoadRules<dim>>(scene, *mesh, tables)),
       displacement_space(scene, *mesh, degrees, *tables),
       contact_space(scene, displacement_space, *tables),
       contact_operator(displacement_space, contact_space, *tables)
@@ -59,7 +62,8 @@ Discretisation<dim>::Discretisation(const Scene<dim> &scene,
     : scene(scene), spaces(std::move(all_spaces)),
       unknowns(spaces->displacement_space, spaces->contact_operator, *spaces->tables),
       contact_rows(unknowns.contact_rows()), condensation(spaces->displacement_space, elements),
-      system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables, elements),
+      system(scene, spaces->displacement_space, unknowns, condensation, *spaces->tables,
+             *spaces->loads, elements),
       free_motions(motions_of(scene, *spaces, unknowns, contact_rows, system))
 {
 }

@@ -4,7 +4,6 @@
 // local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
-#include <hpvi/body/load_points.h>
 #include <hpvi/discretisation/elastic_system.h>
 
 #include <algorithm>
@@ -23,8 +22,9 @@ template <int dim>
 ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                   const Unknowns<dim> &unknowns,
                                   const Condensation<dim> &condensation,
-                                  const ShapeTables<dim> &tables, CondensedElements<dim> &elements)
-    : f(unknowns.n()), load(load_vector(scene, space, tables))
+                                  const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                                  CondensedElements<dim> &elements)
+    : f(unknowns.n()), load(load_vector(scene, space, tables, rules))
 {
   Vector<double> boundary_load(load);
   if (scene.has_body_force())
@@ -165,9 +165,10 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
 
 // @sect3{Loads}
 //
-// Tractions and body forces are expressions of a user, and may be anything. The number of Gauss
-// points follows from the expression, up to where its integral does not change any more: an error
-// of quadrature would be a load that the bound of the error does not know.
+// Tractions and body forces are expressions of a user, and may be anything. Where they jump or bend,
+// edges and cells are cut; the number of Gauss points follows from the expression, up to where its
+// integral does not change any more: an error of quadrature would be a load that the bound of the
+// error does not know.
 namespace
 {
 /** Evaluate the components of an expression; null means zero. */
@@ -196,11 +197,22 @@ void integrate_load(const ShapeTable<dim> &table, const LocalNumbering &numberin
       local[i] += table.values(q, numbering.shape[i]) * force[numbering.component[i]];
   }
 }
+
+/** Shape functions at the points of a rule that is cut. */
+template <int dim>
+ShapeTable<dim> on_face(const unsigned int face, const unsigned int degree,
+                        const LoadRule<dim - 1> &rule)
+{
+  std::vector<Point<dim>> points;
+  for (const Point<dim - 1> &s : rule.quadrature.get_points())
+    points.push_back(point_on_face<dim>(face, s));
+  return tabulate<dim>(degree, points, rule.quadrature.get_weights(), false);
+}
 } // namespace
 
 template <int dim>
 Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                           const ShapeTables<dim> &tables)
+                           const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
 {
   Vector<double> load(space.n_dofs());
   const bool interior_loads = scene.has_body_force();
@@ -212,24 +224,31 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
       const CellMap<dim> map = map_of<dim>(cell);
       Vector<double> local(numbering.shape.size());
       if (interior_loads)
-        integrate_load(
-            tables.gradients(degree, body_force_points(scene, map, degree, tables)), numbering, map,
-            [&](const Point<dim> &reference, const Point<dim> &x) {
-              return std::abs(determinant(map.jacobian(reference))) *
-                     value<dim>(scene.body_force, x);
-            },
-            local);
+      {
+        const auto force = [&](const Point<dim> &reference, const Point<dim> &x) {
+          return std::abs(determinant(map.jacobian(reference))) * value<dim>(scene.body_force, x);
+        };
+        const LoadRule<dim> rule = rules.body_force(cell, degree);
+        if (rule.n_gauss > 0)
+          integrate_load(tables.gradients(degree, rule.n_gauss), numbering, map, force, local);
+        else
+          integrate_load(tabulate<dim>(degree, rule.quadrature.get_points(),
+                                       rule.quadrature.get_weights(), false),
+                         numbering, map, force, local);
+      }
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
         {
           const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
-          if (condition.has_traction())
-            integrate_load(
-                tables.face(degree, face, traction_points(condition, map, face, degree, tables)),
-                numbering, map,
-                [&](const Point<dim> &reference, const Point<dim> &x)
-                { return map.face_measure(face, reference) * value<dim>(condition.traction, x); },
-                local);
+          if (!condition.has_traction())
+            continue;
+          const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
+          { return map.face_measure(face, reference) * value<dim>(condition.traction, x); };
+          const LoadRule<dim - 1> rule = rules.traction(cell, face, degree);
+          if (rule.n_gauss > 0)
+            integrate_load(tables.face(degree, face, rule.n_gauss), numbering, map, force, local);
+          else
+            integrate_load(on_face<dim>(face, degree, rule), numbering, map, force, local);
         }
       const auto dofs = space.cell_dofs(cell->active_cell_index());
       for (unsigned int i = 0; i < local.size(); ++i)
@@ -253,5 +272,5 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 
 template class ElasticSystem<2>;
 template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
-                                    const ShapeTables<2> &);
+                                    const ShapeTables<2> &, const LoadRules<2> &);
 } // namespace hpvi

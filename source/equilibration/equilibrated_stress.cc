@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/load_points.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
@@ -86,6 +85,15 @@ Modes<2> row(const unsigned int k, const Modes<3> &s)
   return result;
 }
 
+Tensor<1, 2> body_force(const Scene<2> &scene, const Point<2> &x)
+{
+  Tensor<1, 2> F;
+  for (unsigned int c = 0; c < 2; ++c)
+    if (scene.body_force[c])
+      F[c] = scene.body_force[c]->value(x);
+  return F;
+}
+
 void add(Modes<2> &sum, const Modes<2> &part)
 {
   for (unsigned int k = 0; k < 2; ++k)
@@ -154,6 +162,14 @@ void EquilibratedStress::add_load(const unsigned int index, const unsigned int e
   }
 }
 
+/** That of the discrete equations. */
+LoadRule<1> EquilibratedStress::load_rule(const StressEdge &edge) const
+{
+  const StressEdge::Side &side = edge.sides[0];
+  return solution.spaces->loads->traction(vertex_patches.cells()[side.cell].iterator, side.face,
+                                          solution.displacement_space.degrees()[side.cell]);
+}
+
 Tensor<1, 2> EquilibratedStress::load_on(const StressEdge &edge, const double s) const
 {
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
@@ -185,17 +201,15 @@ void EquilibratedStress::set_known_tractions(const unsigned int index)
 {
   const StressEdge &edge = vertex_patches.edges()[index];
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  const StressEdge::Side &side = edge.sides[0];
-  const QGauss<1> &gauss = solution.tables.gauss(
-      traction_points(condition, map_of<2>(vertex_patches.cells()[side.cell].iterator), side.face,
-                      solution.displacement_space.degrees()[side.cell], solution.tables));
+  Quadrature<1> loads;
+  if (condition.has_traction())
+    loads = load_rule(edge).quadrature;
   for (unsigned int end = 0; end < 2; ++end)
   {
     for (unsigned int c = 0; c < 2; ++c)
       known[index][end][c].assign(edge.components[c].n, 0.);
-    if (condition.has_traction())
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        add_load(index, end, gauss.point(q)[0], gauss.weight(q), load_on(edge, gauss.point(q)[0]));
+    for (unsigned int q = 0; q < loads.size(); ++q)
+      add_load(index, end, loads.point(q)[0], loads.weight(q), load_on(edge, loads.point(q)[0]));
     if (edge.contact_face != numbers::invalid_unsigned_int)
     {
       const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
@@ -231,9 +245,20 @@ EquilibratedStress::prescribed_points(const unsigned int index) const
 {
   const StressEdge &edge = vertex_patches.edges()[index];
   std::vector<double> cuts = {0., 1.};
+  unsigned int n = 8;
+  if (solution.scene.boundaries[edge.boundary].has_traction())
+  {
+    const LoadRule<1> rule = load_rule(edge);
+    cuts = rule.cuts;
+    n = std::max(n, rule.most_points);
+  }
   if (edge.contact_face != numbers::invalid_unsigned_int)
-    cuts = solution.contact_space.faces()[edge.contact_face].friction.cuts;
-  const QGauss<1> &gauss = solution.tables.gauss(edge.degree + 8);
+  {
+    const auto &others = solution.contact_space.faces()[edge.contact_face].friction.cuts;
+    cuts.insert(cuts.end(), others.begin(), others.end());
+    std::sort(cuts.begin(), cuts.end());
+  }
+  const QGauss<1> &gauss = solution.tables.gauss(edge.degree + n);
   std::vector<std::pair<double, double>> result;
   for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -255,25 +280,25 @@ double EquilibratedStress::missed_force(const unsigned int index) const
     return 0.;
   const unsigned int m = cell.element->m;
   const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
-  const QGauss<1> &gauss = solution.tables.gauss(modes.n + 2);
-  std::vector<std::vector<double>> L;
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-    L.push_back(legendre::values(modes.n, 2 * gauss.point(q)[0] - 1));
+  const auto &loads = *solution.spaces->loads;
+  const auto &iterator = vertex_patches.cells()[index].iterator;
+  const LoadRule<2> own = loads.body_force(iterator, solution.displacement_space.degrees()[index]);
+  const Quadrature<2> rule = own.n_gauss > 0 ? Quadrature<2>(solution.tables.gauss(modes.n + 2))
+                                             : loads.body_force(iterator, m).quadrature;
   double sum = 0;
-  for (unsigned int a = 0; a < gauss.size(); ++a)
-    for (unsigned int b = 0; b < gauss.size(); ++b)
-    {
-      Tensor<1, 2> F, projected;
-      for (unsigned int c = 0; c < 2; ++c)
-        if (solution.scene.body_force[c])
-          F[c] = solution.scene.body_force[c]->value(
-              map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
-      for (unsigned int k = 0; k < 2; ++k)
-        for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
-          for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
-            projected[k] -= modes(k, i, j) * L[a][i] * L[b][j];
-      sum += gauss.weight(a) * gauss.weight(b) * (F - cell.B * projected / cell.h).norm_square();
-    }
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const auto L_x = legendre::values(modes.n, 2 * rule.point(q)[0] - 1),
+               L_y = legendre::values(modes.n, 2 * rule.point(q)[1] - 1);
+    Tensor<1, 2> projected;
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
+        for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
+          projected[k] -= modes(k, i, j) * L_x[i] * L_y[j];
+    const Tensor<1, 2> missed =
+        body_force(solution.scene, map.point(rule.point(q))) - cell.B * projected / cell.h;
+    sum += rule.weight(q) * missed.norm_square();
+  }
   return std::sqrt(sum) * 2 * cell.h;
 }
 
@@ -442,19 +467,19 @@ void EquilibratedStress::set_force(const unsigned int index)
 {
   Cell &cell = cells[index];
   const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
-  const unsigned int p = solution.displacement_space.degrees()[index],
-                     n = body_force_points(solution.scene, map, p, solution.tables);
+  const LoadRule<2> rule = solution.spaces->loads->body_force(
+      vertex_patches.cells()[index].iterator, solution.displacement_space.degrees()[index]);
+  const unsigned int n = rule.n_gauss;
+  if (n == 0)
+    return set_force(index, rule.quadrature);
   const QGauss<1> &gauss = solution.tables.gauss(n);
   const Tensor<2, 2> inverse = invert(cell.B);
   std::array<FullMatrix<double>, 2> values{{FullMatrix<double>(n, n), FullMatrix<double>(n, n)}};
   for (unsigned int a = 0; a < n; ++a)
     for (unsigned int b = 0; b < n; ++b)
     {
-      Tensor<1, 2> F;
-      for (unsigned int c = 0; c < 2; ++c)
-        if (solution.scene.body_force[c])
-          F[c] = solution.scene.body_force[c]->value(
-              map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+      const Tensor<1, 2> F =
+          body_force(solution.scene, map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
       const Tensor<1, 2> f = -cell.h * (inverse * F);
       for (unsigned int k = 0; k < 2; ++k)
         values[k](a, b) = f[k];
@@ -467,6 +492,27 @@ void EquilibratedStress::set_force(const unsigned int index)
     project.mmult(half, values[k]);
     half.mTmult(modes, project);
     std::copy(&modes(0, 0), &modes(0, 0) + n * n, &cell.force.coefficients[k * n * n]);
+  }
+}
+
+/** The same by any other rule: moments with polynomials as high as the element and psi take. */
+void EquilibratedStress::set_force(const unsigned int index, const Quadrature<2> &rule)
+{
+  Cell &cell = cells[index];
+  const CellMap<2> map = map_of<2>(vertex_patches.cells()[index].iterator);
+  const unsigned int n = cell.element->m + 2;
+  const Tensor<2, 2> inverse = invert(cell.B);
+  cell.force = Modes<2>(n);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const Tensor<1, 2> f = -4 * rule.weight(q) * cell.h *
+                           (inverse * body_force(solution.scene, map.point(rule.point(q))));
+    const auto L_x = legendre::values(n, 2 * rule.point(q)[0] - 1),
+               L_y = legendre::values(n, 2 * rule.point(q)[1] - 1);
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          cell.force(k, i, j) += f[k] * L_x[i] * L_y[j];
   }
 }
 

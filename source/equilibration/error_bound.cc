@@ -62,7 +62,7 @@ double stress_and_oscillation(const EquilibratedStress &stress, const DataError 
   double square = 0;
   for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
     square += std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2);
-  return std::sqrt(square);
+  return std::sqrt(square) + data.unresolved;
 }
 
 // @sect3{By cell}
@@ -94,8 +94,10 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                gap = std::max(0., sum(correction.gap())); // round-off
   result.stress = std::sqrt(eta_square);
   result.slip = std::sqrt(2 * gap + w * w);
-  result.oscillation = std::sqrt(std::inner_product(
-      data.oscillation.begin(), data.oscillation.end(), data.oscillation.begin(), 0.));
+  result.oscillation =
+      std::sqrt(std::inner_product(data.oscillation.begin(), data.oscillation.end(),
+                                   data.oscillation.begin(), 0.)) +
+      data.unresolved;
   result.data = data.lift;
   const double b = distance_from_admissible(correction, data);
   const double A = stress_and_oscillation(stress, data);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/element_matrices.h>
-#include <hpvi/body/load_points.h>
 #include <hpvi/equilibration/macro_stresses.h>
 
 #include <algorithm>
@@ -254,7 +253,7 @@ void MacroStresses::set_cell(const unsigned int index)
   // Divergences keep the balance of the discrete equations; the degree of sigma phi_l grows by k.
   unsigned int n_gauss = stiffness_points(map, p) + k / 2 + 2;
   if (solution.scene.has_body_force())
-    n_gauss = std::max(n_gauss, body_force_points(solution.scene, map, p, solution.tables) + 2);
+    n_gauss = std::max(n_gauss, solution.spaces->loads->body_force(iterator, p).most_points + 2);
   const TriangleTable &table = cache.triangles.table(k, n_gauss);
   const Gradient gradient(solution, index, cache.legendre);
   const Material &material = solution.scene.material_of(iterator);

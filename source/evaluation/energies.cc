@@ -143,7 +143,9 @@ Work work(const Solution<dim> &last, const Solution<dim> &next, const Vector<dou
   const std::vector<double> before = gaps(last.contact_space);
   std::transform(change.begin(), change.end(), before.begin(), change.begin(), std::minus<>());
   return between(
-      acting(last, load_vector(last.scene, last.displacement_space, last.tables), du, change),
+      acting(last,
+             load_vector(last.scene, last.displacement_space, last.tables, *last.spaces->loads), du,
+             change),
       acting(next, loads, du, change));
 }
 

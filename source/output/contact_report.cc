@@ -213,6 +213,31 @@ std::string equilibrium_json(const Equilibrium<dim> &equilibrium)
          ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
 }
 
+std::string loads_in_words(const Scene<2> &scene)
+{
+  if (scene.has_load_history())
+  {
+    const double t = scene.loading.time(1);
+    return "with t = " + text(t, digits) + ", " + loads_in_words(scene.loading.at(t));
+  }
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>()).sum();
+  const double size = scene.geometry.corners[0].distance(scene.geometry.corners[3]);
+  return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
+         text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +
+         " about " + point_text<2>(sum.centre) + "\n";
+}
+
+std::string loads_json(const std::optional<LoadSum> &loads)
+{
+  if (!loads)
+    return "  \"loads\": null,\n";
+  return "  \"loads\": {\n    \"force\": " + json_point<2>(loads->force) +
+         ",\n    \"moment\": " + text(loads->moment) +
+         ",\n    \"about\": " + json_point<2>(loads->centre) + "\n  },\n";
+}
+
 template std::string json_point(const Tensor<1, 2> &);
 template std::string json_point(const Tensor<1, 3> &);
 template std::string equilibrium_json(const Equilibrium<2> &);

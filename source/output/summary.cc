@@ -40,6 +40,7 @@ void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
   no_bound = step.no_bound;
   relative_bound = step.relative_bound;
   energy = step.energies.energy;
+  loads = step.solution.spaces->loads->sum();
   if (!step.stopped_by.empty())
     load = step.load;
 }
@@ -60,7 +61,8 @@ std::string Summary<dim>::json_bound() const
 template <int dim>
 std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::string> &files) const
 {
-  return json_head(scene, status, stopped_by, message) + "  \"steps\": " + std::to_string(steps) +
+  return json_head(scene, status, stopped_by, message) + loads_json(loads) +
+         "  \"steps\": " + std::to_string(steps) +
          ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
          json_loading(load, scene.loading.steps) +
          (stopped_by.empty() ? ""

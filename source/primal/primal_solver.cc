@@ -6,6 +6,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/deformation.h>
 #include <hpvi/body/mesh.h>
+#include <hpvi/primal/load_check.h>
 #include <hpvi/primal/primal_solver.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/scene/space_checks.h>
@@ -63,6 +64,9 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
   if (adaptivity.tolerance > 0 && adaptivity.tolerance_on == Indicator::bound)
     result.push_back("the primal path has no guaranteed bound of the error: Adaptivity/Tolerance "
                      "was held against the indicator, which is a measure and no bound");
+  if (const std::string line = LoadCheck<dim>(step.space.scene).warning(step.equilibrium.loads);
+      !line.empty())
+    result.push_back(line);
   if (step.newton.is_cut_off)
     result.push_back("Newton's method did not find stick and slip in " +
                      to_string(step.newton.steps) +

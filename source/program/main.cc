@@ -143,7 +143,9 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::vector<std::string> warnings;
   std::string closing_words, reason; ///< of the last step
   ProgressLine progress;
-  std::cout << version_line() << '\n' << legible(scene.title) << '\n' << std::endl;
+  std::cout << version_line() << '\n'
+            << legible(scene.title) << "\n\n"
+            << loads_in_words(scene) << std::endl;
   print_table_head(scene);
   try
   {

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/primal_output.h>
+#include <hpvi/primal/load_check.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
@@ -168,8 +169,8 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   Ending ending;
   const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
-            << legible(scene.title) << '\n'
-            << std::endl;
+            << legible(scene.title) << "\n\n"
+            << LoadCheck<dim>(scene).in_words() << std::endl;
   print_table_head();
   try
   {

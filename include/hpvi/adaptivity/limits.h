@@ -21,10 +21,11 @@ void check_numbers(const Solution<dim> &solution, const Energies &energies,
 
 /**
  * Why @p solution, that of the last step of @p history, needs no next one: an entry of section
- * Adaptivity, or "round-off" where the indicator is that of the last bits of u_N. Empty: it does.
+ * Adaptivity, or "round-off" where the indicator is that of the last bits of u_N, and so is @p missed, what
+ * u_N misses of the data in the energy norm. Empty: it does.
  */
 template <int dim>
-std::string reached_limit(const Solution<dim> &solution, const History &history);
+std::string reached_limit(const Solution<dim> &solution, const History &history, double missed);
 } // namespace hpvi
 
 #endif

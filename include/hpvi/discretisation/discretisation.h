@@ -16,13 +16,18 @@ class Spaces
 public:
   const std::shared_ptr<const dealii::Triangulation<dim>> mesh;
   const std::shared_ptr<const ShapeTables<dim>> tables;
+  const std::shared_ptr<const LoadRules<dim>> loads;
   const DisplacementSpace<dim> displacement_space;
   const ContactSpace<dim> contact_space;
   const ContactOperator<dim> contact_operator;
 
-  /** @p degrees by active cell index. The scene must outlive the spaces. */
+  /**
+   * @p degrees by active cell index. The scene must outlive the spaces. @p loads: those of the scene, if they are at
+   * hand.
+   */
   Spaces(const Scene<dim> &scene, std::shared_ptr<const dealii::Triangulation<dim>> mesh,
-         const Degrees &degrees, std::shared_ptr<const ShapeTables<dim>> tables);
+         const Degrees &degrees, std::shared_ptr<const ShapeTables<dim>> tables,
+         std::shared_ptr<const LoadRules<dim>> loads = nullptr);
 
   Spaces(const Spaces &) = delete; // members refer to one another
 };

@@ -3,6 +3,7 @@
 #define hpvi_elastic_system_h
 
 #include <hpvi/algebra/symmetric_matrix.h>
+#include <hpvi/body/load_rule.h>
 #include <hpvi/discretisation/condensation.h>
 #include <hpvi/discretisation/unknowns.h>
 
@@ -23,7 +24,8 @@ public:
   /** Assemble; @p elements remembers element matrices from step to step. */
   ElasticSystem(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                 const Unknowns<dim> &unknowns, const Condensation<dim> &condensation,
-                const ShapeTables<dim> &tables, CondensedElements<dim> &elements);
+                const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                CondensedElements<dim> &elements);
 
   SymmetricMatrix A;        ///< over the unknowns; stress length^(dim-2) for displacements
   dealii::Vector<double> f; ///< right-hand side over the unknowns
@@ -56,7 +58,7 @@ private:
 /** L(v_i) of the loads of @p scene for every displacement unknown, constrained or not. */
 template <int dim>
 dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                   const ShapeTables<dim> &tables);
+                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
 } // namespace hpvi
 
 #endif

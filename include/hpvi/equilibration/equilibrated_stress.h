@@ -92,6 +92,7 @@ private:
     std::vector<double> gradients, defects; ///< G r and N' r by hat function
   };
 
+  LoadRule<1> load_rule(const StressEdge &edge) const;
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;
@@ -106,6 +107,7 @@ private:
   void set_stress(unsigned int cell, const Solution<2> &of);
   void set_own_data(unsigned int cell);
   void set_force(unsigned int cell);
+  void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
   void set_data(unsigned int cell, double *r) const;
   void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
                    const std::vector<double> &r, std::vector<double> &result) const;

@@ -35,6 +35,12 @@ std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState
 template <int dim>
 std::string equilibrium_json(const Equilibrium<dim> &equilibrium);
 
+/** The resultant of all loads of a scene, of a history those of its first load step: a line before the first step. */
+std::string loads_in_words(const Scene<2> &scene);
+
+/** A member of summary.json: the same of the step at hand; null before there is one. */
+std::string loads_json(const std::optional<LoadSum> &loads);
+
 /** A point or vector as an array of JSON. */
 template <int dim>
 std::string json_point(const dealii::Tensor<1, dim> &x);

@@ -29,8 +29,9 @@ struct Summary
   std::optional<ErrorBound> bound; ///< of the last step
   std::string no_bound;            ///< why there is none
   double relative_bound = 0;
-  double energy = 0; ///< J(u_N), likewise
-  LoadStep load;     ///< the last one that is done, of a history
+  double energy = 0;            ///< J(u_N), likewise
+  LoadStep load;                ///< the last one that is done, of a history
+  std::optional<LoadSum> loads; ///< of the last step
 
   /** Count a finished step, whose row is @p row. */
   void add(const StepReport<dim> &step, const Record &row);

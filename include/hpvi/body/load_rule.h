@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_load_rule_h
+#define hpvi_load_rule_h
+
+#include <hpvi/body/cell_map.h>
+#include <hpvi/algebra/cut_rule.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/body/shape_tables.h>
+#include <hpvi/scene/scene.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/grid/tria.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** Points and weights for a load on a face (d = 1) or in a cell (d = 2), on [0,1]^d. */
+template <int d>
+struct LoadRule
+{
+  unsigned int n_gauss;     ///< it is the Gauss rule of so many points per direction; 0: it is cut
+  unsigned int most_points; ///< of the Gauss rule on any piece, per direction
+  dealii::Quadrature<d> quadrature;
+  std::vector<double> cuts; ///< of a face: 0, where pieces meet, 1
+};
+
+/** An edge or cell on which the load by its rule and by one four times finer are not the same. */
+template <int dim>
+struct UnresolvedLoad
+{
+  std::string name; ///< as in "Traction on top", "Body force"
+  unsigned int cell;
+  dealii::Point<dim> where;            ///< the middle of the worst piece
+  dealii::Tensor<1, dim> force, finer; ///< by both rules [stress length^(dim-1)]
+  double deviation; ///< of forces and, with a lever of half the edge or cell, moments
+};
+
+/** A prescribed displacement or gap that the nodes of an edge miss. */
+template <int dim>
+struct MissedDisplacement
+{
+  std::string name; ///< as in "Displacement on top", "Gap on bottom"
+  bool is_gap;
+  unsigned int cell;
+  dealii::Point<dim> where;
+  double value, interpolated; ///< one component of it, and of its interpolant at the nodes [length]
+};
+
+/** All loads of a scene together. */
+struct LoadSum
+{
+  dealii::Point<2> centre;    ///< of the body
+  dealii::Tensor<1, 2> force; ///< [stress length]
+  double moment = 0;          ///< about the centre [stress length^2]
+  double absolute = 0;        ///< int |G_x| + |G_y|, and of the body force likewise
+};
+
+/**
+ * The one quadrature rule for each load on each face and cell, for everything that holds the load: discrete equations, equilibrated
+ * stresses, oscillation. Loads are looked at once, on the coarse mesh, with some 500 samples along a side of the
+ * body, 100 x 100 inside, and no fewer than four times as many per direction as a Gauss rule has: where they jump, bend or are narrow, coarse edges are cut
+ * by make_cut_rule() and coarse cells into rectangles, at jumps along their axes or by bisection. Refined edges and cells inherit these cuts.
+ *
+ * On what is not cut, and on each piece, a Gauss rule has as many points per direction, at least p + 2, as give
+ * the moments of the load with polynomials of degree 2 to round-off. Then the discrete equations hold with the exact
+ * load for every hat function times a rigid motion, which equilibrated stresses build on.
+ *
+ * Where no 64 pieces do, the load is unresolved, on the coarse mesh; on finer ones its edges and cells are
+ * cut anew, and may be resolved there.
+ */
+template <int dim>
+class LoadRules
+{
+public:
+  using Cell = typename dealii::Triangulation<dim>::cell_iterator;
+
+  /** Of the loads of @p scene on the coarse cells of @p mesh; the scene must outlive this object. */
+  LoadRules(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh,
+            std::shared_ptr<const ShapeTables<dim>> tables);
+
+  /** In s on [0,1] of a face, which has a traction. */
+  LoadRule<1> traction(const Cell &cell, unsigned int face, unsigned int degree) const;
+
+  /** In reference coordinates. */
+  LoadRule<dim> body_force(const Cell &cell, unsigned int degree) const;
+
+  /** Of the active cells of @p mesh: both rules differ by more than 1e-9 of all loads. */
+  std::vector<UnresolvedLoad<dim>> unresolved(const dealii::Triangulation<dim> &mesh) const;
+
+  /**
+   * Boundary edges of the active cells of @p mesh on which a prescribed component, or a gap, differs from its interpolant at the
+   * Gauss-Lobatto nodes by more than a twentieth of its variation: one place for each edge. Where data are
+   * smooth along the coarse edge that is not asked.
+   */
+  std::vector<MissedDisplacement<dim>> missed_displacements(const dealii::Triangulation<dim> &mesh,
+                                                            const Degrees &degrees) const;
+
+  /** Where on a face, in [0,1], prescribed displacements and gaps are to be looked at; smooth ones: nowhere. */
+  std::vector<double> displacement_points(const Cell &cell, unsigned int face) const;
+
+  const LoadSum &sum() const;
+
+  /** What both rules differ by where they agree to 1e-9, in all, over LoadSum::absolute. */
+  double difference() const;
+
+private:
+  /** Both rules of a load on an edge or in a cell. */
+  struct Comparison
+  {
+    dealii::Tensor<1, dim> force, finer;
+    double deviation = 0;     ///< as UnresolvedLoad has it
+    dealii::Point<dim> worst; ///< in reference coordinates
+  };
+
+  struct Pieces
+  {
+    std::vector<double> cuts;                    ///< of an edge: 0, where pieces meet, 1
+    std::vector<dealii::BoundingBox<dim>> boxes; ///< of a cell; all of it
+    Comparison comparison;
+  };
+
+  using Place = std::pair<dealii::types::coarse_cell_id, unsigned int>; ///< its face; none: inside
+
+  Pieces cut_cell(const Cell &cell) const;
+  Pieces cut(const Cell &cell, unsigned int face) const;
+  Pieces pieces(const Cell &cell, unsigned int face) const;
+  bool is_unresolved(const Pieces &pieces) const;
+  void add(const Cell &cell, unsigned int face);
+  void cut_displacements(const Cell &cell, unsigned int face);
+
+  const Scene<dim> &scene;
+  const std::shared_ptr<const ShapeTables<dim>> tables;
+  std::map<Place, Pieces> coarse; ///< what varies
+  std::map<Place, std::vector<double>>
+      displacement_cuts; ///< of coarse edges whose data are not smooth
+  LoadSum total;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_load_check_h
+#define hpvi_load_check_h
+
+#include <hpvi/evaluation/equilibrium.h>
+
+#include <string>
+
+namespace hpvi
+{
+/**
+ * The loads of a scene on its coarse cells, by a rule at least four times finer per direction than that of the primal path, which
+ * has p + 1 Gauss points and cuts nothing.
+ */
+template <int dim>
+struct LoadCheck
+{
+  explicit LoadCheck(const Scene<dim> &scene);
+
+  dealii::Point<dim> centre; ///< of the body
+  BoundaryForce<dim> sum;    ///< of all of them
+  double absolute = 0;       ///< of all their components, int |.| [stress length^(dim-1)]
+
+  std::string worst;                   ///< where the rules differ most, as in "Traction on top"
+  dealii::Point<dim> where;            ///< the middle of that face or cell
+  dealii::Tensor<1, dim> force, finer; ///< there, by both rules
+
+  /** As in "loads: force (0 0 -2), moment (0 0 0) about (1 1 1)", a line. */
+  std::string in_words() const;
+
+  /** That @p loads of a discrete problem differ from the sum by more than 1e-3 of all; else empty. */
+  std::string warning(const BoundaryForce<dim> &loads) const;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""loads.py HPVI: the resultant of all loads is printed before the first step and kept, narrow loads are in it, and what the
+primal path does not resolve is warned of."""
+
+import unittest
+
+from runs import RunTest
+
+STRIP = """
+subsection Geometry
+  set Upper corner = 100, 20
+  set Subdivisions = 4, 1
+end
+subsection Material
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.3
+end
+subsection Boundary bottom
+  set Contact        = bilateral
+  set Friction bound = 0.5
+end
+subsection Boundary top
+  set Traction = 0; -1 - 50*(abs(x-40)<1)
+end
+subsection Adaptivity
+  set Maximum steps = 1
+end
+"""
+
+BOX = """
+set Dimension = 3
+subsection Geometry
+  set Upper corner = 2, 2, 1
+  set Subdivisions = 1, 1, 1
+end
+subsection Material
+  set Young's modulus = 10
+  set Poisson's ratio = 0.3
+end
+subsection Boundary bottom
+  set Displacement = 0; 0; 0
+end
+subsection Boundary top
+  set Traction = 0; 0; -100*(abs(x-1.2)<0.1)*(abs(z-0.4)<0.1)
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+"""
+
+
+class Loads(RunTest):
+    def run_text(self, text, *settings):
+        scene = self.home / "loads.prm"
+        scene.write_text(text)
+        return self.run_scene(*settings, scene=scene).splitlines()
+
+    def test_stand_before_the_first_step(self):
+        printed = self.run_text(STRIP)
+        line = "loads: force (0 -200), moment 1000 about (50 10)"
+        head = next(k for k, text in enumerate(printed) if text.startswith("step "))
+        self.assertIn(line, printed[:head])
+        loads, summary = self.summary()["loads"], self.summary()
+        self.assertAlmostEqual(loads["force"][1], -200, places=9)
+        self.assertAlmostEqual(loads["moment"], 1000, places=8)
+        self.assertEqual(loads["about"], [50, 10])
+        self.assertAlmostEqual(summary["forces"]["loads"]["force"][1], -200, places=9)
+        self.assertTrue(summary["error_bound"]["guaranteed"])
+        self.assertEqual(summary["warnings"], [w for w in summary["warnings"] if "resolved" not in w])
+
+    def test_in_a_history_are_those_of_the_first_load_step(self):
+        printed = self.run_text(STRIP, "Loading/Steps=2", "Boundary top/Traction=0; -t")
+        self.assertIn("with t = 0.5, loads: force (0 -50), moment 0 about (50 10)", printed)
+        self.assertAlmostEqual(self.summary()["loads"]["force"][1], -100, places=9)
+
+    def test_in_space_are_compared(self):
+        printed = self.run_text(BOX)
+        self.assertTrue(any(line.startswith("loads: force (0 0 -") for line in printed), printed)
+        warning = next(w for w in self.summary()["warnings"] if "resolved" in w)
+        self.assertTrue(warning.startswith("Traction on top is not resolved near (1 2 0.5)"), warning)
+        self.run_text(BOX, "Boundary top/Traction=0; 0; x*z - 3")
+        self.assertEqual(self.summary()["warnings"], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

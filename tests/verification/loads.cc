@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Loads that are narrow, jump or bend: their rules, what is said where no rule resolves them, and the bound of the error
+// under them.
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/body/mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace
+{
+using namespace hpvi;
+using dealii::Point;
+using dealii::Tensor;
+
+using Function = std::function<double(const Point<2> &)>;
+
+Scene<2> body(const Point<2> &upper, const std::array<unsigned int, 2> &subdivisions)
+{
+  Scene<2> scene;
+  scene.geometry.corners = box_corners(Point<2>(), upper);
+  scene.geometry.subdivisions = subdivisions;
+  scene.materials[0].young = 1000;
+  scene.materials[0].poisson = 0.3;
+  return scene;
+}
+
+void hold(Scene<2> &scene, const std::string &boundary)
+{
+  scene.boundary(boundary).displacement = {{expression<2>(0.), expression<2>(0.)}};
+}
+
+/** A strip of 100 x 20 on friction, its bottom bilateral. */
+Scene<2> strip(const unsigned int n_cells)
+{
+  Scene<2> scene = body({100., 20.}, {{n_cells, 1}});
+  scene.boundary("bottom").contact = Contact::bilateral;
+  scene.boundary("bottom").friction.bound = expression<2>(0.5);
+  return scene;
+}
+
+struct Mesh
+{
+  dealii::Triangulation<2> mesh;
+  std::shared_ptr<const ShapeTables<2>> tables = std::make_shared<const ShapeTables<2>>();
+  const LoadRules<2> rules;
+
+  explicit Mesh(const Scene<2> &scene) : rules((make_mesh(scene, mesh), scene), mesh, tables)
+  {
+  }
+
+  /** Cells that hold one of the points, so often. */
+  void bisect(const std::vector<Point<2>> &points, const unsigned int times)
+  {
+    for (unsigned int k = 0; k < times; ++k)
+    {
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const Point<2> &x : points)
+          if (cell->bounding_box().point_inside(x))
+            cell->set_refine_flag();
+      mesh.execute_coarsening_and_refinement();
+    }
+  }
+};
+
+/** int f along the top of all active cells, by the rules of the traction there. */
+double along_top(const Scene<2> &scene, const Mesh &mesh, const Function &f)
+{
+  double sum = 0;
+  for (const auto &cell : mesh.mesh.active_cell_iterators())
+    if (cell->at_boundary(3))
+    {
+      const CellMap<2> map = map_of<2>(cell);
+      const LoadRule<1> rule = mesh.rules.traction(cell, 3, scene.adaptivity.start_degree);
+      for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
+        sum += rule.quadrature.weight(q) * cell->face(3)->measure() *
+               f(map.point(point_on_face<2>(3, rule.quadrature.point(q))));
+    }
+  return sum;
+}
+
+double inside(const Scene<2> &scene, const Mesh &mesh, const Function &f)
+{
+  double sum = 0;
+  for (const auto &cell : mesh.mesh.active_cell_iterators())
+  {
+    const CellMap<2> map = map_of<2>(cell);
+    const LoadRule<2> rule = mesh.rules.body_force(cell, scene.adaptivity.start_degree);
+    for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
+    {
+      const Point<2> &s = rule.quadrature.point(q);
+      sum += rule.quadrature.weight(q) * determinant(map.jacobian(s)) * f(map.point(s));
+    }
+  }
+  return sum;
+}
+
+// ---------------------------------------------------------------- rules
+
+TEST(CutRule, LooksAsCloselyAsItIsAsked)
+{
+  const dealii::QGauss<1> gauss(5);
+  const auto bump = [](const double s) { return std::abs(s - 0.4) < 0.01 ? 1. : 0.; };
+  const CutRule coarse = make_cut_rule(bump, gauss, {0, 1, 2}),
+                fine = make_cut_rule(bump, gauss, {0, 1, 2}, 64);
+  EXPECT_EQ(coarse.integral(), 0.); // between all points
+  EXPECT_NEAR(fine.integral(), 0.02, 1e-15);
+  EXPECT_EQ(fine.jumps.size(), 2U);
+  EXPECT_LT(fine.deviation, 1e-12);
+}
+
+TEST(CutRule, TellsHowWellItIntegrates)
+{
+  const auto noise = [](const double s) { return std::sin(1e6 * s * s); };
+  const CutRule rule = make_cut_rule(noise, dealii::QGauss<1>(5), {0, 1, 2});
+  EXPECT_GT(rule.deviation, 1e-3);
+  EXPECT_NE(rule.integral(), rule.finer_integral);
+}
+
+TEST(LoadRules, FindNarrowTractionsWhereverTheyAre)
+{
+  for (const unsigned int n_cells : {1, 4})
+    for (const double at : {3., 11.1, 25., 31., 40., 47.3, 50., 62.5, 75., 96.})
+    {
+      const Function load = [at](const Point<2> &x)
+      { return -1 - 50. * (std::abs(x[0] - at) < 1); };
+      Scene<2> scene = strip(n_cells);
+      scene.boundary("top").traction[1] = expression<2>(load);
+      Mesh mesh(scene);
+      EXPECT_TRUE(mesh.rules.unresolved(mesh.mesh).empty());
+      EXPECT_LT(mesh.rules.difference(), 1e-11);
+      const LoadSum &sum = mesh.rules.sum();
+      EXPECT_NEAR(sum.force[1], -200, 1e-9) << at;
+      EXPECT_NEAR(sum.moment, -100 * (at - 50), 1e-8) << at;
+      EXPECT_NEAR(sum.absolute, 200, 1e-9) << at;
+      for (unsigned int k = 0; k < 3; ++k, mesh.bisect({{at, 20.}, {at / 2, 20.}}, 1))
+      {
+        EXPECT_NEAR(along_top(scene, mesh, load), -200, 1e-9) << at << ", bisected " << k;
+        const auto moment = [&](const Point<2> &x) { return (x[0] - 50) * load(x); };
+        EXPECT_NEAR(along_top(scene, mesh, moment), -100 * (at - 50), 1e-8) << at;
+      }
+    }
+}
+
+TEST(LoadRules, LeaveSmoothLoadsAlone)
+{
+  Scene<2> scene = strip(4);
+  scene.boundary("top").traction[1] =
+      expression<2>([](const Point<2> &x) { return std::cos(0.02 * x[0]); });
+  scene.body_force[0] = expression<2>([](const Point<2> &x) { return x[0] * x[1]; });
+  scene.boundary("left").displacement[0] =
+      expression<2>([](const Point<2> &x) { return std::exp(0.1 * x[1]); });
+  const Mesh mesh(scene);
+  const unsigned int p = scene.adaptivity.start_degree;
+  for (const auto &cell : mesh.mesh.active_cell_iterators())
+  {
+    EXPECT_EQ(mesh.rules.traction(cell, 3, p).n_gauss, p + 6);
+    EXPECT_EQ(mesh.rules.traction(cell, 3, p).cuts.size(), 2U);
+    EXPECT_EQ(mesh.rules.body_force(cell, p).n_gauss, p + 2);
+    EXPECT_TRUE(mesh.rules.displacement_points(cell, 0).empty());
+  }
+}
+
+TEST(LoadRules, CutCellsAtJumpsAlongTheirAxes)
+{
+  const Function load = [](const Point<2> &x) { return x[0] < 31.7 && x[1] > 4.2 ? x[1] : 0.; };
+  Scene<2> scene = strip(4);
+  scene.body_force[1] = expression<2>(load);
+  Mesh mesh(scene);
+  EXPECT_TRUE(mesh.rules.unresolved(mesh.mesh).empty());
+  const double exact = 31.7 * (400 - 4.2 * 4.2) / 2;
+  EXPECT_NEAR(mesh.rules.sum().force[1], exact, 1e-9 * exact);
+  mesh.bisect({{31., 5.}}, 3);
+  EXPECT_NEAR(inside(scene, mesh, load), exact, 1e-9 * exact);
+}
+
+TEST(LoadRules, SeeASpotOfBodyForceAndSayThatItIsNotResolved)
+{
+  for (const unsigned int n_cells : {1, 4})
+    for (const double at : {13., 40., 88.})
+    {
+      const Function load = [at](const Point<2> &x)
+      { return x.distance(Point<2>(at, 9.)) < 2 ? -3. : 0.; };
+      Scene<2> scene = strip(n_cells);
+      scene.body_force[1] = expression<2>(load);
+      Mesh mesh(scene);
+      const double exact = -12 * dealii::numbers::PI;
+      EXPECT_NEAR(mesh.rules.sum().force[1], exact, 0.02 * std::abs(exact)) << at;
+      const auto unresolved = mesh.rules.unresolved(mesh.mesh);
+      ASSERT_FALSE(unresolved.empty());
+      EXPECT_EQ(unresolved[0].name, "Body force");
+      EXPECT_LT(unresolved[0].where.distance(Point<2>(at, 9.)), 4.);
+      const double before = std::abs(inside(scene, mesh, load) - exact);
+      mesh.bisect({{at, 9.}, {at, 9. + 1e-3}}, 3); // cells are cut anew
+      EXPECT_LT(std::abs(inside(scene, mesh, load) - exact), std::max(0.3 * before, 1e-2)) << at;
+    }
+}
+
+// ---------------------------------------------------------------- runs
+
+template <class Take>
+void run(const Scene<2> &scene, const Take &take)
+{
+  AdaptiveSolver<2> solver(scene);
+  solver.run([&](const StepReport<2> &step) { take(step); });
+}
+
+bool warns(const StepReport<2> &step, const std::string &words)
+{
+  return std::any_of(step.warnings.begin(), step.warnings.end(),
+                     [&](const std::string &line) { return line.find(words) == 0; });
+}
+
+TEST(UnresolvedLoads, AreWarnedOfMarkedAndLeaveNoBound)
+{
+  Scene<2> scene = strip(4);
+  scene.boundary("top").traction[1] = expression<2>(
+      [](const Point<2> &x) { return std::abs(x[0] - 40) < 3 ? std::sin(1e5 * x[0] * x[0]) : 0.; });
+  scene.adaptivity.maximum_steps = 3;
+  double smallest = 100;
+  run(scene,
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_FALSE(step.bound);
+        EXPECT_EQ(step.no_bound.find("traction on top is not resolved near ("), 0U)
+            << step.no_bound;
+        if (step.stopped_by.empty())
+          return;
+        EXPECT_EQ(step.stopped_by, "Maximum steps");
+        EXPECT_TRUE(warns(step, "Traction on top is not resolved near ("));
+        for (const auto &cell : step.solution.spaces->mesh->active_cell_iterators())
+          if (cell->bounding_box().point_inside({40., 20.}))
+            smallest = std::min(smallest, cell->diameter());
+      });
+  EXPECT_LT(smallest, 10.);
+}
+
+TEST(UnresolvedLoads, DoNotEndARunAsExact)
+{
+  Scene<2> scene = body({1., 1.}, {{1, 1}});
+  hold(scene, "bottom");
+  scene.boundary("top").traction[1] =
+      expression<2>([](const Point<2> &x) { return std::abs(x[0] - 0.371) < 0.01 ? -100. : 0.; });
+  scene.adaptivity.maximum_steps = 2;
+  run(scene,
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_NE(step.stopped_by, "round-off");
+        EXPECT_NEAR(step.solution.spaces->loads->sum().force[1], -2, 1e-12);
+        ASSERT_TRUE(step.bound) << step.no_bound;
+        EXPECT_TRUE(std::isfinite(step.bound->total));
+        EXPECT_GT(step.relative_bound, 0.1);
+      });
+}
+
+TEST(MissedDisplacements, AreWarnedOfMarkedAndLeaveNoBound)
+{
+  for (const bool jumps : {false, true})
+  {
+    Scene<2> scene = body({1., 1.}, {{2, 2}});
+    hold(scene, "bottom");
+    scene.boundary("top").displacement[1] = expression<2>(
+        [jumps](const Point<2> &x)
+        {
+          const double s = (x[0] - 0.37) / 0.004;
+          return jumps ? (std::abs(s) < 1 ? -1e-3 : 0.) : -1e-3 * std::exp(-s * s);
+        });
+    scene.adaptivity.maximum_steps = 1;
+    run(scene,
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_FALSE(step.bound);
+          EXPECT_TRUE(warns(step, "Displacement on top lies between the nodes near (0.3"));
+          EXPECT_EQ(step.stopped_by, "Maximum steps"); // not exact
+        });
+    scene.adaptivity.maximum_steps = 8;
+    run(scene,
+        [&](const StepReport<2> &step)
+        {
+          if (step.number < 8)
+            return;
+          EXPECT_EQ(warns(step, "Displacement on top"), jumps);
+          EXPECT_GT(step.energies.norm, 1e-3);
+        });
+  }
+}
+
+TEST(MissedDisplacements, OfAGapLeaveNoBound)
+{
+  Scene<2> scene = body({1., 1.}, {{2, 2}});
+  scene.boundary("bottom").contact = Contact::unilateral;
+  scene.boundary("bottom").gap = expression<2>(
+      [](const Point<2> &x) { return -1e-3 * std::exp(-std::pow((x[0] - 0.37) / 0.004, 2)); });
+  hold(scene, "top");
+  scene.adaptivity.maximum_steps = 1;
+  run(scene,
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_FALSE(step.bound);
+        EXPECT_EQ(step.stopped_by, "Maximum steps");
+      });
+}
+
+// ---------------------------------------------------------------- the bound
+
+/** The least energy, from both sides, by each step. */
+void expect_overlap(const std::vector<std::pair<double, double>> &intervals)
+{
+  double low = -1e300, high = 1e300;
+  for (const auto &[below, above] : intervals)
+  {
+    low = std::max(low, below);
+    high = std::min(high, above);
+  }
+  EXPECT_LE(low, high + 1e-9 * std::abs(high));
+}
+
+std::vector<std::pair<double, double>> intervals_of(const Scene<2> &scene)
+{
+  std::vector<std::pair<double, double>> result;
+  run(scene,
+      [&](const StepReport<2> &step)
+      {
+        ASSERT_TRUE(step.bound) << step.no_bound;
+        result.emplace_back(step.energies.energy - step.bound->energy_below,
+                            step.energies.energy + step.bound->energy_above);
+      });
+  return result;
+}
+
+/** A load that jumps near the tip of a cantilever: the energies of coarse meshes tell the error, by Galerkin's orthogonality. */
+TEST(BoundUnderJumps, IsAboveTheErrorOfACantilever)
+{
+  Scene<2> scene = body({200., 1.}, {{20, 1}});
+  hold(scene, "left");
+  scene.boundary("top").traction[1] =
+      expression<2>([](const Point<2> &x) { return x[0] > 199.2 ? -1. : 0.; });
+  scene.adaptivity.method = Method::hup2;
+  scene.adaptivity.start_degree = 2;
+  scene.adaptivity.maximum_steps = 2;
+  Scene<2> finer = scene;
+  finer.geometry.subdivisions = {{100, 1}};
+  finer.adaptivity.method = Method::hup4;
+  finer.adaptivity.start_degree = 8;
+  finer.adaptivity.maximum_steps = 1;
+  double least = 0;
+  run(finer, [&](const StepReport<2> &step) { least = step.energies.energy; });
+  run(scene,
+      [&](const StepReport<2> &step)
+      {
+        ASSERT_TRUE(step.bound) << step.no_bound;
+        const double error = std::sqrt(2 * (step.energies.energy - least));
+        EXPECT_GE(step.bound->total, error);
+      });
+}
+
+TEST(BoundUnderJumps, HoldsTheSameEnergyOnTwoMeshes)
+{
+  std::vector<std::pair<double, double>> intervals;
+  for (const unsigned int n : {1, 2, 3, 4})
+  {
+    Scene<2> scene = body({1., 1.}, {{n, n}});
+    hold(scene, "bottom");
+    scene.boundary("top").traction[1] =
+        expression<2>([](const Point<2> &x) { return x[0] < 0.3 ? -1. : 0.; });
+    scene.adaptivity.maximum_steps = 6;
+    const auto more = intervals_of(scene);
+    intervals.insert(intervals.end(), more.begin(), more.end());
+  }
+  expect_overlap(intervals);
+}
+} // namespace
