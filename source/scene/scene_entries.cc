@@ -413,8 +413,9 @@ std::vector<Hint> hints_about_conditions()
 {
   return {
       {{"pressure"},
-       "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, a pressure that of minus the "
-       "outer normal"},
+       "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, which is -p n for a pressure "
+       "p, n "
+       "the outer normal"},
       {{"force", "forces", "load", "loads", "surface load", "line load", "point load", "neumann",
         "neumann boundary", "surface force", "surface traction"},
        "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, a force per area, and one in "
@@ -465,7 +466,8 @@ std::vector<Hint> hints_in_plane()
        "conditions stand in the subsections Boundary left, right, bottom and top"},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
-      {{"thickness"}, "loads are those of a body of thickness 1; divide them by the thickness"},
+      {{"thickness"},
+       "there is none: loads are stresses, and forces those of a body of thickness 1"},
       {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
        "a load history has \"Loading/Steps\", in which t runs from 0 to 1"}};
 }
