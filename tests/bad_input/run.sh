@@ -354,6 +354,7 @@ invalid "Adaptivity/Maximum unknowns = 99999999999" "positive integer" -- "Adapt
 for entry in "Tolerance" "Maximum seconds" "hpa2 decay threshold" "hpa3 decay threshold"; do
   invalid "Adaptivity/$entry = -1" ">= 0" -- "Adaptivity/$entry=-1"
 done
+invalid "Adaptivity/Tolerance = auto" "automatic or a number >= 0" -- "Adaptivity/Tolerance=auto"
 invalid "Error/Reference solution = nowhere.dat" "cannot be read" "Output/Reference solution" -- \
   "Error/Reference solution=nowhere.dat"
 invalid "Solver/QP tolerance = 0" "(0, 1]" -- "Solver/QP tolerance=0"
