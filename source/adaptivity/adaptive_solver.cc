@@ -85,6 +85,7 @@ struct AdaptiveSolver<dim>::Stages
   {
     mesh = start.mesh;
     degrees = start.degrees;
+    loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
     previous = start.multiplier;
     motion = start.motion;
     factored = start.factored;
