@@ -266,10 +266,10 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
 //
 // The strategy sees numbers only: degrees, indicators, and on demand the decay rate of a cell,
 // which costs a transformation of its coefficients and is asked for marked cells alone. Some
-// things override it, because no indicator can see them: a jump of the friction bound inside an
-// edge, contact that the points of the multiplier have missed, a bound that varies between
-// these points, loads that no quadrature resolves and displacements that nodes miss. Their cells are
-// bisected until it is resolved.
+// things override it, because no indicator can see them: a jump of the friction bound or the
+// coefficient inside an edge, contact that the points of the multiplier have missed, a gap, a bound
+// or a coefficient that varies between these points, loads that no quadrature resolves and
+// displacements that nodes miss. Their cells are bisected until it is resolved.
 template <int dim>
 Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
                                              const ErrorEstimate &estimate,
@@ -284,11 +284,13 @@ Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
                  [&](const unsigned int cell) { return smoothness.decay_rate(solution, cell); });
   if (scene.adaptivity.method != Method::pu)
   {
-    for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps())
+    for (const UnresolvedJump<dim> &jump : solution.contact_space.unresolved_jumps(solution.z))
       refinement.bisect[jump.face->cell->active_cell_index()] = true;
     for (const UnseenContact<dim> &contact : unseen_contacts(solution))
       refinement.bisect[contact.face->cell->active_cell_index()] = true;
-    for (const UnresolvedBound<dim> &bound : solution.contact_space.unresolved_bounds())
+    for (const UnseenGap<dim> &gap : unseen_gaps(solution))
+      refinement.bisect[gap.face->cell->active_cell_index()] = true;
+    for (const UnresolvedBound<dim> &bound : solution.contact_space.unresolved_bounds(solution.z))
       refinement.bisect[bound.face->cell->active_cell_index()] = true;
     for (const UnresolvedLoad<dim> &load : unresolved)
       refinement.bisect[load.cell] = true;

@@ -2,12 +2,12 @@
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/body/cell_map.h>
-#include <hpvi/body/deformation.h>
 #include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/solver/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -64,15 +64,17 @@ std::string tensile_contact(const Solution<dim> &solution,
 
 /**
  * Gauss points obey |z_i| <= g(x_i), the polynomial through them need not. What exceeds g is compared
- * with the largest g, because next to a bound that vanishes a quotient says nothing.
+ * with the largest g and with the largest traction, because next to a bound that vanishes a quotient
+ * says nothing.
  */
 template <int dim>
 std::string overshooting_multiplier(const Solution<dim> &solution)
 {
-  double excess = 0, friction = 0, bound = 0;
+  double excess = 1e-9 * solution.z.linfty_norm(), friction = 0, bound = 0;
   for (unsigned int i = 0; i < solution.z.size(); ++i)
     excess = std::max(excess, 0.05 * solution.contact_space.bound(i, solution.z));
   Point<dim> where;
+  bool coulomb = false;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
     {
@@ -85,14 +87,17 @@ std::string overshooting_multiplier(const Solution<dim> &solution)
         friction = z;
         bound = g;
         where = face.point(s);
+        coulomb = face.condition->friction.coefficient != nullptr;
       }
     }
   if (friction == 0)
     return {};
   const std::string remedy = "refine there";
-  if (bound == 0)
+  if (bound < 0.1 * friction) // a quotient would say no more
     return line("friction reaches ", labelled(friction, solution.scene.stress_unit),
-                " between Gauss points, at (", where, "), where Friction bound is 0: ", remedy);
+                " between Gauss points, at (", where, "), where ",
+                coulomb ? "Friction coefficient times the pressure is " : "Friction bound is ",
+                labelled(bound, bound > 0 ? solution.scene.stress_unit : ""), ": ", remedy);
   return line("|lambda| reaches ", friction / bound, " between Gauss points, at (", where,
               "); it obeys |lambda| <= 1 at the Gauss points only: ", remedy);
 }
@@ -117,27 +122,6 @@ std::string pulling_pressure(const Solution<dim> &solution,
               labelled(worst->highest_tension, solution.scene.stress_unit), " at (",
               worst->highest_tension_point, "), ", 100 * share,
               " % of the largest pressure; refine there");
-}
-
-/** How far u_N moves the nodes of the body, its nearest rigid motion aside. */
-template <int dim>
-double deformation(const Solution<dim> &solution)
-{
-  Deformation<dim> deformation;
-  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-  {
-    const CellMap<dim> map = map_of<dim>(cell);
-    const auto &nodes = cell->get_fe().base_element(0).get_unit_support_points();
-    const std::vector<double> u = solution.coefficients(cell->active_cell_index());
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      Tensor<1, dim> value;
-      for (unsigned int c = 0; c < dim; ++c)
-        value[c] = u[c * nodes.size() + i];
-      deformation.add(map.point(nodes[i]), value);
-    }
-  }
-  return deformation.largest();
 }
 
 /** The foundation holds the body at points or in moments only. */
@@ -186,6 +170,27 @@ double longest_edge_at(const Point<dim> &x, const types::boundary_id boundary,
       longest = std::max(longest, face.length);
   }
   return longest;
+}
+
+template <int dim>
+std::string unseen_gap(const Solution<dim> &solution)
+{
+  const std::vector<UnseenGap<dim>> places = unseen_gaps(solution);
+  if (places.empty())
+    return {};
+  const auto &worst =
+      *std::max_element(places.begin(), places.end(),
+                        [](const auto &a, const auto &b)
+                        { return std::abs(a.gap - a.seen) < std::abs(b.gap - b.seen); });
+  return line("Gap varies inside ", places.size(), places.size() == 1 ? " edge" : " edges",
+              " more than the points of the contact conditions see: near (", worst.where,
+              ") it is ", labelled(worst.gap, solution.scene.length_unit),
+              ", the conditions stand for ",
+              labelled(std::abs(worst.seen) < 1e-9 * std::abs(worst.gap) ? 0. : worst.seen,
+                       solution.scene.length_unit),
+              " in an edge of length ", labelled(worst.face->length, solution.scene.length_unit),
+              "; refine there, put a vertex where Gap jumps, or take more steps of an adaptive "
+              "method that bisects");
 }
 
 template <int dim>
@@ -399,11 +404,29 @@ std::string free_place(const Solution<dim> &solution, const std::vector<ContactS
               ": its place is not unique; raise Friction bound, lower the loads or add a support");
 }
 
-/** The discrete problem takes g at Gauss points only. */
+/** The entry that gives friction on @p face. */
 template <int dim>
-std::string coarse_bound(const Solution<dim> &solution)
+std::string friction_entry(const ContactFace<dim> &face)
 {
-  const std::vector<UnresolvedBound<dim>> bounds = solution.contact_space.unresolved_bounds();
+  return face.condition->friction.coefficient ? "Friction coefficient" : "Friction bound";
+}
+
+/** Those that @p entry gives. */
+template <int dim, template <int> class Place>
+std::vector<Place<dim>> places_of(const std::string &entry, const std::vector<Place<dim>> &places)
+{
+  std::vector<Place<dim>> result;
+  std::copy_if(places.begin(), places.end(), std::back_inserter(result),
+               [&](const Place<dim> &place) { return friction_entry(*place.face) == entry; });
+  return result;
+}
+
+/** The discrete problem takes what @p entry gives at Gauss points only. */
+template <int dim>
+std::string coarse_bound(const Solution<dim> &solution, const std::string &entry)
+{
+  const std::vector<UnresolvedBound<dim>> bounds =
+      places_of(entry, solution.contact_space.unresolved_bounds(solution.z));
   if (bounds.empty())
     return {};
   const auto error = [](const UnresolvedBound<dim> &bound)
@@ -411,29 +434,31 @@ std::string coarse_bound(const Solution<dim> &solution)
   const auto &worst =
       *std::max_element(bounds.begin(), bounds.end(),
                         [&](const auto &a, const auto &b) { return error(a) < error(b); });
-  return line("Friction bound varies inside ", bounds.size(),
-              bounds.size() == 1 ? " edge" : " edges",
-              " more than the multiplier's points see: they sum to ", worst.sum,
-              ", the integral is ", worst.integral, " over the edge at (", worst.face->point(0.5),
+  return line(entry, " varies inside ", bounds.size(), bounds.size() == 1 ? " edge" : " edges",
+              " more than the multiplier's points see: ",
+              worst.face->condition->friction.coefficient ? "times the pressure " : "",
+              "they sum to ", worst.sum, ", the integral is ", worst.integral,
+              " over the edge at (", worst.face->point(0.5),
               "); refine there, or take more steps of an adaptive method that bisects");
 }
 
 template <int dim>
-std::string unresolved_jump(const Solution<dim> &solution)
+std::string unresolved_jump(const Solution<dim> &solution, const std::string &entry)
 {
-  const std::vector<UnresolvedJump<dim>> jumps = solution.contact_space.unresolved_jumps();
+  const std::vector<UnresolvedJump<dim>> jumps =
+      places_of(entry, solution.contact_space.unresolved_jumps(solution.z));
   if (jumps.empty())
     return {};
-  const auto &worst =
-      *std::max_element(jumps.begin(), jumps.end(),
-                        [](const auto &a, const auto &b)
-                        { return a.height * a.face->length < b.height * b.face->length; });
-  return line("Friction bound jumps inside ", jumps.size(), jumps.size() == 1 ? " edge" : " edges",
-              ", by up to ", labelled(worst.height, solution.scene.stress_unit), " at (",
-              worst.where, ") in an edge of length ",
-              labelled(worst.face->length, solution.scene.length_unit),
-              ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
-              "Geometry/Graded towards, or take more steps of an adaptive method");
+  const auto &worst = *std::max_element(
+      jumps.begin(), jumps.end(), [](const auto &a, const auto &b) { return a.force < b.force; });
+  return line(
+      entry, " jumps inside ", jumps.size(), jumps.size() == 1 ? " edge" : " edges", ", by up to ",
+      labelled(worst.height,
+               worst.face->condition->friction.coefficient ? "" : solution.scene.stress_unit),
+      " at (", worst.where, ") in an edge of length ",
+      labelled(worst.face->length, solution.scene.length_unit),
+      ": no polynomial follows that; put a vertex there by Geometry/Subdivisions or "
+      "Geometry/Graded towards, or take more steps of an adaptive method");
 }
 
 /** "there", or "there and in so many other places". */
@@ -510,6 +535,7 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         stagnating_estimate(history),
         rising_estimate(history, solution.scene.has_unilateral_contact()),
         unseen_contact(solution),
+        unseen_gap(solution),
         round_off(algebraic),
         elongated_elements(solution),
         sharp_corners(solution.scene.geometry),
@@ -517,8 +543,10 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         rich_multiplier(solution),
         whole_body_slips(solution, contact),
         free_place(solution, contact),
-        coarse_bound(solution),
-        unresolved_jump(solution),
+        coarse_bound(solution, "Friction bound"),
+        unresolved_jump(solution, "Friction bound"),
+        coarse_bound(solution, "Friction coefficient"),
+        unresolved_jump(solution, "Friction coefficient"),
         unresolved_load(solution),
         missed_displacement(solution),
         no_condition_number(history)})

@@ -40,22 +40,17 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
   return face;
 }
 
-/** Give the face its rule for g; in `int g |u_t|` g meets the degree p. */
+/** Give the face its rules for g and mu_f; in `int g |u_t|` g meets the degree p. */
 template <int dim>
 void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
 {
-  face.friction =
-      make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
-                         gauss, face.degree + std::max(1U, face.n_points) - 1);
-}
-
-/** Does Coulomb's law act anywhere on the face, as far as @p gauss sees? */
-template <int dim>
-bool has_coefficient(const ContactFace<dim> &face, const QGauss<1> &gauss)
-{
-  return std::any_of(gauss.get_points().begin(), gauss.get_points().end(),
-                     [&](const Point<1> &s)
-                     { return face.friction_coefficient(face.point(s[0])) > 0.; });
+  const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
+  face.friction = make_friction_rule(
+      [&face](const double s) { return face.friction_bound(face.point(s)); }, gauss, degree);
+  if (face.condition->friction.coefficient)
+    face.coefficient = make_friction_rule([&face](const double s)
+                                          { return face.friction_coefficient(face.point(s)); },
+                                          gauss, degree);
 }
 
 /** A scene by code is checked at some points of the boundary, none of which need be @p x. */
@@ -205,8 +200,7 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
   integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)));
   face.first_multiplier = unknowns.size();
-  const bool acts =
-      !face.friction.vanishes() || has_coefficient(face, tables.gauss(face.degree + 2));
+  const bool acts = !face.friction.vanishes() || !face.coefficient.vanishes();
   face.n_multipliers = acts ? face.n_points : 0;
   if (face.n_multipliers == 0)
     return;
@@ -433,32 +427,81 @@ double ContactSpace<dim>::largest_bound() const
   return largest;
 }
 
+/** What friction can carry on @p face, to the points of the multiplier and to the integral. */
 template <int dim>
-std::vector<UnresolvedBound<dim>> ContactSpace<dim>::unresolved_bounds() const
+UnresolvedBound<dim> ContactSpace<dim>::limit(const ContactFace<dim> &face,
+                                              const Vector<double> &z) const
 {
-  const double negligible = 1e-6 * friction_limit();
-  std::vector<UnresolvedBound<dim>> result;
-  for (const ContactFace<dim> &face : contact_faces)
+  UnresolvedBound<dim> result{&face, 0., 0., 0.};
+  const bool coulomb = face.condition->friction.coefficient != nullptr;
+  for (unsigned int i = 0; i < face.n_multipliers; ++i)
   {
-    double sum = 0;
-    for (unsigned int i = 0; i < face.n_multipliers; ++i)
-      sum += unknowns[face.first_multiplier + i].weight * unknowns[face.first_multiplier + i].bound;
-    const double integral = face.length * face.friction.integral();
-    if (std::abs(sum - integral) > std::max(1e-3 * integral, negligible))
-      result.push_back({&face, sum, integral});
+    const ContactMultiplier<dim> &unknown = unknowns[face.first_multiplier + i];
+    result.sum +=
+        unknown.weight * (coulomb ? unknown.coefficient * z[unknown.partner] : unknown.bound);
+  }
+  const FrictionRule &rule = coulomb ? face.coefficient : face.friction;
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
+  {
+    const double g = rule.values[q] * (coulomb ? pressure(face, z, rule.points[q]) : 1.);
+    result.integral += face.length * rule.weights[q] * g;
+    result.absolute += face.length * rule.weights[q] * std::abs(g);
   }
   return result;
 }
 
 template <int dim>
-std::vector<UnresolvedJump<dim>> ContactSpace<dim>::unresolved_jumps() const
+std::vector<UnresolvedBound<dim>> ContactSpace<dim>::limits(const Vector<double> &z) const
 {
-  const double negligible = 1e-6 * friction_limit();
+  std::vector<UnresolvedBound<dim>> result;
+  for (const ContactFace<dim> &face : contact_faces)
+    result.push_back(limit(face, z));
+  return result;
+}
+
+namespace
+{
+/** A part of what friction can carry on all faces. */
+template <int dim>
+double negligible_force(const std::vector<UnresolvedBound<dim>> &limits)
+{
+  double sum = 0;
+  for (const UnresolvedBound<dim> &limit : limits)
+    sum += limit.absolute;
+  return 1e-6 * sum;
+}
+} // namespace
+
+template <int dim>
+std::vector<UnresolvedBound<dim>>
+ContactSpace<dim>::unresolved_bounds(const Vector<double> &z) const
+{
+  std::vector<UnresolvedBound<dim>> result = limits(z);
+  const double negligible = negligible_force(result);
+  const auto is_resolved = [&](const UnresolvedBound<dim> &limit)
+  { return std::abs(limit.sum - limit.integral) <= std::max(1e-3 * limit.absolute, negligible); };
+  result.erase(std::remove_if(result.begin(), result.end(), is_resolved), result.end());
+  return result;
+}
+
+template <int dim>
+std::vector<UnresolvedJump<dim>> ContactSpace<dim>::unresolved_jumps(const Vector<double> &z) const
+{
+  const double negligible = negligible_force(limits(z));
   std::vector<UnresolvedJump<dim>> result;
   for (const ContactFace<dim> &face : contact_faces)
-    for (const FrictionRule::Jump &jump : face.friction.jumps)
-      if (std::abs(jump.height) * face.length > negligible)
-        result.push_back({&face, face.point(jump.s), std::abs(jump.height)});
+  {
+    const bool coulomb = face.condition->friction.coefficient != nullptr;
+    double carried = coulomb ? 0. : face.length; // by a unit of height
+    for (unsigned int i = 0; coulomb && i < face.n_multipliers; ++i)
+    {
+      const ContactMultiplier<dim> &unknown = unknowns[face.first_multiplier + i];
+      carried += unknown.weight * std::abs(z[unknown.partner]);
+    }
+    for (const FrictionRule::Jump &jump : (coulomb ? face.coefficient : face.friction).jumps)
+      if (const double height = std::abs(jump.height); height * carried > negligible)
+        result.push_back({&face, face.point(jump.s), height, height * carried});
+  }
   return result;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/deformation.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/unseen_contact.h>
 
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace hpvi
 {
@@ -64,5 +67,87 @@ std::vector<UnseenContact<dim>> unseen_contacts(const Solution<dim> &solution)
   return result;
 }
 
+namespace
+{
+/** Where the conditions of a face look at the gap, in [0,1]. */
+template <int dim>
+std::vector<double> condition_points(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+{
+  const Quadrature<1> &rule =
+      face.at_nodes ? static_cast<const Quadrature<1> &>(tables.gauss_lobatto(face.degree + 1))
+                    : tables.gauss(std::max(face.degree, face.n_points) + 2);
+  // A gap that jumps at a vertex has two values there, of which the one on this face counts.
+  const double inside = 1e-4;
+  std::vector<double> points;
+  for (const Point<1> &point : rule.get_points())
+    points.push_back(std::min(std::max(point[0], inside), 1 - inside));
+  return points;
+}
+
+/** The place where the gap is missed most, by more than @p negligible; none without a face. */
+template <int dim>
+UnseenGap<dim> missed_gap(const ContactFace<dim> &face, const Solution<dim> &solution,
+                          const double negligible)
+{
+  const auto gap = [&](const double s) { return face.condition->gap_at(face.point(s)); };
+  const std::vector<double> points = condition_points(face, solution.tables);
+  std::vector<double> values;
+  for (const double s : points)
+    values.push_back(gap(s));
+  const EdgeDisplacement<dim> u_n(face, solution, &ContactFrame<dim>::normal);
+  UnseenGap<dim> worst{nullptr, {}, 0., 0.};
+  double most = negligible;
+  const unsigned int n_samples = 128;
+  for (unsigned int k = 0; k < n_samples; ++k)
+  {
+    const double s = (k + 0.5) / n_samples, here = gap(s);
+    const std::vector<double> basis = lagrange_basis(points, s);
+    const double seen = std::inner_product(basis.begin(), basis.end(), values.begin(), 0.);
+    if (std::abs(seen - here) > most && u_n(s) > std::min(seen, here) - negligible)
+    {
+      most = std::abs(seen - here);
+      worst = {&face, face.point(s), here, seen};
+    }
+  }
+  return worst;
+}
+} // namespace
+
+template <int dim>
+double deformation(const Solution<dim> &solution)
+{
+  Deformation<dim> deformation;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    const auto &nodes = cell->get_fe().base_element(0).get_unit_support_points();
+    const std::vector<double> u = solution.coefficients(cell->active_cell_index());
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        value[c] = u[c * nodes.size() + i];
+      deformation.add(map.point(nodes[i]), value);
+    }
+  }
+  return deformation.largest();
+}
+
+template <int dim>
+std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution)
+{
+  const Geometry<dim> &geometry = solution.scene.geometry;
+  const double shortest = 1e-6 * geometry.corners[0].distance(geometry.corners[3]);
+  const double negligible = 1e-3 * deformation(solution);
+  std::vector<UnseenGap<dim>> result;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    if (face.condition->is_unilateral() && face.condition->gap && face.length > shortest)
+      if (const UnseenGap<dim> missed = missed_gap(face, solution, negligible); missed.face)
+        result.push_back(missed);
+  return result;
+}
+
 template std::vector<UnseenContact<2>> unseen_contacts(const Solution<2> &);
+template double deformation(const Solution<2> &);
+template std::vector<UnseenGap<2>> unseen_gaps(const Solution<2> &);
 } // namespace hpvi

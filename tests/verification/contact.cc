@@ -202,8 +202,8 @@ TEST(CoarseBound, IsWarnedOfUntilItIsResolved)
         .run(
             [&](const StepReport<2> &step)
             {
-              EXPECT_TRUE(step.solution.contact_space.unresolved_jumps().empty());
-              n_unresolved = step.solution.contact_space.unresolved_bounds().size();
+              EXPECT_TRUE(step.solution.contact_space.unresolved_jumps(step.solution.z).empty());
+              n_unresolved = step.solution.contact_space.unresolved_bounds(step.solution.z).size();
               EXPECT_TRUE(n_unresolved > 0 || step.number > 2);
               ++steps;
               warnings = step.warnings;
@@ -223,13 +223,14 @@ TEST(CoarseBound, IsNamedWithItsSumAndItsIntegral)
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const Laboratory discrete(scene, mesh, Degrees(1, 3));
-  const auto bounds = discrete.contact_space.unresolved_bounds();
+  const Vector<double> any; // Tresca's law asks for no pressure
+  const auto bounds = discrete.contact_space.unresolved_bounds(any);
   ASSERT_EQ(bounds.size(), 1U);
   EXPECT_NEAR(bounds[0].integral, 0.2, 1e-14);
   EXPECT_NEAR(bounds[0].sum, 7. / 36, 1e-14);
   EXPECT_NEAR(discrete.contact_space.friction_limit(), 0.2, 1e-14);
   EXPECT_NEAR(discrete.contact_space.discrete_friction_limit(), 7. / 36, 1e-14);
-  EXPECT_TRUE(Laboratory(scene, mesh, Degrees(1, 4)).contact_space.unresolved_bounds().empty());
+  EXPECT_TRUE(Laboratory(scene, mesh, Degrees(1, 4)).contact_space.unresolved_bounds(any).empty());
 }
 
 // ---------------------------------------------------------------- bodies that friction holds

@@ -38,6 +38,7 @@ struct ContactFace
   std::vector<double> normal_points;
   std::vector<unsigned int> pressures; ///< their unknowns; a vertex shares its own
   FrictionRule friction;               ///< for integrals over the face that hold g [stress]
+  FrictionRule coefficient = {};       ///< likewise mu_f; no points where the boundary names none
   bool at_nodes = false;               ///< are the normal points Gauss-Lobatto points?
 
   /** At reference coordinate s in [0,1] of the face. */
@@ -77,22 +78,27 @@ struct ContactMultiplier
   bool is_bilateral = false;                                    ///< a pressure of any sign
 };
 
-/** A jump of g inside an edge, which no polynomial of the discrete problem follows. */
+/** A jump of g, or of mu_f, inside an edge, which no polynomial of the discrete problem follows. */
 template <int dim>
 struct UnresolvedJump
 {
   const ContactFace<dim> *face;
   dealii::Point<dim> where;
-  double height; ///< of g [stress]
+  double height; ///< of g [stress], of mu_f [-]
+  double force;  ///< what the whole edge would carry more by it [stress length]
 };
 
-/** An edge on which the Gauss points of the multiplier miss what g does between them. */
+/**
+ * An edge on which the Gauss points of the multiplier miss what g does between them. Under Coulomb's
+ * law g is mu_f z_n with the polynomial of the pressure.
+ */
 template <int dim>
 struct UnresolvedBound
 {
   const ContactFace<dim> *face;
   double sum;      ///< sum_k w_k g(x_k), what the discrete problem takes for int g [stress length]
   double integral; ///< int g
+  double absolute; ///< int |g|: pressures may pull
 };
 
 /**
@@ -155,13 +161,14 @@ public:
   double largest_bound() const; ///< max g(x_i) [stress]
 
   /**
-   * Faces where `sum_k w_k g(x_k)` differs from int g by more than 1e-3 of it and 1e-6 of
-   * friction_limit(): the discrete problem has another friction there than the scene.
+   * Faces where `sum_k w_k g(x_k)` differs from int g by more than 1e-3 of it and 1e-6 of the same over
+   * all faces: the discrete problem has another friction there than the scene. Under Coulomb's law
+   * that depends on the pressures in @p z.
    */
-  std::vector<UnresolvedBound<dim>> unresolved_bounds() const;
+  std::vector<UnresolvedBound<dim>> unresolved_bounds(const dealii::Vector<double> &z) const;
 
-  /** Jumps of g whose height times the length of their edge exceeds 1e-6 of friction_limit(). */
-  std::vector<UnresolvedJump<dim>> unresolved_jumps() const;
+  /** Jumps that change the friction of their edge by more than 1e-6 of that on all, likewise. */
+  std::vector<UnresolvedJump<dim>> unresolved_jumps(const dealii::Vector<double> &z) const;
 
 private:
   using Kind = typename ContactMultiplier<dim>::Kind;
@@ -171,6 +178,8 @@ private:
   void number_pressures(ContactFace<dim> &face, const ShapeTables<dim> &tables);
   void number_nodes(ContactFace<dim> &face, const DisplacementSpace<dim> &displacement_space,
                     const ShapeTables<dim> &tables);
+  UnresolvedBound<dim> limit(const ContactFace<dim> &face, const dealii::Vector<double> &z) const;
+  std::vector<UnresolvedBound<dim>> limits(const dealii::Vector<double> &z) const;
 
   std::vector<ContactFace<dim>> contact_faces;
   std::vector<ContactMultiplier<dim>> unknowns;

@@ -24,6 +24,29 @@ struct UnseenContact
  */
 template <int dim>
 std::vector<UnseenContact<dim>> unseen_contacts(const Solution<dim> &solution);
+
+/** How far u_N moves the nodes of the body, its nearest rigid motion aside [length]. */
+template <int dim>
+double deformation(const Solution<dim> &solution);
+
+/** A place where the contact conditions of an edge stand for another gap than the scene's. */
+template <int dim>
+struct UnseenGap
+{
+  const ContactFace<dim> *face;
+  dealii::Point<dim> where; ///< where both differ most
+  double gap;               ///< u_0 there [length]
+  double seen;              ///< the polynomial through u_0 at the points of the conditions
+};
+
+/**
+ * Of each face with unilateral contact on which the gap and the polynomial that the discrete conditions
+ * see of it, through the Gauss-Lobatto points of nodes or the points of a multiplier's moments, differ
+ * by more than 1e-3 of the deformation where u_N reaches the nearer of both. Edges below 1e-6
+ * of the body are left alone: a jump inside an edge is never followed. 128 samples an edge.
+ */
+template <int dim>
+std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution);
 } // namespace hpvi
 
 #endif
