@@ -371,11 +371,13 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
 {
   Energies step_energies;
   std::vector<ContactState<dim>> contact;
+  std::vector<StressSample<dim>> peaks;
   {
     StageTimer timer(times.recover);
     step_energies = energies(solution, discretisation->system, algebraic.energy_product);
     check_numbers(solution, step_energies, algebraic);
     contact = contact_states(solution);
+    peaks = stress_peaks(stress_samples(solution), scene);
   }
   const double scaled_estimate = estimate.total() / std::sqrt(scene.coercivity());
   history.push_back(
@@ -383,7 +385,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
        bound ? ratio(bound->total, step_energies.norm) : std::numeric_limits<double>::quiet_NaN(),
        (history.empty() ? 0. : history.back().seconds) + times.total(),
        !std::isfinite(reduced.condition_raw) || !std::isfinite(reduced.condition_scaled),
-       bound ? bound->own_stress : 0.});
+       bound ? bound->own_stress : 0., peaks});
   return {static_cast<unsigned int>(history.size()),
           solution,
           discretisation->system,
@@ -406,7 +408,8 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           {},
           {},
           {},
-          {}};
+          {},
+          peaks};
 }
 
 /** What makes the last step the last of all; else empty. */
@@ -439,6 +442,11 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
     if (!line.empty())
       step.warnings.push_back(line);
   step.equilibrium = equilibrium(step.solution, discretisation->system);
+  std::vector<std::vector<StressSample<dim>>> peaks;
+  for (const PastStep &past : history)
+    peaks.push_back(past.peaks);
+  step.unbounded =
+      unbounded_stresses(growing_peaks(peaks), stress_samples(step.solution), step.solution);
 }
 
 namespace

@@ -27,6 +27,16 @@ void write_refinement(std::ostream &out, const Refinement &refinement)
   out << '\n';
 }
 
+/** How many, then boundary, value, place and length of each. */
+void write_peaks(std::ostream &out, const std::vector<StressSample<2>> &peaks)
+{
+  out << ' ' << peaks.size();
+  for (const StressSample<2> &peak : peaks)
+    out << ' ' << peak.boundary << ' ' << text(peak.value) << ' ' << text(peak.where[0]) << ' '
+        << text(peak.where[1]) << ' ' << text(peak.length);
+  out << '\n';
+}
+
 /** The content of a file, word by word. */
 class Reader
 {
@@ -74,6 +84,21 @@ public:
     return result;
   }
 
+  std::vector<StressSample<2>> peaks()
+  {
+    std::vector<StressSample<2>> result;
+    for (unsigned int n = number<unsigned int>(); n > 0; --n)
+    {
+      StressSample<2> &peak = result.emplace_back();
+      peak.boundary = number<dealii::types::boundary_id>();
+      peak.value = number<double>();
+      for (const unsigned int d : {0, 1})
+        peak.where[d] = number<double>();
+      peak.length = number<double>();
+    }
+    return result;
+  }
+
   Refinement refinement()
   {
     Refinement result;
@@ -113,7 +138,7 @@ std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
 
 const FileFormat &RunState::format()
 {
-  static const FileFormat format("run state", 4,
+  static const FileFormat format("run state", 5,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -126,9 +151,12 @@ void RunState::write(std::ostream &out) const
     content << entry << '\n';
   content << "steps " << history.size() << '\n';
   for (const PastStep &step : history)
+  {
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
             << text(step.relative_bound) << ' ' << text(step.seconds) << ' ' << step.lacks_condition
-            << ' ' << text(step.own_stress) << '\n';
+            << ' ' << text(step.own_stress);
+    write_peaks(content, step.peaks);
+  }
   content << "refinements " << refinements.size() << '\n';
   for (const Refinement &refinement : refinements)
     write_refinement(content, refinement);
@@ -155,6 +183,7 @@ RunState RunState::read(std::istream &in, const std::string &name)
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
     step.own_stress = reader.number<double>();
+    step.peaks = reader.peaks();
   }
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)

@@ -157,7 +157,7 @@ std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
   return points;
 }
 
-/** T_n and u_n - u_0 at one point more than u_N has nodes, at which T_n of an affine cell is exact. */
+/** Resultant and largest values of T_n and u_n - u_0. */
 template <int dim>
 void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solution,
                          ContactState<dim> &state)
@@ -165,20 +165,12 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
   const bool has_pressure = face.condition->has_pressure();
   const ContactTraces<dim> traces(face, gauss.size(), solution);
-  const auto press = [&](const double pressure, const double s)
-  {
-    if (pressure > state.highest_pressure)
-    {
-      state.highest_pressure = pressure;
-      state.highest_pressure_point = face.point(s);
-    }
-  };
+  const std::vector<PressurePoint<dim>> pressures = pressure_points(face, solution);
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0];
     const ContactFrame<dim> frame = face.frame(s);
-    const double traction = has_pressure ? -solution.contact_space.pressure(face, solution.z, s)
-                                         : traces.normal_traction(q);
+    const double traction = -pressures[q].pressure;
     state.normal_resultant += gauss.weight(q) * frame.measure * traction;
     state.tension += gauss.weight(q) * frame.measure * std::max(traction, 0.);
     if (traction > state.highest_tension)
@@ -186,7 +178,6 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
       state.highest_tension = traction;
       state.highest_tension_point = frame.x;
     }
-    press(-traction, s);
     const double u_n = frame.normal * traces.displacement(q),
                  depth = face.condition->is_unilateral() ? u_n - face.condition->gap_at(frame.x)
                          : has_pressure                  ? std::abs(u_n)
@@ -197,8 +188,12 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
       state.deepest_penetration_point = frame.x;
     }
   }
-  for (unsigned int k = 0; k < face.normal_points.size(); ++k)
-    press(solution.z[face.pressures[k]], face.normal_points[k]);
+  for (const PressurePoint<dim> &point : pressures)
+    if (point.pressure > state.highest_pressure)
+    {
+      state.highest_pressure = point.pressure;
+      state.highest_pressure_point = point.x;
+    }
 }
 
 template <int dim>

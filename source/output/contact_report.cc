@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hpvi
 {
@@ -56,9 +57,38 @@ Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
   return x;
 }
 
+/** Those on one contact boundary, or of von Mises' stress. */
+template <int dim>
+std::vector<UnboundedStress<dim>> on(const types::boundary_id boundary,
+                                     const std::vector<UnboundedStress<dim>> &unbounded)
+{
+  std::vector<UnboundedStress<dim>> result;
+  std::copy_if(unbounded.begin(), unbounded.end(), std::back_inserter(result),
+               [&](const auto &stress) { return stress.peak.boundary == boundary; });
+  return result;
+}
+
+/** As in "pressure is unbounded at (1 0): 3e5 in the last cells, ...". */
+template <int dim>
+std::string in_words(const std::string &name, const Scene<dim> &scene,
+                     const UnboundedStress<dim> &stress)
+{
+  const bool is_pressure = stress.peak.boundary != numbers::invalid_boundary_id;
+  return name + " is unbounded at " + point_text<dim>(stress.where) + ": " +
+         labelled(stress.peak.value, scene.stress_unit) + " in cells of " +
+         labelled(stress.peak.length, scene.length_unit) + ", more in each step" +
+         (is_pressure ? "; the last " + labelled(stress.within, scene.length_unit) + " carry " +
+                            text(stress.force, digits)
+                      : "") +
+         "; up to " + labelled(stress.largest, scene.stress_unit) +
+         (stress.largest > 0 ? " at " + point_text<dim>(stress.largest_point) : "") + " beyond " +
+         labelled(stress.beyond, scene.length_unit) + " from there";
+}
+
 template <int dim>
 std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
-                     const Equilibrium<dim> &equilibrium)
+                     const Equilibrium<dim> &equilibrium,
+                     const std::vector<UnboundedStress<dim>> &unbounded)
 {
   const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
@@ -69,7 +99,9 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
              point_text<dim>(clean<dim>(*line, state.length));
   else
     words += "no force";
-  if (state.highest_pressure > 0)
+  for (const UnboundedStress<dim> &stress : unbounded)
+    words += "\n  " + in_words("pressure", scene, stress);
+  if (state.highest_pressure > 0 && unbounded.empty())
     words += "\n  pressure up to " + labelled(state.highest_pressure, scene.stress_unit) + " at " +
              point_text<dim>(state.highest_pressure_point);
   for (const ContactZone<dim> &zone : state.zones)
@@ -99,9 +131,28 @@ std::string json_extreme(const std::string &name, const double value, const Poin
          ": " + (value > 0 ? json_point<dim>(x) : "null");
 }
 
+/** As a list; von Mises' stress carries no force. */
+template <int dim>
+std::string json(const std::vector<UnboundedStress<dim>> &unbounded)
+{
+  std::string list;
+  for (const UnboundedStress<dim> &stress : unbounded)
+    list += (list.empty() ? "\n        " : ",\n        ") +
+            ("{\"at\": " + json_point<dim>(stress.where)) +
+            ", \"value\": " + text(stress.peak.value) +
+            (stress.peak.boundary == numbers::invalid_boundary_id
+                 ? ""
+                 : ", \"within\": " + text(stress.within) + ", \"force\": " + text(stress.force)) +
+            ", \"beyond\": " + text(stress.beyond) + ", \"largest\": " + text(stress.largest) +
+            ", \"largest_at\": " +
+            (stress.largest > 0 ? json_point<dim>(stress.largest_point) : "null") + "}";
+  return "[" + list + (list.empty() ? "]" : "\n      ]");
+}
+
 template <int dim>
 std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
-                 const Equilibrium<dim> &equilibrium)
+                 const Equilibrium<dim> &equilibrium,
+                 const std::vector<UnboundedStress<dim>> &unbounded)
 {
   const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
   const auto line = line_of_action(force, equilibrium.centre, state, largest_force(equilibrium));
@@ -113,6 +164,7 @@ std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
          ",\n      \"normal_resultant\": " + text(state.normal_resultant) +
          ",\n      \"friction_resultant\": " + text(state.friction_resultant) +
          json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
+         ",\n      \"unbounded_pressure\": " + json(unbounded) +
          json_extreme("largest_penetration", state.deepest_penetration,
                       state.deepest_penetration_point) +
          ",\n      \"length\": " + text(state.length) + ",\n      \"zones\": [" + zones +
@@ -150,11 +202,12 @@ std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
 
 template <int dim>
 std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                             const Equilibrium<dim> &equilibrium)
+                             const Equilibrium<dim> &equilibrium,
+                             const std::vector<UnboundedStress<dim>> &unbounded)
 {
   std::string words;
   for (const ContactState<dim> &state : contact)
-    words += in_words(scene, state, equilibrium);
+    words += in_words(scene, state, equilibrium, on(state.boundary, unbounded));
   const double scale = largest_force(equilibrium);
   bool first = true;
   for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
@@ -168,17 +221,33 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
                "\n";
       first = false;
     }
+  for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
+    words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
   return words;
 }
 
 template <int dim>
 std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                         const Equilibrium<dim> &equilibrium)
+                         const Equilibrium<dim> &equilibrium,
+                         const std::vector<UnboundedStress<dim>> &unbounded)
 {
   std::string list;
   for (const ContactState<dim> &state : contact)
-    list += (list.empty() ? "\n    " : ",\n    ") + json(scene, state, equilibrium);
+    list += (list.empty() ? "\n    " : ",\n    ") +
+            json(scene, state, equilibrium, on(state.boundary, unbounded));
   return "{" + list + (list.empty() ? "}" : "\n  }");
+}
+
+template <int dim>
+std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
+                           const std::vector<UnboundedStress<dim>> &unbounded)
+{
+  const auto largest =
+      std::find_if(peaks.begin(), peaks.end(),
+                   [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
+  return "{\n    \"largest\": " + text(largest->value) +
+         ",\n    \"at\": " + json_point<dim>(largest->where) +
+         ",\n    \"unbounded\": " + json(on(numbers::invalid_boundary_id, unbounded)) + "\n  }";
 }
 
 namespace
@@ -245,7 +314,10 @@ template std::string equilibrium_json(const Equilibrium<3> &);
 template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const Point<2> &,
                                                 const ContactState<2> &, double);
 template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                      const Equilibrium<2> &);
+                                      const Equilibrium<2> &,
+                                      const std::vector<UnboundedStress<2>> &);
 template std::string contact_json(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                  const Equilibrium<2> &);
+                                  const Equilibrium<2> &, const std::vector<UnboundedStress<2>> &);
+template std::string von_mises_json(const std::vector<StressSample<2>> &,
+                                    const std::vector<UnboundedStress<2>> &);
 } // namespace hpvi

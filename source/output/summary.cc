@@ -36,6 +36,8 @@ void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
   warnings = step.warnings;
   equilibrium = step.equilibrium;
   contact = step.contact;
+  peaks = step.peaks;
+  unbounded = step.unbounded;
   bound = step.bound;
   no_bound = step.no_bound;
   relative_bound = step.relative_bound;
@@ -65,9 +67,11 @@ std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::stri
          "  \"steps\": " + std::to_string(steps) +
          ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
          json_loading(load, scene.loading.steps) +
-         (stopped_by.empty() ? ""
-                             : json_bound() + equilibrium_json(equilibrium) + "  \"contact\": " +
-                                   contact_json(scene, contact, equilibrium) + ",\n") +
+         (stopped_by.empty()
+              ? ""
+              : json_bound() + equilibrium_json(equilibrium) +
+                    "  \"contact\": " + contact_json(scene, contact, equilibrium, unbounded) +
+                    ",\n  \"von_mises\": " + von_mises_json(peaks, unbounded) + ",\n") +
          json_tail(times, warnings, files);
 }
 

@@ -4,11 +4,11 @@
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/vtu.h>
+#include <hpvi/peaks/stress_peak.h>
 
 #include <zlib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <sstream>
 
@@ -18,19 +18,6 @@ using namespace dealii;
 
 namespace
 {
-/** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well. */
-template <int dim>
-double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma)
-{
-  SymmetricTensor<2, 3> full;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      full[i][j] = sigma[i][j];
-  if (dim == 2 && material.plane == PlaneModel::strain)
-    full[2][2] = material.poisson * trace(sigma);
-  return std::sqrt(1.5) * deviator(full).norm();
-}
-
 /** von Mises' stress and the components of sigma as scalar fields. */
 template <int dim>
 class StressFields : public DataPostprocessor<dim>

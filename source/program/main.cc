@@ -158,10 +158,11 @@ void run(const Scene<dim> &scene, const std::string &directory)
           reason = last_word(step.stopped_by, scene.adaptivity, bool(step.bound));
           warnings = step.warnings;
           if (!step.stopped_by.empty())
-            closing_words = contact_in_words(scene, step.contact, step.equilibrium) +
-                            "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
-                            ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                            " of their absolute sums\n" + work_in_words(step.load);
+            closing_words =
+                contact_in_words(scene, step.contact, step.equilibrium, step.unbounded) +
+                "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
+                ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
+                " of their absolute sums\n" + work_in_words(step.load);
           output.write_step(step);
         },
         [&](const Progress &stage)

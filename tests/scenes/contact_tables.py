@@ -153,6 +153,9 @@ def unilateral(home, kind):
         for found, expected in zip(contact[name], value):
             expect(name, found, expected)
     expect("largest_pressure", contact["largest_pressure"], 2)
+    expect("von_mises", summary["von_mises"]["largest"], 2)
+    if contact["unbounded_pressure"] != [] or summary["von_mises"]["unbounded"] != []:
+        sys.exit(f"a uniform stress is unbounded: {contact}, {summary['von_mises']}")
     expect("length", contact["length"], 2)
     expect("zone", contact["zones"][0]["length"], 2)
     if [zone["state"] for zone in contact["zones"]] != ["slip"]:

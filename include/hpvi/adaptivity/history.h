@@ -2,6 +2,8 @@
 #ifndef hpvi_history_h
 #define hpvi_history_h
 
+#include <hpvi/peaks/stress_peak.h>
+
 #include <vector>
 
 namespace hpvi
@@ -15,6 +17,7 @@ struct PastStep
   double seconds;               ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
   double own_stress = 0;        ///< ErrorBound::own_stress
+  std::vector<StressSample<2>> peaks = {}; ///< stress_peaks(): which ones grow without bound
 };
 
 /** All finished steps of a run, the first one first. */

@@ -12,6 +12,7 @@
 #include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/evaluation/true_error.h>
+#include <hpvi/peaks/unbounded_stress.h>
 #include <hpvi/solver/coulomb_solver.h>
 
 #include <optional>
@@ -65,6 +66,8 @@ struct StepReport
   std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
   Equilibrium<dim> equilibrium;      ///< likewise of the last step alone
   LoadStep load;
+  std::vector<StressSample<dim>> peaks = {};        ///< stress_peaks()
+  std::vector<UnboundedStress<dim>> unbounded = {}; ///< of the last step alone
 };
 
 } // namespace hpvi

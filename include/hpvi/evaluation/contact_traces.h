@@ -63,6 +63,41 @@ private:
   std::vector<double> values, derivatives; ///< component by component
 };
 
+/** -T_n at one point of a contact face. */
+template <int dim>
+struct PressurePoint
+{
+  dealii::Point<dim> x;
+  double pressure; ///< positive presses [stress]
+  double weight;   ///< of a Gauss rule, times ds; 0 at an unknown of the multiplier
+};
+
+/**
+ * At one Gauss point more than u_N has nodes, at which T_n of an affine cell is exact, and then where
+ * the multiplier has its unknowns.
+ */
+template <int dim>
+std::vector<PressurePoint<dim>> pressure_points(const ContactFace<dim> &face,
+                                                const Solution<dim> &solution)
+{
+  const dealii::QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
+  const ContactTraces<dim> traces(face, gauss.size(), solution);
+  std::vector<PressurePoint<dim>> result;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const double s = gauss.point(q)[0];
+    const ContactFrame<dim> frame = face.frame(s);
+    result.push_back({frame.x,
+                      face.condition->has_pressure()
+                          ? solution.contact_space.pressure(face, solution.z, s)
+                          : -traces.normal_traction(q),
+                      gauss.weight(q) * frame.measure});
+  }
+  for (unsigned int k = 0; k < face.normal_points.size(); ++k)
+    result.push_back({face.point(face.normal_points[k]), solution.z[face.pressures[k]], 0.});
+  return result;
+}
+
 /** u_N in one direction along a straight contact face: the polynomial through its values at p+1 Gauss points. */
 template <int dim>
 class EdgeDisplacement

@@ -4,6 +4,7 @@
 
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/peaks/unbounded_stress.h>
 
 #include <optional>
 #include <string>
@@ -21,15 +22,25 @@ std::optional<dealii::Point<dim>> line_of_action(const BoundaryForce<dim> &bound
                                                  const dealii::Point<dim> &centre,
                                                  const ContactState<dim> &contact, double scale);
 
-/** What each contact boundary and each support does to the body, in words, line by line. */
+/**
+ * What each contact boundary and each support does to the body, in words, line by line; stresses without
+ * bound are named as such.
+ */
 template <int dim>
 std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                             const Equilibrium<dim> &equilibrium);
+                             const Equilibrium<dim> &equilibrium,
+                             const std::vector<UnboundedStress<dim>> &unbounded);
 
 /** The contact boundaries as the object of JSON with their names. */
 template <int dim>
 std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                         const Equilibrium<dim> &equilibrium);
+                         const Equilibrium<dim> &equilibrium,
+                         const std::vector<UnboundedStress<dim>> &unbounded);
+
+/** von Mises' stress as an object of JSON: the largest value, where, and which peaks are unbounded. */
+template <int dim>
+std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
+                           const std::vector<UnboundedStress<dim>> &unbounded);
 
 /** Two members of summary.json: forces by boundary, and how well they balance. */
 template <int dim>

@@ -23,7 +23,9 @@ struct Summary
   StageTimes times;               ///< sums over them
   std::string stopped_by;         ///< the limit that ended the run
   std::vector<std::string> warnings;
-  std::vector<ContactState<dim>> contact; ///< of the last step
+  std::vector<ContactState<dim>> contact;      ///< of the last step
+  std::vector<StressSample<dim>> peaks;        ///< likewise
+  std::vector<UnboundedStress<dim>> unbounded; ///< likewise
   Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
 
   std::optional<ErrorBound> bound; ///< of the last step

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_stress_peak_h
+#define hpvi_stress_peak_h
+
+#include <hpvi/discretisation/solution.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** A contact pressure, or von Mises' stress, at one point. */
+template <int dim>
+struct StressSample
+{
+  dealii::types::boundary_id boundary; ///< of the contact; invalid_boundary_id: von Mises' stress
+  double value;                        ///< [stress]
+  dealii::Point<dim> where;
+  double
+      length; ///< of the contact edge, or the longest one of the cell, on which it is the largest
+};
+
+/** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well. */
+template <int dim>
+double von_mises(const Material &material, const dealii::SymmetricTensor<2, dim> &sigma);
+
+/**
+ * The largest pressure on each contact edge, where it presses, and von Mises' stress in each cell, at about
+ * half as many Gauss points as u_N has nodes in a direction.
+ */
+template <int dim>
+std::vector<StressSample<dim>> stress_samples(const Solution<dim> &solution);
+
+/** Within how much of a peak nothing is another one: 1 % of the body, or two of its edges. */
+template <int dim>
+double reach(const StressSample<dim> &peak, const Scene<dim> &scene);
+
+/**
+ * Of each contact boundary and of the body the three largest samples that are out of reach of each other,
+ * the largest first.
+ */
+template <int dim>
+std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>> &samples,
+                                            const Scene<dim> &scene);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_unbounded_stress_h
+#define hpvi_unbounded_stress_h
+
+#include <hpvi/peaks/stress_peak.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** A peak that grows with each step like a power of the size of cells, so that its value means nothing. */
+template <int dim>
+struct UnboundedStress
+{
+  StressSample<dim> peak;   ///< of the last step
+  dealii::Point<dim> where; ///< the vertex of the mesh next to it
+  double within;            ///< two of its edges: the last cells [length]
+  double force;   ///< of the contact edges that lie there as a whole [stress length^(dim-1)]
+  double beyond;  ///< reach(): what is farther from this and all other such peaks is away
+  double largest; ///< there [stress]; 0 where there is nothing
+  dealii::Point<dim> largest_point;
+};
+
+/**
+ * The peaks of the last of @p steps that have grown by more than 15 % in each of three steps and stayed
+ * within two edges of where they were, the largest first; @p steps holds those of each step.
+ */
+template <int dim>
+std::vector<StressSample<dim>>
+growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps);
+
+/** What there is to say of @p peaks, of which stress_samples() of @p solution are @p samples. */
+template <int dim>
+std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
+                                                     const std::vector<StressSample<dim>> &samples,
+                                                     const Solution<dim> &solution);
+} // namespace hpvi
+
+#endif

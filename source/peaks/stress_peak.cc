@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/peaks/stress_peak.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+StressSample<dim> largest_pressure(const ContactFace<dim> &face, const Solution<dim> &solution)
+{
+  const auto points = pressure_points(face, solution);
+  const auto &largest =
+      *std::max_element(points.begin(), points.end(),
+                        [](const auto &a, const auto &b) { return a.pressure < b.pressure; });
+  return {face.condition->id, largest.pressure, largest.x, face.length};
+}
+
+template <int dim>
+StressSample<dim> largest_von_mises(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                    const Solution<dim> &solution)
+{
+  const unsigned int index = cell->active_cell_index(),
+                     degree = solution.displacement_space.degrees()[index];
+  const Material &material = solution.scene.material_of(cell);
+  const HookesLaw<dim> law(material);
+  const CellMap<dim> map = map_of<dim>(cell);
+  const ShapeTable<dim> &table = solution.tables.gradients(degree, degree / 2 + 2);
+  const std::vector<double> derivatives = evaluate(table.derivatives, solution.coefficients(index));
+  StressSample<dim> largest{numbers::invalid_boundary_id, -1., {}, map.longest_edge()};
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    Tensor<2, dim> reference;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int j = 0; j < dim; ++j)
+        reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
+    const double value =
+        von_mises<dim>(material, law.stress(reference * invert(map.jacobian(table.points[q]))));
+    if (value > largest.value)
+    {
+      largest.value = value;
+      largest.where = map.point(table.points[q]);
+    }
+  }
+  return largest;
+}
+
+constexpr unsigned int most_peaks = 3;
+} // namespace
+
+template <int dim>
+double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma)
+{
+  SymmetricTensor<2, 3> full;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = i; j < dim; ++j)
+      full[i][j] = sigma[i][j];
+  if (dim == 2 && material.plane == PlaneModel::strain)
+    full[2][2] = material.poisson * trace(sigma);
+  return std::sqrt(1.5) * deviator(full).norm();
+}
+
+template <int dim>
+std::vector<StressSample<dim>> stress_samples(const Solution<dim> &solution)
+{
+  std::vector<StressSample<dim>> result;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    if (const StressSample<dim> sample = largest_pressure(face, solution); sample.value > 0)
+      result.push_back(sample);
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+      result.push_back(largest_von_mises<dim>(cell, solution));
+  return result;
+}
+
+template <int dim>
+double reach(const StressSample<dim> &peak, const Scene<dim> &scene)
+{
+  const auto &corners = scene.geometry.corners;
+  return std::max(0.01 * corners.front().distance(corners.back()), 2 * peak.length);
+}
+
+template <int dim>
+std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>> &samples,
+                                            const Scene<dim> &scene)
+{
+  std::vector<StressSample<dim>> sorted = samples, result;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto &a, const auto &b) { return a.value > b.value; });
+  for (const StressSample<dim> &sample : sorted)
+  {
+    const auto is_known = [&](const StressSample<dim> &peak)
+    {
+      return peak.boundary == sample.boundary &&
+             peak.where.distance(sample.where) < reach(peak, scene);
+    };
+    const auto n =
+        std::count_if(result.begin(), result.end(),
+                      [&](const auto &peak) { return peak.boundary == sample.boundary; });
+    if (n < most_peaks && std::none_of(result.begin(), result.end(), is_known))
+      result.push_back(sample);
+  }
+  return result;
+}
+
+template double von_mises(const Material &, const SymmetricTensor<2, 2> &);
+template double von_mises(const Material &, const SymmetricTensor<2, 3> &);
+template std::vector<StressSample<2>> stress_samples(const Solution<2> &);
+template double reach(const StressSample<2> &, const Scene<2> &);
+template std::vector<StressSample<2>> stress_peaks(const std::vector<StressSample<2>> &,
+                                                   const Scene<2> &);
+} // namespace hpvi

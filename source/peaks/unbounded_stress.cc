@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/grid/grid_tools.h>
+#include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/peaks/unbounded_stress.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The one of @p peaks, of the step before, that @p peak has grown from by more than 15 %; else null. */
+template <int dim>
+const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &peaks,
+                                    const StressSample<dim> &peak)
+{
+  for (const StressSample<dim> &before : peaks) // the largest first
+    if (before.boundary == peak.boundary && before.where.distance(peak.where) <= 2 * before.length)
+      return peak.value > 1.15 * before.value ? &before : nullptr;
+  return nullptr;
+}
+
+/** Singularities stand at corners, ends and transitions, which meshes close in on with their vertices. */
+template <int dim>
+Point<dim> next_vertex(const StressSample<dim> &peak, const Solution<dim> &solution)
+{
+  const Triangulation<dim> &mesh = solution.displacement_space.triangulation();
+  return mesh.get_vertices()[GridTools::find_closest_vertex(mesh, peak.where)];
+}
+
+/** Of the pressures on the edges within reach of the last cells. */
+template <int dim>
+double force_within(const StressSample<dim> &peak, const double radius,
+                    const Solution<dim> &solution)
+{
+  double force = 0;
+  for (const ContactFace<dim> &face : solution.contact_space.faces())
+    if (face.condition->id == peak.boundary &&
+        std::max(face.point(0.).distance(peak.where), face.point(1.).distance(peak.where)) <=
+            (1 + 1e-6) * radius)
+      for (const PressurePoint<dim> &point : pressure_points(face, solution))
+        force += point.weight * point.pressure;
+  return force;
+}
+} // namespace
+
+template <int dim>
+std::vector<StressSample<dim>>
+growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps)
+{
+  const unsigned int n_steps = 3;
+  std::vector<StressSample<dim>> result;
+  if (steps.size() <= n_steps)
+    return result;
+  for (const StressSample<dim> &peak : steps.back())
+  {
+    const StressSample<dim> *earlier = &peak;
+    for (unsigned int k = 1; k <= n_steps && earlier; ++k)
+      earlier = grown_from(steps[steps.size() - 1 - k], *earlier);
+    if (earlier)
+      result.push_back(peak);
+  }
+  return result;
+}
+
+template <int dim>
+std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
+                                                     const std::vector<StressSample<dim>> &samples,
+                                                     const Solution<dim> &solution)
+{
+  std::vector<UnboundedStress<dim>> result;
+  for (const StressSample<dim> &peak : peaks)
+  {
+    const auto is_near = [&](const StressSample<dim> &sample)
+    {
+      return std::any_of(peaks.begin(), peaks.end(),
+                         [&](const StressSample<dim> &other)
+                         {
+                           return other.boundary == sample.boundary &&
+                                  other.where.distance(sample.where) <=
+                                      reach(other, solution.scene);
+                         });
+    };
+    UnboundedStress<dim> unbounded{peak, next_vertex(peak, solution), 2 * peak.length,
+                                   0.,   reach(peak, solution.scene), 0.,
+                                   {}};
+    unbounded.force = force_within(peak, unbounded.within, solution);
+    for (const StressSample<dim> &sample : samples)
+      if (sample.boundary == peak.boundary && sample.value > unbounded.largest && !is_near(sample))
+      {
+        unbounded.largest = sample.value;
+        unbounded.largest_point = sample.where;
+      }
+    result.push_back(unbounded);
+  }
+  return result;
+}
+
+template std::vector<StressSample<2>>
+growing_peaks(const std::vector<std::vector<StressSample<2>>> &);
+template std::vector<UnboundedStress<2>> unbounded_stresses(const std::vector<StressSample<2>> &,
+                                                            const std::vector<StressSample<2>> &,
+                                                            const Solution<2> &);
+} // namespace hpvi

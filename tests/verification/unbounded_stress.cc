@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Where stresses are largest, and which of them grow without bound.
+#include "discretisation.h"
+
+#include <hpvi/output/contact_report.h>
+
+namespace
+{
+using namespace verification;
+
+using Sample = StressSample<2>;
+using Steps = std::vector<std::vector<Sample>>;
+
+constexpr types::boundary_id body = numbers::invalid_boundary_id;
+
+/** One peak in each of some steps, of the values given, in edges that are halved. */
+Steps halved(const std::vector<double> &values, const types::boundary_id boundary = 2,
+             const double distance = 0.)
+{
+  Steps steps;
+  double length = 1;
+  for (const double value : values)
+  {
+    steps.push_back({Sample{boundary, value, Point<2>(3 + distance * length, 0), length}});
+    length /= 2;
+  }
+  return steps;
+}
+
+TEST(GrowingPeaks, TakeThreeStepsOfFifteenPercent)
+{
+  EXPECT_EQ(growing_peaks(halved({1., 1.16, 1.35, 1.57})).size(), 1U);
+  EXPECT_TRUE(growing_peaks(halved({1.16, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_peaks(halved({1.02, 1.16, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_peaks(halved({1., 1.14, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_peaks(halved({1., 1.16, 1.35, 1.5})).empty());
+  EXPECT_EQ(growing_peaks(halved({9., 9., 1., 1.2, 1.44, 1.73}, body)).at(0).value, 1.73);
+}
+
+TEST(GrowingPeaks, StayWhereTheyAre)
+{
+  const std::vector<double> root = {1., 1.4, 2., 2.8};
+  EXPECT_EQ(growing_peaks(halved(root, 2, 0.1)).size(), 1U);
+  EXPECT_EQ(growing_peaks(halved(root, 2, 3.9)).size(), 1U); // 1.95 edges
+  EXPECT_TRUE(growing_peaks(halved(root, 2, 4.1)).empty());
+  Steps elsewhere = halved(root);
+  elsewhere[1][0].boundary = 1;
+  EXPECT_TRUE(growing_peaks(elsewhere).empty());
+}
+
+/** Two corners in turn the larger one: both grow. */
+TEST(GrowingPeaks, MayBeTwoAtATime)
+{
+  Steps steps;
+  for (const double k : {0, 1, 2, 3})
+  {
+    const double a = std::pow(1.4, k), b = a * (int(k) % 2 ? 1.02 : 0.98);
+    std::vector<Sample> both = {{2, a, Point<2>(0, 0), std::pow(0.5, k)},
+                                {2, b, Point<2>(9, 0), std::pow(0.5, k)}};
+    if (b > a)
+      std::swap(both[0], both[1]);
+    steps.push_back(both);
+  }
+  EXPECT_EQ(growing_peaks(steps).size(), 2U);
+}
+
+/** The largest, and what is out of its reach. */
+TEST(StressPeaks, AreApart)
+{
+  Scene<2> scene;
+  scene.geometry.corners = box_corners<2>(Point<2>(), Point<2>(4, 3)); // 0.05 counts as one place
+  const std::vector<Sample> samples = {
+      {2, 5., Point<2>(0, 0), 1e-3},     {2, 9., Point<2>(1, 0), 1e-3},
+      {2, 8., Point<2>(1.049, 0), 1e-3}, {2, 7., Point<2>(1.051, 0), 1e-3},
+      {2, 6., Point<2>(2, 0), 1e-3},     {body, 1., Point<2>(1, 0), 1.}};
+  std::vector<double> values;
+  for (const Sample &peak : stress_peaks(samples, scene))
+    values.push_back(peak.value);
+  EXPECT_EQ(values, (std::vector<double>{9., 7., 6., 1.}));
+}
+
+/** A block under uniform stress, by hand. */
+TEST(VonMises, OfABlockIsKnown)
+{
+  for (const std::string plane : {"stress", "strain"})
+  {
+    double largest = 0;
+    AdaptiveSolver<2>(scene_of({{"Geometry/Subdivisions", "2, 1"},
+                                {"Material/Young's modulus", "10"},
+                                {"Material/Poisson's ratio", "0.3"},
+                                {"Material/Plane", plane},
+                                {"Boundary left/Displacement", "0; free"},
+                                {"Boundary bottom/Displacement", "free; 0"},
+                                {"Boundary top/Traction", "0; -2"},
+                                {"Adaptivity/Maximum steps", "1"}}))
+        .run([&](const StepReport<2> &step) { largest = step.peaks.at(0).value; });
+    // sigma_yy = -2; under plane strain sigma_zz = -0.6
+    const double expected = plane == "stress" ? 2. : std::sqrt(4. + 0.36 - 1.2);
+    EXPECT_NEAR(largest, expected, 1e-9);
+  }
+}
+
+/** In each step: the places where the run would say "unbounded" if it ended there. */
+std::vector<std::vector<Sample>> growing(const Scene<2> &scene)
+{
+  std::vector<std::vector<Sample>> result;
+  Steps steps;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        steps.push_back(step.peaks);
+        result.push_back(growing_peaks(steps));
+      });
+  return result;
+}
+
+bool holds_pressure(const std::vector<Sample> &peaks)
+{
+  return std::any_of(peaks.begin(), peaks.end(),
+                     [](const Sample &peak) { return peak.boundary != body; });
+}
+
+TEST(UnboundedStress, IsNeverSaidOfBoundedPressures)
+{
+  for (const std::string scene : {"hertz", "ssnv128"})
+    for (const auto &peaks : growing(shipped_scene(scene, {{"Adaptivity/Maximum steps", "9"}})))
+      EXPECT_FALSE(holds_pressure(peaks)) << scene;
+  for (const auto &peaks : growing(shipped_scene("hertz", {{"Adaptivity/Maximum steps", "9"}})))
+    EXPECT_TRUE(peaks.empty());
+}
+
+/** The edge of the punch: the last edges carry little, and what is away from it has converged. */
+TEST(UnboundedStress, IsSaidOfPunches)
+{
+  for (const std::string scene : {"punch", "punch-friction"})
+    for (const std::string steps : {"9", "12"})
+    {
+      std::vector<UnboundedStress<2>> pressures;
+      double force = 0;
+      AdaptiveSolver<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", steps}}))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                force = -step.contact.at(0).normal_resultant;
+                for (const UnboundedStress<2> &stress : step.unbounded)
+                  if (stress.peak.boundary != body)
+                    pressures.push_back(stress);
+              });
+      ASSERT_EQ(pressures.size(), 1U) << scene << " after " << steps;
+      const UnboundedStress<2> &edge = pressures[0];
+      EXPECT_EQ(edge.where, (Point<2>(1, 0)));
+      EXPECT_GT(edge.peak.value, 20.);
+      EXPECT_GT(edge.force, 0.);
+      EXPECT_LT(edge.force, 0.2 * force);
+      EXPECT_GT(edge.beyond, 0.04 * std::sqrt(2.) - 1e-12);
+      EXPECT_LT(edge.largest, edge.peak.value);
+      EXPECT_GT(edge.largest, 0.);
+      EXPECT_GE(edge.largest_point.distance(Point<2>(1, 0)), edge.beyond - edge.peak.length);
+    }
+}
+
+/** von Mises' stress of Example 5.2 at its clamped corner; and as text. */
+TEST(UnboundedStress, OfVonMisesIsSaidAtAClampedCorner)
+{
+  std::string words, json;
+  bool found = false;
+  const Scene<2> scene = shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "10"}});
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        for (const UnboundedStress<2> &stress : step.unbounded)
+          found = found ||
+                  (stress.peak.boundary == body && stress.force == 0. && stress.where[0] == 4.);
+        if (step.stopped_by.empty())
+          return;
+        words = contact_in_words(scene, step.contact, step.equilibrium, step.unbounded);
+        json = von_mises_json(step.peaks, step.unbounded);
+      });
+  EXPECT_TRUE(found);
+  EXPECT_NE(words.find("\nvon Mises' stress is unbounded at (4 "), std::string::npos) << words;
+  EXPECT_NE(json.find("\"unbounded\": [\n"), std::string::npos) << json;
+}
+} // namespace
