@@ -331,12 +331,13 @@ TEST(Limits, ATakenToleranceIsTheOnlyOne)
   EXPECT_EQ(limits<3>({}).tolerance_on, Indicator::residual);
   EXPECT_EQ(limits<2>({{"Solver/Path", "primal"}, {"Adaptivity/Method", "hup2"}}).tolerance_on,
             Indicator::residual);
+  const ReferenceFile other(shipped_scene("han-6-12", adaptivity("hup2", 1)));
   for (const auto &named : Overrides{{"Adaptivity/Maximum steps", "16"},
                                      {"Adaptivity/Maximum unknowns", "1000000"},
                                      {"Adaptivity/Maximum seconds", "0"},
                                      {"Loading/Steps", "2"},
                                      {"Output/Reference solution", "true"},
-                                     {"Error/Reference solution", "other.dat"}})
+                                     {"Error/Reference solution", other.path}})
     for (const char *const value : {"", "automatic"})
     {
       Overrides entries = {named};
