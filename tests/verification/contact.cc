@@ -69,16 +69,17 @@ TEST(FrictionRule, CutsAtJumps)
 }
 
 /** Wherever it lies; it is never mistaken for no friction. */
-TEST(FrictionRule, FindsABumpOfATenthOfTheEdge)
+TEST(FrictionRule, FindsABumpOfAFortiethOfTheEdge)
 {
-  for (unsigned int p = 2; p <= 12; ++p)
-    for (double a = 0; a < 0.9; a += 0.003)
-    {
-      const FrictionRule rule =
-          rule_of([a](const double s) { return a < s && s < a + 0.1 ? 2. : 0.; }, p);
-      EXPECT_FALSE(rule.vanishes()) << "p = " << p << ", bump at " << a;
-      EXPECT_NEAR(rule.integral(), 0.2, 1e-13) << "p = " << p << ", bump at " << a;
-    }
+  for (const double width : {0.1, 0.025})
+    for (unsigned int p = 2; p <= 12; ++p)
+      for (double a = 0; a < 0.975 - width; a += 0.0037) // what is left behind it is no narrower
+      {
+        const FrictionRule rule =
+            rule_of([=](const double s) { return a < s && s < a + width ? 2. : 0.; }, p);
+        EXPECT_FALSE(rule.vanishes()) << "p = " << p << ", bump at " << a;
+        EXPECT_NEAR(rule.integral(), 2 * width, 1e-13) << "p = " << p << ", bump at " << a;
+      }
 }
 
 TEST(FrictionRule, ResolvesKinksAndRootsWithoutCallingThemJumps)
