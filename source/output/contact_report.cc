@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/record.h>
 
 #include <algorithm>
 #include <cmath>
@@ -120,15 +121,15 @@ std::string json_zone(const ContactZone<dim> &zone)
 {
   return "{\"state\": " + json_string(mode_name(zone.mode)) +
          ", \"from\": " + json_point<dim>(zone.begin) + ", \"to\": " + json_point<dim>(zone.end) +
-         ", \"length\": " + text(zone.begin.distance(zone.end)) + "}";
+         ", \"length\": " + json_number(zone.begin.distance(zone.end)) + "}";
 }
 
 /** "at" is null where the value is zero. */
 template <int dim>
 std::string json_extreme(const std::string &name, const double value, const Point<dim> &x)
 {
-  return ",\n      " + json_string(name) + ": " + text(value) + ", " + json_string(name + "_at") +
-         ": " + (value > 0 ? json_point<dim>(x) : "null");
+  return ",\n      " + json_string(name) + ": " + json_number(value) + ", " +
+         json_string(name + "_at") + ": " + (value > 0 ? json_point<dim>(x) : "null");
 }
 
 /** As a list; von Mises' stress carries no force. */
@@ -139,12 +140,13 @@ std::string json(const std::vector<UnboundedStress<dim>> &unbounded)
   for (const UnboundedStress<dim> &stress : unbounded)
     list += (list.empty() ? "\n        " : ",\n        ") +
             ("{\"at\": " + json_point<dim>(stress.where)) +
-            ", \"value\": " + text(stress.peak.value) +
+            ", \"value\": " + json_number(stress.peak.value) +
             (stress.peak.boundary == numbers::invalid_boundary_id
                  ? ""
-                 : ", \"within\": " + text(stress.within) + ", \"force\": " + text(stress.force)) +
-            ", \"beyond\": " + text(stress.beyond) + ", \"largest\": " + text(stress.largest) +
-            ", \"largest_at\": " +
+                 : ", \"within\": " + json_number(stress.within) +
+                       ", \"force\": " + json_number(stress.force)) +
+            ", \"beyond\": " + json_number(stress.beyond) +
+            ", \"largest\": " + json_number(stress.largest) + ", \"largest_at\": " +
             (stress.largest > 0 ? json_point<dim>(stress.largest_point) : "null") + "}";
   return "[" + list + (list.empty() ? "]" : "\n      ]");
 }
@@ -161,13 +163,13 @@ std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
     zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
   return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
          ",\n      \"through\": " + (line ? json_point<dim>(*line) : "null") +
-         ",\n      \"normal_resultant\": " + text(state.normal_resultant) +
-         ",\n      \"friction_resultant\": " + text(state.friction_resultant) +
+         ",\n      \"normal_resultant\": " + json_number(state.normal_resultant) +
+         ",\n      \"friction_resultant\": " + json_number(state.friction_resultant) +
          json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
          ",\n      \"unbounded_pressure\": " + json(unbounded) +
          json_extreme("largest_penetration", state.deepest_penetration,
                       state.deepest_penetration_point) +
-         ",\n      \"length\": " + text(state.length) + ",\n      \"zones\": [" + zones +
+         ",\n      \"length\": " + json_number(state.length) + ",\n      \"zones\": [" + zones +
          "\n      ]\n    }";
 }
 } // namespace
@@ -177,7 +179,7 @@ std::string json_point(const Tensor<1, dim> &x)
 {
   std::string list;
   for (unsigned int d = 0; d < dim; ++d)
-    list += (d > 0 ? ", " : "") + text(x[d]);
+    list += (d > 0 ? ", " : "") + json_number(x[d]);
   return "[" + list + "]";
 }
 
@@ -245,7 +247,7 @@ std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
   const auto largest =
       std::find_if(peaks.begin(), peaks.end(),
                    [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
-  return "{\n    \"largest\": " + text(largest->value) +
+  return "{\n    \"largest\": " + json_number(largest->value) +
          ",\n    \"at\": " + json_point<dim>(largest->where) +
          ",\n    \"unbounded\": " + json(on(numbers::invalid_boundary_id, unbounded)) + "\n  }";
 }
@@ -254,7 +256,7 @@ namespace
 {
 std::string json_moment(const double moment)
 {
-  return text(moment);
+  return json_number(moment);
 }
 
 std::string json_moment(const Tensor<1, 3> &moment)
@@ -271,15 +273,20 @@ std::string json_force(const BoundaryForce<dim> &force)
 } // namespace
 
 template <int dim>
-std::string equilibrium_json(const Equilibrium<dim> &equilibrium)
+std::string forces_json(const Equilibrium<dim> &equilibrium)
 {
-  std::string forces = "\n    " + json_force(equilibrium.loads);
+  std::string forces = "{\n    " + json_force(equilibrium.loads);
   for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
     forces += ",\n    " + json_force(reaction);
-  return "  \"forces\": {" + forces +
-         "\n  },\n  \"balance\": {\n    \"force\": " + text(equilibrium.force_imbalance) +
-         ",\n    \"moment\": " + text(equilibrium.moment_imbalance) +
-         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  },\n";
+  return forces + "\n  }";
+}
+
+template <int dim>
+std::string balance_json(const Equilibrium<dim> &equilibrium)
+{
+  return "{\n    \"force\": " + json_number(equilibrium.force_imbalance) +
+         ",\n    \"moment\": " + json_number(equilibrium.moment_imbalance) +
+         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  }";
 }
 
 std::string loads_in_words(const Scene<2> &scene)
@@ -301,16 +308,18 @@ std::string loads_in_words(const Scene<2> &scene)
 std::string loads_json(const std::optional<LoadSum> &loads)
 {
   if (!loads)
-    return "  \"loads\": null,\n";
-  return "  \"loads\": {\n    \"force\": " + json_point<2>(loads->force) +
-         ",\n    \"moment\": " + text(loads->moment) +
-         ",\n    \"about\": " + json_point<2>(loads->centre) + "\n  },\n";
+    return "null";
+  return "{\n    \"force\": " + json_point<2>(loads->force) +
+         ",\n    \"moment\": " + json_number(loads->moment) +
+         ",\n    \"about\": " + json_point<2>(loads->centre) + "\n  }";
 }
 
 template std::string json_point(const Tensor<1, 2> &);
 template std::string json_point(const Tensor<1, 3> &);
-template std::string equilibrium_json(const Equilibrium<2> &);
-template std::string equilibrium_json(const Equilibrium<3> &);
+template std::string forces_json(const Equilibrium<2> &);
+template std::string balance_json(const Equilibrium<2> &);
+template std::string forces_json(const Equilibrium<3> &);
+template std::string balance_json(const Equilibrium<3> &);
 template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const Point<2> &,
                                                 const ContactState<2> &, double);
 template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,

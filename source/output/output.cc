@@ -6,24 +6,28 @@
 #include <hpvi/output/vtu.h>
 #include <hpvi/scene/parameters.h>
 
-#include <regex>
 #include <sstream>
 
 namespace hpvi
 {
 namespace
 {
-/** NAME-NN.SUFFIX; the number grows beyond two digits where it has to. */
-std::string numbered(const std::string &name, const unsigned int step, const std::string &suffix)
+/** As the ResultDirectory wants them. */
+template <int dim>
+std::string names_written(const Scene<dim> &scene)
 {
-  return name + (step < 10 ? "-0" : "-") + std::to_string(step) + suffix;
+  const OutputSettings &output = scene.output;
+  return results::always + (scene.has_load_history() ? "|" + results::loading : "") +
+         (output.contact && scene.has_contact() ? "|" + results::contact : "") +
+         (output.mesh_picture ? "|" + results::mesh : "") + (output.vtu ? "|" + results::vtu : "") +
+         (output.reference ? "|" + results::reference : "");
 }
 } // namespace
 
 template <int dim>
 Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
     : scene(scene),
-      directory(path, [this](const std::string &name) { return writes(name); },
+      directory(path, names_written(scene),
                 {scene.parameters ? scene.parameters->file_name() : "", scene.reference_solution})
 {
   try
@@ -31,7 +35,10 @@ Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
     write_summary(); // names the files of earlier runs as long as there are any
     directory.remove_earlier();
     if (scene.parameters)
+    {
+      announce({"scene.prm"});
       write("scene.prm", scene.effective_parameters());
+    }
   }
   catch (const InputError &error)
   {
@@ -42,36 +49,42 @@ Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
 }
 
 template <int dim>
-bool Output<dim>::writes(const std::string &name) const
+void Output<dim>::announce(const std::vector<std::string> &names)
 {
-  const auto matches = [&name](const char *pattern)
-  { return std::regex_match(name, std::regex(pattern)); };
-  return matches("scene\\.prm|convergence\\.csv|degrees\\.csv|summary\\.json") ||
-         (scene.has_load_history() && matches("loading\\.csv")) ||
-         (scene.output.contact && scene.has_contact() && matches("contact-[0-9]{2,}\\.csv")) ||
-         (scene.output.mesh_picture && matches("mesh-[0-9]{2,}\\.svg")) ||
-         (scene.output.vtu && matches("solution(-[0-9]{2,}\\.vtu|\\.pvd)")) ||
-         (scene.output.reference && matches("reference\\.dat"));
-}
-
-template <int dim>
-void Output<dim>::write(const std::string &name, const std::string &content)
-{
-  if (directory.add(name))
+  bool any_new = false;
+  for (const std::string &name : names)
+    any_new = directory.add(name) || any_new;
+  if (any_new)
     write_summary();
-  replace(name, content);
 }
 
 template <int dim>
-void Output<dim>::replace(const std::string &name, const std::string &content) const
+void Output<dim>::write(const std::string &name, const std::string &content) const
 {
-  const std::error_code error = directory.write(name, content);
+  check(name, directory.write(name, content));
+}
+
+template <int dim>
+void Output<dim>::update(const std::string &name, const GrowingText &content)
+{
+  check(name, directory.update(name, content.text, content.same));
+}
+
+template <int dim>
+void Output<dim>::check(const std::string &name, const std::error_code &error) const
+{
   if (!error)
     return;
   const std::string reason = name + " cannot be written: " + error.message();
   if (!is_usable)
     directory.reject(reason);
   throw OutputFailure(directory.name() + ": " + reason + "; " + safe_steps());
+}
+
+template <int dim>
+std::string Output<dim>::replaced_scene() const
+{
+  return directory.other_scene(scene.parameters ? scene.parameters->file_name() : "");
 }
 
 template <int dim>
@@ -85,36 +98,65 @@ std::string Output<dim>::safe_steps() const
                               : (one ? " is" : " are") + std::string(" safe"));
 }
 
+/** The files with the number of the step; their names. */
+template <int dim>
+std::vector<std::string> Output<dim>::write_pictures(const StepReport<dim> &step)
+{
+  const OutputSettings &output = scene.output;
+  const std::string contact_name = numbered("contact", step.number, ".csv"),
+                    mesh_name = numbered("mesh", step.number, ".svg"),
+                    vtu_name = numbered("solution", step.number, ".vtu");
+  std::vector<std::string> names;
+  if (output.contact && scene.has_contact())
+    names.push_back(contact_name);
+  if (output.mesh_picture)
+    names.push_back(mesh_name);
+  if (output.vtu)
+    names.push_back(vtu_name);
+  announce(names);
+  if (output.contact && scene.has_contact())
+    write(contact_name, contact_table(scene, step.contact));
+  if (output.mesh_picture)
+    write(mesh_name, mesh_picture(step));
+  if (output.vtu)
+    write(vtu_name, vtu(step));
+  return names;
+}
+
 template <int dim>
 void Output<dim>::write_step(const StepReport<dim> &step)
 {
-  if (scene.output.contact && scene.has_contact())
-    write(numbered("contact", step.number, ".csv"), contact_table(scene, step.contact));
-  if constexpr (dim == 2)
-    if (scene.output.mesh_picture)
-      write(numbered("mesh", step.number, ".svg"), mesh_picture(step));
-  if (scene.output.vtu)
+  const bool only_last = scene.output.steps == OutputSteps::last,
+             is_last = !step.stopped_by.empty(), is_history = scene.has_load_history();
+  announce({"convergence.csv", "degrees.csv"});
+  const std::vector<std::string> pictures = write_pictures(step);
+  if (scene.output.vtu && (is_last || !is_history)) // a history is that of its load steps
   {
-    const std::string name = numbered("solution", step.number, ".vtu");
-    write(name, vtu(step));
-    if (!scene.has_load_history())
-      vtu_files.emplace_back(step.number, name);
-    else if (!step.stopped_by.empty()) // a history is that of its load steps
-      vtu_files.emplace_back(step.load.t, name);
-    write("solution.pvd", pvd(vtu_files));
+    if (only_last && !is_history)
+      pvd = {};
+    add_to_pvd(pvd, is_history ? step.load.t : step.number, pictures.back());
+    announce({"solution.pvd"});
+    update("solution.pvd", pvd);
   }
-  if (scene.output.reference && !step.stopped_by.empty())
+  if (scene.output.reference && is_last)
   {
     std::ostringstream file;
     StoredSolution<dim>(step.solution, step.energies.energy).write(file);
+    announce({"reference.dat"});
     write("reference.dat", file.str());
   }
   tables.add(step); // last: the tables name no step whose files are missing
-  write("convergence.csv", tables.convergence());
-  write("degrees.csv", tables.degrees());
-  if (scene.has_load_history())
-    write("loading.csv", tables.loading());
+  update("convergence.csv", tables.convergence());
+  update("degrees.csv", tables.degrees());
+  if (is_history && is_last)
+  {
+    announce({"loading.csv"});
+    update("loading.csv", tables.loading());
+  }
   summary.add(step, tables.last_row());
+  for (const std::string &name : superseded)
+    directory.remove(name);
+  superseded = only_last && !is_last ? pictures : std::vector<std::string>();
   write_summary();
 }
 
@@ -143,7 +185,7 @@ void Output<dim>::give_up(const std::string &status, const std::string &message)
 template <int dim>
 void Output<dim>::write_summary() const
 {
-  replace("summary.json", summary.json(scene, directory.files()));
+  write("summary.json", summary.json(scene, directory.files()));
 }
 
 template class Output<2>;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/primal_output.h>
-#include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/scene/parameters.h>
@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <regex>
 
 namespace hpvi
 {
@@ -21,9 +19,13 @@ using namespace dealii;
 
 namespace
 {
-std::string numbered(const std::string &name, const unsigned int step, const std::string &suffix)
+/** As the ResultDirectory wants them. */
+template <int dim>
+std::string names_written(const Scene<dim> &scene)
 {
-  return name + (step < 10 ? "-0" : "-") + std::to_string(step) + suffix;
+  return results::always +
+         (scene.output.contact && scene.has_contact() ? "|" + results::contact : "") +
+         (scene.output.vtu ? "|" + results::pieces : "");
 }
 
 std::string known(const double value)
@@ -33,19 +35,19 @@ std::string known(const double value)
 
 /** Nothing where no contact can be penetrated. */
 template <int dim>
-std::string json_penetration(const BoundaryCondition<dim> &boundary,
+std::string penetration_json(const BoundaryCondition<dim> &boundary,
                              const Penetration<dim> &penetration)
 {
   if (!boundary.is_unilateral())
     return "";
-  return ",\n      \"largest_penetration\": " + text(penetration.depth) +
+  return ",\n      \"largest_penetration\": " + json_number(penetration.depth) +
          ",\n      \"largest_penetration_at\": " +
          (penetration.depth > 0 ? json_point<dim>(penetration.x) : "null");
 }
 
-/** A member of summary.json: force, pressure and zones of each contact boundary. */
+/** As in summary.json: force, pressure and zones of each contact boundary. */
 template <int dim>
-std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points,
+std::string contact_json(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points,
                          const std::vector<Penetration<dim>> &penetrations)
 {
   std::string list;
@@ -72,15 +74,16 @@ std::string json_contact(const Scene<dim> &scene, const std::vector<MomentPoint<
       }
     }
     list += (list.empty() ? "\n    " : ",\n    ") + json_string(boundary.name) +
-            ": {\n      \"normal_resultant\": " + text(normal) +
+            ": {\n      \"normal_resultant\": " + json_number(normal) +
             ",\n      \"friction_resultant\": " + json_point<dim>(friction) +
-            ",\n      \"largest_pressure\": " + text(pressure) +
+            ",\n      \"largest_pressure\": " + json_number(pressure) +
             ",\n      \"largest_pressure_at\": " + (pressure > 0 ? json_point<dim>(at) : "null") +
-            json_penetration(boundary, penetrations[boundary.id]) +
-            ",\n      \"area\": " + text(area) + ",\n      \"open_area\": " + text(open) +
-            ",\n      \"slipping_area\": " + text(slipping) + "\n    }";
+            penetration_json(boundary, penetrations[boundary.id]) +
+            ",\n      \"area\": " + json_number(area) +
+            ",\n      \"open_area\": " + json_number(open) +
+            ",\n      \"slipping_area\": " + json_number(slipping) + "\n    }";
   }
-  return "  \"contact\": {" + list + (list.empty() ? "" : "\n  ") + "},\n";
+  return "{" + list + (list.empty() ? "}" : "\n  }");
 }
 
 /** int T_n and, by component, int T_t of the one contact boundary; empty where there are more. */
@@ -181,109 +184,152 @@ PrimalOutput<dim>::PrimalOutput(const Scene<dim> &scene, const std::string &path
         if (!is_first)
           return;
         directory = std::make_unique<ResultDirectory>(
-            path, [this](const std::string &name) { return writes(name); },
+            path, names_written(scene),
             std::vector<std::string>{scene.parameters ? scene.parameters->file_name() : ""});
-        write("summary.json", summary());
+        summary.processes = Utilities::MPI::n_mpi_processes(communicator);
+        write_summary();
         directory->remove_earlier();
         if (scene.parameters)
+        {
+          announce({"scene.prm"});
           write("scene.prm", scene.effective_parameters());
-        write("summary.json", summary());
+        }
         is_usable = true;
       });
 }
 
 template <int dim>
-bool PrimalOutput<dim>::writes(const std::string &name) const
+void PrimalOutput<dim>::announce(const std::vector<std::string> &names)
 {
-  const auto matches = [&name](const char *pattern)
-  { return std::regex_match(name, std::regex(pattern)); };
-  return matches("scene\\.prm|convergence\\.csv|degrees\\.csv|summary\\.json") ||
-         (scene.output.contact && scene.has_contact() && matches("contact-[0-9]{2,}\\.csv")) ||
-         (scene.output.vtu && matches("solution(-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|\\.pvd)"));
+  bool any_new = false;
+  for (const std::string &name : names)
+    any_new = directory->add(name) || any_new;
+  if (any_new)
+    write_summary();
 }
 
 template <int dim>
-void PrimalOutput<dim>::write(const std::string &name, const std::string &content)
+void PrimalOutput<dim>::write(const std::string &name, const std::string &content) const
 {
-  if (directory->add(name))
-    directory->write("summary.json", summary()); // names the file before it is there
-  const std::error_code error = directory->write(name, content);
+  check(name, directory->write(name, content));
+}
+
+template <int dim>
+void PrimalOutput<dim>::update(const std::string &name, const GrowingText &content)
+{
+  check(name, directory->update(name, content.text, content.same));
+}
+
+template <int dim>
+void PrimalOutput<dim>::check(const std::string &name, const std::error_code &error) const
+{
   if (!error)
     return;
   const std::string reason = name + " cannot be written: " + error.message();
-  if (!is_usable)
+  if (directory && !is_usable)
     directory->reject(reason);
-  throw OutputFailure(directory->name() + ": " + reason + "; " + safe_steps());
+  throw OutputFailure("output directory '" + printable(path) + "': " + reason + "; " +
+                      safe_steps());
+}
+
+template <int dim>
+std::string PrimalOutput<dim>::replaced_scene() const
+{
+  return directory && scene.parameters ? directory->other_scene(scene.parameters->file_name()) : "";
 }
 
 template <int dim>
 std::string PrimalOutput<dim>::safe_steps() const
 {
-  if (rows.empty())
+  if (summary.steps == 0)
     return "no step is finished";
-  return rows.size() == 1 ? "step 1 is safe"
-                          : "steps 1 to " + std::to_string(rows.size()) + " are safe";
+  return summary.steps == 1 ? "step 1 is safe"
+                            : "steps 1 to " + std::to_string(summary.steps) + " are safe";
 }
 
 /** Each process writes its piece, the first one announces them all. */
 template <int dim>
 void PrimalOutput<dim>::write_solution(const PrimalReport<dim> &step)
 {
-  const unsigned int n = Utilities::MPI::n_mpi_processes(communicator);
+  const unsigned int n = Utilities::MPI::n_mpi_processes(communicator),
+                     rank = Utilities::MPI::this_mpi_process(communicator);
   std::vector<std::string> pieces;
-  for (unsigned int rank = 0; rank < n; ++rank)
-    pieces.push_back(numbered("solution", step.number, "." + std::to_string(rank) + ".vtu"));
+  for (unsigned int k = 0; k < n; ++k)
+    pieces.push_back(numbered("solution", step.number, "." + std::to_string(k) + ".vtu"));
   const PrimalVtu content = vtu(step, pieces);
   const std::string name = numbered("solution", step.number, ".pvtu");
+  pictures = pieces;
+  pictures.push_back(name);
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (is_first)
+                     announce(pictures);
+                 });
+  write_together(communicator,
+                 [&]()
+                 {
+                   check(pieces[rank],
+                         write_whole(std::filesystem::path(path) / pieces[rank], content.piece,
+                                     ".hpvi." + std::to_string(rank) + ".tmp"));
+                 });
   write_together(communicator,
                  [&]()
                  {
                    if (!is_first)
                      return;
-                   for (const std::string &piece : pieces)
-                     directory->add(piece);
-                   write(name, content.index);
-                   solutions.emplace_back(step.number, name);
-                   write("solution.pvd", pvd(solutions));
-                 });
-  write_together(communicator,
-                 [&]()
-                 {
-                   const std::string piece = pieces[Utilities::MPI::this_mpi_process(communicator)];
-                   std::ofstream file(std::filesystem::path(path) / piece);
-                   if (!(file << content.piece).flush())
-                     throw OutputFailure("output directory '" + path + "': " + piece +
-                                         " cannot be written; " + safe_steps());
+                   write(name, content.index); // last: it names no piece that is missing
+                   if (scene.output.steps == OutputSteps::last)
+                     pvd = {};
+                   add_to_pvd(pvd, step.number, name);
+                   announce({"solution.pvd"});
+                   update("solution.pvd", pvd);
                  });
 }
 
 template <int dim>
 void PrimalOutput<dim>::write_tables(const PrimalReport<dim> &step)
 {
+  announce({"convergence.csv", "degrees.csv"});
   if (scene.output.contact && scene.has_contact())
-    write(numbered("contact", step.number, ".csv"), contact_table(scene, step.contact));
-  rows.push_back(convergence_record(step));
-  degrees.push_back({{"step", text(step.number)}, {"elements", std::to_string(step.n_cells)}});
+  {
+    pictures.push_back(numbered("contact", step.number, ".csv"));
+    announce({pictures.back()});
+    write(pictures.back(), contact_table(scene, step.contact));
+  }
+  const Record row = convergence_record(step);
+  Record counts{{"step", text(step.number)}, {"elements", std::to_string(step.n_cells)}};
   for (unsigned int p = 1; p <= step.space.tables.degree; ++p)
-    degrees.back().emplace_back("p" + text(p),
-                                p < step.space.tables.degree ? "0" : std::to_string(step.n_cells));
-  write("convergence.csv", csv(rows));
-  write("degrees.csv", csv(degrees));
-  times += step.times;
-  stopped_by = step.stopped_by;
-  warnings = step.warnings;
-  if (!stopped_by.empty())
-    forces = "  \"error_bound\": null,\n  \"no_error_bound\": \"the primal path has no guaranteed "
-             "bound of "
-             "the error\",\n" +
-             equilibrium_json(step.equilibrium) +
-             json_contact(scene, step.contact, step.penetrations);
-  write("summary.json", summary());
+    counts.emplace_back("p" + text(p),
+                        p < step.space.tables.degree ? "0" : std::to_string(step.n_cells));
+  add_row(convergence, row);
+  add_row(degrees, counts);
+  update("convergence.csv", convergence);
+  update("degrees.csv", degrees);
+  count(step, row);
+  for (const std::string &name : superseded)
+    directory->remove(name);
+  write_summary();
+}
+
+template <int dim>
+void PrimalOutput<dim>::count(const PrimalReport<dim> &step, const Record &row)
+{
+  summary.steps = step.number;
+  summary.last_row = row;
+  summary.times += step.times;
+  summary.stopped_by = step.stopped_by;
+  summary.warnings = step.warnings;
+  if (!step.stopped_by.empty())
+    summary.ending = {"null", json_string("the primal path has no guaranteed bound of the error"),
+                      forces_json(step.equilibrium), balance_json(step.equilibrium),
+                      contact_json(scene, step.contact, step.penetrations)};
 }
 
 template <int dim>
 void PrimalOutput<dim>::write_step(const PrimalReport<dim> &step)
 {
+  pictures.clear();
   if (scene.output.vtu)
     write_solution(step);
   write_together(communicator,
@@ -292,37 +338,35 @@ void PrimalOutput<dim>::write_step(const PrimalReport<dim> &step)
                    if (is_first)
                      write_tables(step); // last: they name no step whose files are missing
                  });
+  if (scene.output.steps == OutputSteps::last)
+    superseded = pictures;
 }
 
 template <int dim>
 void PrimalOutput<dim>::finish()
 {
-  status = "done";
+  summary.status = "done";
   write_together(communicator,
                  [&]()
                  {
                    if (is_first)
-                     write("summary.json", summary());
+                     write_summary();
                  });
 }
 
 template <int dim>
-void PrimalOutput<dim>::give_up(const std::string &new_status, const std::string &new_message)
+void PrimalOutput<dim>::give_up(const std::string &status, const std::string &message)
 {
-  status = new_status;
-  message = new_message;
+  summary.status = status;
+  summary.message = message;
   if (directory) // where it cannot be written, the message itself is what the user has to hear of
-    directory->write("summary.json", summary());
+    directory->write("summary.json", summary.json(scene, directory->files()));
 }
 
 template <int dim>
-std::string PrimalOutput<dim>::summary() const
+void PrimalOutput<dim>::write_summary() const
 {
-  return json_head(scene, status, stopped_by, message) +
-         "  \"processes\": " + std::to_string(Utilities::MPI::n_mpi_processes(communicator)) +
-         ",\n  \"steps\": " + std::to_string(rows.size()) +
-         ",\n  \"final\": " + (rows.empty() ? "null" : json_object(rows.back())) + ",\n" + forces +
-         json_tail(times, warnings, directory->files());
+  write("summary.json", summary.json(scene, directory->files()));
 }
 
 template class PrimalOutput<2>;

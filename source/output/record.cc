@@ -2,31 +2,57 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/record.h>
 
+#include <charconv>
+#include <cmath>
+
 namespace hpvi
 {
+namespace
+{
+using Field = std::string Record::value_type::*;
+
+void add_line(std::string &table, const Record &record, const Field field)
+{
+  for (std::size_t i = 0; i < record.size(); ++i)
+    table += (i > 0 ? "," : "") + record[i].*field;
+  table += '\n';
+}
+} // namespace
+
 std::string csv(const std::vector<Record> &records)
 {
   std::string table;
-  const auto add_line = [&table](const Record &record, const auto &field)
-  {
-    for (std::size_t i = 0; i < record.size(); ++i)
-      table += (i > 0 ? "," : "") + field(record[i]);
-    table += '\n';
-  };
   if (!records.empty())
-    add_line(records.back(), [](const auto &entry) { return entry.first; });
+    add_line(table, records.back(), &Record::value_type::first);
   for (const Record &record : records)
-    add_line(record, [](const auto &entry) { return entry.second; });
+    add_line(table, record, &Record::value_type::second);
   return table;
+}
+
+void add_row(GrowingText &table, const Record &row)
+{
+  table.same = table.text.size();
+  if (table.text.empty())
+    add_line(table.text, row, &Record::value_type::first);
+  add_line(table.text, row, &Record::value_type::second);
+}
+
+std::string json_number(const double value)
+{
+  return std::isfinite(value) ? text(value) : "null";
 }
 
 namespace
 {
+/** A field is a number that text() wrote, or words. */
 std::string json_value(const std::string &field)
 {
-  if (field.empty() || field.find_first_of("infa") != std::string::npos)
+  double number = 0;
+  const char *const end = field.data() + field.size();
+  const bool is_number = std::from_chars(field.data(), end, number).ptr == end && !field.empty();
+  if (field.empty() || (is_number && !std::isfinite(number)))
     return "null";
-  return field.find_first_of("/ ") != std::string::npos ? json_string(field) : field;
+  return is_number ? field : json_string(field);
 }
 } // namespace
 
@@ -36,5 +62,13 @@ std::string json_object(const Record &record)
   for (const auto &[name, value] : record)
     list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_value(value);
   return "{" + list + "\n  }";
+}
+
+std::string json_file(const Record &members)
+{
+  std::string list;
+  for (const auto &[name, value] : members)
+    list += (list.empty() ? "\n  " : ",\n  ") + json_string(name) + ": " + value;
+  return "{" + list + "\n}\n";
 }
 } // namespace hpvi

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/result_directory.h>
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <regex>
 
 namespace hpvi
@@ -26,13 +28,12 @@ constexpr const char *summary_name = "summary.json";
 /** What is not yet whole. */
 constexpr const char *partial_name = ".hpvi.tmp";
 
-/** Is this the name of a file that a run may leave? Nothing else is ever touched. */
+/** Is this the name of a file that a run may leave? */
 bool is_result(const std::string &name)
 {
-  static const std::regex pattern(
-      "(contact-[0-9]{2,}\\.csv|solution-[0-9]{2,}\\.vtu|"
-      "mesh-[0-9]{2,}\\.svg|solution\\.pvd|convergence\\.csv|loading\\.csv|"
-      "degrees\\.csv|reference\\.dat|summary\\.json|scene\\.prm)(\\.tmp)?");
+  using namespace results;
+  static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
+                                  vtu + "|" + pieces + "|" + reference + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 
@@ -46,8 +47,15 @@ std::set<std::string> results_in(const fs::path &directory, std::error_code &err
   return names;
 }
 
-/** Which of @p names has this program written, as far as summary.json says so? */
-std::set<std::string> own_files(const fs::path &directory, const std::set<std::string> &names)
+/** What summary.json says of an earlier run. */
+struct EarlierRun
+{
+  FileNames files;
+  std::string scene; ///< its file
+};
+
+/** Which of @p names has this program written, and for which scene? */
+EarlierRun earlier_run(const fs::path &directory, const std::set<std::string> &names)
 {
   boost::property_tree::ptree summary;
   std::error_code ignored;
@@ -65,18 +73,130 @@ std::set<std::string> own_files(const fs::path &directory, const std::set<std::s
   if (summary.get<std::string>("program", "").rfind("hpvi ", 0) != 0)
     return {};
   const auto list = summary.get_child_optional("files");
-  if (!list)
-    return names;
-  std::set<std::string> own;
-  for (const auto &file : *list)
-    if (names.count(file.second.data()) > 0)
-      own.insert(file.second.data());
-  return own;
+  FileNames listed;
+  if (list)
+    for (const auto &file : *list)
+      listed.add(file.second.data());
+  EarlierRun run{{}, summary.get<std::string>("scene_file", "null")};
+  for (const std::string &name : names)
+    if (!list || listed.contains(name))
+      run.files.add(name);
+  if (run.scene == "null")
+    run.scene.clear();
+  return run;
 }
 } // namespace
 
-ResultDirectory::ResultDirectory(const std::string &directory,
-                                 const std::function<bool(const std::string &)> &writes,
+std::string numbered(const std::string &name, const unsigned int step, const std::string &suffix)
+{
+  return name + (step < 10 ? "-0" : "-") + std::to_string(step) + suffix;
+}
+
+std::error_code write_whole(const fs::path &file, const std::string &content,
+                            const std::string &partial_name)
+{
+  const fs::path partial = fs::path(file).replace_filename(partial_name);
+  std::error_code error, ignored;
+  fs::remove(partial, ignored); // a link there must not be followed
+  errno = 0;
+  std::ofstream stream(partial, std::ios::binary);
+  stream << content;
+  stream.close();
+  if (!stream)
+    error.assign(errno != 0 ? errno : EIO, std::generic_category());
+  else
+    fs::rename(partial, file, error);
+  if (error)
+    fs::remove(partial, ignored);
+  return error;
+}
+
+// ---------------------------------------------------------------- names
+
+struct FileNames::Span
+{
+  Series series;
+  unsigned int first, last;
+};
+
+/** HEAD-NN.TAIL or HEAD-{NN..MM}.TAIL; any other name is a series of its own. */
+FileNames::Span FileNames::span_of(const std::string &name)
+{
+  static const std::regex pattern(
+      "([a-z]+-)(?:([0-9]{2,9})|\\{([0-9]{2,9})\\.\\.([0-9]{2,9})\\})(\\.[0-9a-z.]+)");
+  std::smatch match;
+  if (name.size() > 60 || !std::regex_match(name, match, pattern))
+    return {{name, 0, ""}, 0, 0};
+  const std::string first = match[2].str() + match[3].str(), last = match[2].str() + match[4].str();
+  if (first.size() != last.size())
+    return {{name, 0, ""}, 0, 0};
+  const unsigned int digits = first.size();
+  return {{match[1], digits, match[5]},
+          static_cast<unsigned int>(std::stoul(first)),
+          static_cast<unsigned int>(std::stoul(last))};
+}
+
+bool FileNames::add(const std::string &name)
+{
+  const Span span = span_of(name);
+  std::map<unsigned int, unsigned int> &ranges = series[span.series];
+  const auto next = ranges.upper_bound(span.first);
+  if (next == ranges.begin() || std::prev(next)->second + 1 < span.first)
+    return ranges.emplace(span.first, span.last).second;
+  unsigned int &last = std::prev(next)->second;
+  const bool is_new = last < span.last;
+  last = std::max(last, span.last);
+  return is_new;
+}
+
+void FileNames::remove(const std::string &name)
+{
+  if (!contains(name))
+    return;
+  const Span span = span_of(name);
+  std::map<unsigned int, unsigned int> &ranges = series[span.series];
+  const auto found = std::prev(ranges.upper_bound(span.first));
+  if (span.first < found->second)
+    ranges.emplace(span.first + 1, found->second);
+  if (found->first < span.first)
+    found->second = span.first - 1;
+  else
+    ranges.erase(found);
+}
+
+bool FileNames::contains(const std::string &name) const
+{
+  const Span span = span_of(name);
+  const auto found = series.find(span.series);
+  if (found == series.end())
+    return false;
+  const auto next = found->second.upper_bound(span.first);
+  return next != found->second.begin() && std::prev(next)->second >= span.first;
+}
+
+std::vector<std::string> FileNames::list() const
+{
+  std::vector<std::string> names;
+  for (const auto &[parts, ranges] : series)
+  {
+    const auto &[head, digits, tail] = parts;
+    const auto padded = [digits = digits](const unsigned int number)
+    {
+      const std::string text = std::to_string(number);
+      return std::string(digits - text.size(), '0') + text;
+    };
+    for (const auto &[first, last] : ranges)
+      names.push_back(digits == 0 ? head
+                      : first == last
+                          ? head + padded(first) + tail
+                          : head + "{" + padded(first) + ".." + padded(last) + "}" + tail);
+  }
+  return names;
+}
+
+// ---------------------------------------------------------------- the directory
+
+ResultDirectory::ResultDirectory(const std::string &directory, const std::string &writes,
                                  const std::vector<std::string> &reads)
     : path(directory)
 {
@@ -86,22 +206,26 @@ ResultDirectory::ResultDirectory(const std::string &directory,
   const std::set<std::string> names = results_in(path, error);
   if (error)
     reject(error.message());
-  own = own_files(path, names);
+  const std::regex written(writes);
+  const EarlierRun earlier = earlier_run(path, names);
+  own = earlier.files;
+  earlier_scene = earlier.scene;
   for (const std::string &name : names)
   {
+    const bool writes_it = std::regex_match(name, written);
     std::error_code ignored;
     const bool is_read =
         std::any_of(reads.begin(), reads.end(),
                     [&](const auto &file) { return fs::equivalent(path / name, file, ignored); });
-    if (writes(name) && is_read)
+    if (writes_it && is_read)
       reject("the run reads its " + name + ", which would be overwritten");
-    if (writes(name) && own.count(name) == 0)
+    if (writes_it && !own.contains(name))
       reject("its " + name +
              " would be overwritten, and no summary.json says that it is a result of hpvi");
-    if (!is_read && own.count(name) > 0 && name != summary_name)
+    if (!is_read && own.contains(name) && name != summary_name)
       stale.insert(name);
   }
-  own.insert(summary_name);
+  own.add(summary_name);
 }
 
 /** With all its parents, or none of them. */
@@ -137,14 +261,23 @@ ResultDirectory::Descriptor::~Descriptor()
     close(number);
 }
 
-const std::set<std::string> &ResultDirectory::files() const
+std::vector<std::string> ResultDirectory::files() const
 {
-  return own;
+  return own.list();
+}
+
+std::string ResultDirectory::other_scene(const std::string &scene_file) const
+{
+  if (earlier_scene.empty() || earlier_scene == legible(scene_file))
+    return {};
+  std::error_code ignored;
+  const bool is_same = fs::equivalent(earlier_scene, scene_file, ignored);
+  return is_same ? "" : earlier_scene;
 }
 
 bool ResultDirectory::add(const std::string &name)
 {
-  return own.insert(name).second;
+  return own.add(name);
 }
 
 void ResultDirectory::remove_earlier()
@@ -155,27 +288,59 @@ void ResultDirectory::remove_earlier()
     fs::remove(path / name, error);
     if (error)
       reject("its " + name + " of an earlier run cannot be removed: " + error.message());
-    own.erase(name);
+    own.remove(name);
   }
+}
+
+void ResultDirectory::remove(const std::string &name)
+{
+  std::error_code error;
+  if (!is_gone())
+    fs::remove(path / name, error);
+  if (!error)
+    own.remove(name);
 }
 
 std::error_code ResultDirectory::write(const std::string &name, const std::string &content) const
 {
-  const fs::path partial = path / partial_name;
-  std::error_code error, ignored;
-  if (is_gone())
-    return std::make_error_code(std::errc::no_such_file_or_directory);
-  fs::remove(partial, ignored); // a link there must not be followed
-  errno = 0;
-  std::ofstream file(partial, std::ios::binary);
-  file << content;
-  file.close();
-  if (!file)
-    error.assign(errno != 0 ? errno : EIO, std::generic_category());
-  else
-    fs::rename(partial, path / name, error);
-  if (error)
-    fs::remove(partial, ignored);
+  return is_gone() ? std::make_error_code(std::errc::no_such_file_or_directory)
+                   : write_whole(path / name, content, partial_name);
+}
+
+namespace
+{
+/** Replace what follows the first @p same bytes of a file of @p size, or leave it as it was. */
+std::error_code replace_end(const int file, const std::string &content, const std::size_t same,
+                            const std::size_t size)
+{
+  std::string before(size - same, '\0');
+  bool done = pread(file, before.data(), before.size(), same) == ssize_t(before.size());
+  for (std::size_t at = same; done && at < content.size();) // once, but where a disk is full
+  {
+    const ssize_t n = pwrite(file, content.data() + at, content.size() - at, at);
+    done = n > 0;
+    at += std::max<ssize_t>(n, 0);
+  }
+  const std::error_code error(done ? 0 : errno, std::generic_category());
+  if (error && pwrite(file, before.data(), before.size(), same) >= 0)
+    std::ignore = ftruncate(file, size);
+  return error;
+}
+} // namespace
+
+std::error_code ResultDirectory::update(const std::string &name, const std::string &content,
+                                        const std::size_t same)
+{
+  std::size_t &size = sizes[name];
+  struct stat found;
+  const Descriptor file{open((path / name).c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)};
+  // Another name of the same file would be another's copy of it.
+  const bool is_ours = !is_gone() && fstat(file.number, &found) == 0 && S_ISREG(found.st_mode) &&
+                       found.st_nlink == 1 && std::size_t(found.st_size) == size;
+  const std::error_code error = is_ours && same > 0 && same <= size
+                                    ? replace_end(file.number, content, same, size)
+                                    : write(name, content);
+  size = error ? size : content.size();
   return error;
 }
 

@@ -4,6 +4,7 @@
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/scene/parameters.h>
 #include <hpvi/scene/scene_entries.h>
 
 namespace hpvi
@@ -12,102 +13,104 @@ using namespace dealii;
 
 namespace
 {
-/** A member of summary.json: what became of a history of loads; nothing without one. */
-std::string json_loading(const LoadStep &load, const unsigned int n_load_steps)
+std::string known(const std::string &words)
+{
+  return words.empty() ? "null" : json_string(words);
+}
+
+std::string units_json(const std::string &length, const std::string &stress)
+{
+  return "{\n    \"length\": " + json_string(length) + ",\n    \"stress\": " + json_string(stress) +
+         "\n  }";
+}
+
+/** What became of a history of loads. */
+std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
 {
   if (n_load_steps == 0)
-    return {};
-  return "  \"loading\": {\n    \"load_steps\": " + text(n_load_steps) +
-         ",\n    \"finished\": " + text(load.number) + ",\n    \"t\": " + text(load.t) +
-         ",\n    \"dissipated_energy\": " + text(load.dissipated) +
-         ",\n    \"work\": " + text(load.work) + ",\n    \"stored_energy\": " + text(load.stored) +
-         ",\n    \"released_energy\": " + text(load.released) +
-         ",\n    \"unbalanced_energy\": " + text(load.unbalanced) + "\n  },\n";
+    return "null";
+  return json_object({{"load_steps", text(n_load_steps)},
+                      {"finished", text(load.number)},
+                      {"t", text(load.t)},
+                      {"dissipated_energy", text(load.dissipated)},
+                      {"work", text(load.work)},
+                      {"stored_energy", text(load.stored)},
+                      {"released_energy", text(load.released)},
+                      {"unbalanced_energy", text(load.unbalanced)}});
+}
+
+/** The guaranteed bound; relative to a displacement of zero it is null. */
+template <int dim>
+std::string bound_json(const StepReport<dim> &step)
+{
+  if (!step.bound)
+    return "null";
+  const double energy = step.energies.energy; // J(u_N)
+  return "{\n    \"guaranteed\": true,\n    \"energy_norm\": " + json_number(step.bound->total) +
+         ",\n    \"relative\": " + json_number(step.relative_bound) +
+         ",\n    \"imbalance\": " + json_number(step.bound->imbalance) + ",\n    \"energy\": [" +
+         json_number(energy - step.bound->energy_below) + ", " +
+         json_number(energy + step.bound->energy_above) + "]\n  }";
 }
 } // namespace
 
 template <int dim>
-void Summary<dim>::add(const StepReport<dim> &step, const Record &row)
+void Summary::add(const StepReport<dim> &step, const Record &row)
 {
   ++steps;
   last_row = row;
   times += step.times;
   stopped_by = step.stopped_by;
   warnings = step.warnings;
-  equilibrium = step.equilibrium;
-  contact = step.contact;
-  peaks = step.peaks;
-  unbounded = step.unbounded;
-  bound = step.bound;
-  no_bound = step.no_bound;
-  relative_bound = step.relative_bound;
-  energy = step.energies.energy;
   loads = step.solution.spaces->loads->sum();
-  if (!step.stopped_by.empty())
-    load = step.load;
-}
-
-/** The guaranteed bound, or null and the reason. */
-template <int dim>
-std::string Summary<dim>::json_bound() const
-{
-  if (!bound)
-    return "  \"error_bound\": null,\n  \"no_error_bound\": " + json_string(no_bound) + ",\n";
-  return "  \"error_bound\": {\n    \"guaranteed\": true,\n    \"energy_norm\": " +
-         text(bound->total) + ",\n    \"relative\": " + text(relative_bound) +
-         ",\n    \"imbalance\": " + text(bound->imbalance) + ",\n    \"energy\": [" +
-         text(energy - bound->energy_below) + ", " + text(energy + bound->energy_above) +
-         "]\n  },\n";
+  ending = {};
+  if (stopped_by.empty())
+    return;
+  load = step.load;
+  ending.error_bound = bound_json(step);
+  ending.no_error_bound = known(step.bound ? "" : step.no_bound);
+  ending.forces = forces_json(step.equilibrium);
+  ending.balance = balance_json(step.equilibrium);
+  ending.contact =
+      contact_json(step.solution.scene, step.contact, step.equilibrium, step.unbounded);
+  ending.von_mises = von_mises_json(step.peaks, step.unbounded);
 }
 
 template <int dim>
-std::string Summary<dim>::json(const Scene<dim> &scene, const std::set<std::string> &files) const
+std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string> &files) const
 {
-  return json_head(scene, status, stopped_by, message) + loads_json(loads) +
-         "  \"steps\": " + std::to_string(steps) +
-         ",\n  \"final\": " + (steps == 0 ? "null" : json_object(last_row)) + ",\n" +
-         json_loading(load, scene.loading.steps) +
-         (stopped_by.empty()
-              ? ""
-              : json_bound() + equilibrium_json(equilibrium) +
-                    "  \"contact\": " + contact_json(scene, contact, equilibrium, unbounded) +
-                    ",\n  \"von_mises\": " + von_mises_json(peaks, unbounded) + ",\n") +
-         json_tail(times, warnings, files);
+  const std::string normal_contact =
+      scene.has_unilateral_contact()
+          ? normal_contact_names[static_cast<unsigned int>(scene.normal_contact())]
+          : "";
+  return json_file({{"status", json_string(status)},
+                    {"stopped_by", known(stopped_by)},
+                    {"message", known(message)},
+                    {"scene", json_string(scene.name)},
+                    {"scene_file", known(scene.parameters ? scene.parameters->file_name() : "")},
+                    {"title", json_string(scene.title)},
+                    {"program", json_string("hpvi " + version())},
+                    {"build", json_string(build_type())},
+                    {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
+                    {"units", units_json(scene.length_unit, scene.stress_unit)},
+                    {"normal_contact", known(normal_contact)},
+                    {"processes", text(processes)},
+                    {"loads", loads_json(loads)},
+                    {"steps", text(steps)},
+                    {"final", steps == 0 ? "null" : json_object(last_row)},
+                    {"loading", loading_json(load, scene.loading.steps)},
+                    {"error_bound", ending.error_bound},
+                    {"no_error_bound", ending.no_error_bound},
+                    {"forces", ending.forces},
+                    {"balance", ending.balance},
+                    {"contact", ending.contact},
+                    {"von_mises", ending.von_mises},
+                    {"seconds", json_object(stage_record(times))},
+                    {"warnings", json_lines(warnings)},
+                    {"files", json_lines(files)}});
 }
 
-template <int dim>
-std::string json_head(const Scene<dim> &scene, const std::string &status,
-                      const std::string &stopped_by, const std::string &message)
-{
-  std::string json = "{\n  \"status\": " + json_string(status) + ",\n";
-  if (!stopped_by.empty())
-    json += "  \"stopped_by\": " + json_string(stopped_by) + ",\n";
-  if (!message.empty())
-    json += "  \"message\": " + json_string(message) + ",\n";
-  return json + "  \"scene\": " + json_string(scene.name) +
-         ",\n  \"title\": " + json_string(scene.title) +
-         ",\n  \"program\": " + json_string("hpvi " + version()) +
-         ",\n  \"build\": " + json_string(build_type()) +
-         ",\n  \"deal.II\": " + json_string(DEAL_II_PACKAGE_VERSION) +
-         ",\n  \"units\": {\n    \"length\": " + json_string(scene.length_unit) +
-         ",\n    \"stress\": " + json_string(scene.stress_unit) + "\n  },\n  \"normal_contact\": " +
-         (scene.has_unilateral_contact()
-              ? json_string(normal_contact_names[static_cast<unsigned int>(scene.normal_contact())])
-              : "null") +
-         ",\n";
-}
-
-std::string json_tail(const StageTimes &times, const std::vector<std::string> &warnings,
-                      const std::set<std::string> &files)
-{
-  return "  \"seconds\": " + json_object(stage_record(times)) +
-         ",\n  \"warnings\": " + json_lines(warnings) + ",\n  \"files\": " + json_lines(files) +
-         "\n}\n";
-}
-
-template std::string json_head(const Scene<2> &, const std::string &, const std::string &,
-                               const std::string &);
-template std::string json_head(const Scene<3> &, const std::string &, const std::string &,
-                               const std::string &);
-template struct Summary<2>;
+template void Summary::add(const StepReport<2> &, const Record &);
+template std::string Summary::json(const Scene<2> &, const std::vector<std::string> &) const;
+template std::string Summary::json(const Scene<3> &, const std::vector<std::string> &) const;
 } // namespace hpvi

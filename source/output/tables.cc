@@ -183,46 +183,59 @@ std::vector<unsigned int> count_degrees(const DisplacementSpace<dim> &space)
 template <int dim>
 void Tables<dim>::add(const StepReport<dim> &step)
 {
-  rows.push_back(convergence_record(step));
+  row = convergence_record(step);
+  add_row(rows, row);
   elements.push_back(count_degrees(step.solution.displacement_space));
+  add_degrees();
   if (step.load.number > 0 && !step.stopped_by.empty())
-    load_steps.push_back(loading_record(step));
+    add_row(load_steps, loading_record(step));
 }
 
+/** The row of the last step; with a column more, all rows. */
 template <int dim>
-std::string Tables<dim>::loading() const
+void Tables<dim>::add_degrees()
 {
-  return csv(load_steps);
+  const bool grows = elements.back().size() > n_columns;
+  if (grows)
+  {
+    degree_rows = {};
+    n_columns = elements.back().size();
+  }
+  for (std::size_t k = grows ? 0 : elements.size() - 1; k < elements.size(); ++k)
+  {
+    const std::vector<unsigned int> &count = elements[k];
+    Record record{{"step", std::to_string(k + 1)},
+                  {"elements", text(std::accumulate(count.begin(), count.end(), 0U))}};
+    for (unsigned int p = 1; p < n_columns; ++p)
+      record.emplace_back("p" + text(p), text(p < count.size() ? count[p] : 0U));
+    add_row(degree_rows, record);
+  }
+  if (grows)
+    degree_rows.same = 0;
 }
 
 template <int dim>
 const Record &Tables<dim>::last_row() const
 {
-  return rows.back();
+  return row;
 }
 
 template <int dim>
-std::string Tables<dim>::convergence() const
+const GrowingText &Tables<dim>::convergence() const
 {
-  return csv(rows);
+  return rows;
 }
 
 template <int dim>
-std::string Tables<dim>::degrees() const
+const GrowingText &Tables<dim>::degrees() const
 {
-  std::size_t n_columns = 0;
-  for (const auto &count : elements)
-    n_columns = std::max(n_columns, count.size());
-  std::vector<Record> records;
-  for (const auto &count : elements)
-  {
-    Record record{{"step", text(static_cast<unsigned int>(records.size() + 1))},
-                  {"elements", text(std::accumulate(count.begin(), count.end(), 0U))}};
-    for (unsigned int p = 1; p < n_columns; ++p)
-      record.emplace_back("p" + text(p), text(p < count.size() ? count[p] : 0U));
-    records.push_back(record);
-  }
-  return csv(records);
+  return degree_rows;
+}
+
+template <int dim>
+const GrowingText &Tables<dim>::loading() const
+{
+  return load_steps;
 }
 
 template class Tables<2>;

@@ -197,11 +197,15 @@ PrimalVtu vtu(const PrimalReport<dim> &step, const std::vector<std::string> &pie
   return {piece.str(), index.str()};
 }
 
-std::string pvd(const std::vector<std::pair<double, std::string>> &files)
+void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
 {
-  std::ostringstream out;
-  DataOutBase::write_pvd_record(out, files);
-  return out.str();
+  const std::string head = "<?xml version=\"1.0\"?>\n"
+                           "<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n",
+                    end = "  </Collection>\n</VTKFile>\n";
+  pvd.same = pvd.text.empty() ? 0 : pvd.text.size() - end.size();
+  pvd.text.resize(pvd.same);
+  pvd.text += (pvd.same == 0 ? head : "") + "    <DataSet timestep=\"" + text(time) +
+              "\" part=\"0\" file=\"" + file + "\"/>\n" + end;
 }
 
 template std::string vtu(const StepReport<2> &);

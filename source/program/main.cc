@@ -144,7 +144,8 @@ void run(const Scene<dim> &scene, const std::string &directory)
   std::string closing_words, reason; ///< of the last step
   ProgressLine progress;
   std::cout << version_line() << '\n'
-            << legible(scene.title) << "\n\n"
+            << legible(scene.title) << '\n'
+            << replacement_in_words(output.replaced_scene(), directory) << '\n'
             << loads_in_words(scene) << std::endl;
   print_table_head(scene);
   try

@@ -169,7 +169,8 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   Ending ending;
   const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
-            << legible(scene.title) << "\n\n"
+            << legible(scene.title) << '\n'
+            << replacement_in_words(output.replaced_scene(), directory) << '\n'
             << LoadCheck<dim>(scene).in_words() << std::endl;
   print_table_head();
   try

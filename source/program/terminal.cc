@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/output.h>
 #include <hpvi/program/primal_run.h>
@@ -33,6 +34,14 @@ std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivit
            "is below " + default_tolerance + ", the default of Adaptivity/Tolerance";
   const bool is_entry = stopped_by.find("error of load step") == std::string::npos;
   return "stopped by " + (is_entry ? "Adaptivity/" + stopped_by : "the " + stopped_by);
+}
+
+std::string replacement_in_words(const std::string &scene_file, const std::string &directory)
+{
+  if (scene_file.empty())
+    return {};
+  return "note: replaces the results of " + printable(scene_file, 400) + " in " +
+         printable(directory, 400) + "\n";
 }
 
 void check_standard_output(const std::string &complete)

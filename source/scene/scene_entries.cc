@@ -291,6 +291,11 @@ void add_program_entries(std::vector<Entry> &entries)
         "S is singular; refused but by --inf-sup, which measures the constant."},
        {"Solver", "Condition number", "false", boolean, yes_no,
         "Report the condition number of S, raw and scaled; costs an eigenvalue computation."},
+       {"Output", "Steps", "all", one_of(output_steps_names), "all or last",
+        "Of which steps the files with a number in their name are kept: all, or the last one, and "
+        "of "
+        "a load history the last one of each load step. While a run goes on, that is the last one "
+        "that is finished."},
        {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},
        {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},

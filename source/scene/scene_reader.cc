@@ -232,6 +232,7 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
       read_choice<Indicator>(parameters, "Adaptivity", "Tolerance on", indicator_names);
   adaptivity.reading =
       read_choice<SmoothnessReading>(parameters, "Adaptivity", "Smoothness reading", reading_names);
+  scene.output.steps = read_choice<OutputSteps>(parameters, "Output", "Steps", output_steps_names);
   scene.solver.path = read_choice<SolutionPath>(parameters, "Solver", "Path", path_names);
   scene.solver.linear = read_choice<LinearMethod>(parameters, "Solver", "Linear", linear_names);
   scene.solver.qp_solver =

@@ -5,11 +5,12 @@ output, against closed forms and against each other."""
 import collections
 import math
 import re
+import signal
 import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from runs import PROGRAM, SCENES, RunTest, read_vtu
+from runs import PROGRAM, SCENES, RunTest, read_vtu, size_limit
 
 SVG = "{http://www.w3.org/2000/svg}"
 STEPS = 4
@@ -143,7 +144,7 @@ class Adaptive(RunTest):
         for stage, seconds in summary["seconds"].items():
             self.assertLess(abs(seconds - sum(float(row["seconds_" + stage]) for row in rows)),
                             1e-4 * seconds + 1e-12)
-        self.assertNotIn("message", summary)
+        self.assertIsNone(summary["message"])
         self.assertEqual(summary["error_bound"]["energy"],
                          [float(rows[-1][end]) for end in ("energy_low", "energy_high")])
 
@@ -180,6 +181,67 @@ class Intervals(RunTest):
             low, high = max(low for low, _ in ends), min(high for _, high in ends)
             self.assertLessEqual(low, high, scene)
             self.assertLess(high - low, 0.02 * (ends[0][1] - ends[0][0]), scene)
+
+
+class Summaries(RunTest):
+    """summary.json can be read and has the same members whatever the outcome."""
+
+    # Held all around with degree 1 nothing is free: the displacement is zero, the error is not.
+    STILL = "".join(f"subsection Boundary {side}\n  set Displacement = 0; 0\nend\n"
+                    for side in ("left", "right", "bottom", "top"))
+
+    def still(self, force):
+        scene = self.home / "still.prm"
+        scene.write_text(f"{self.STILL}subsection Body force\n  set Expression = {force}\nend\n")
+        return scene
+
+    def check_members(self, status, *absent):
+        summary = self.summary()
+        self.assertEqual(list(summary), list(self.members))
+        self.assertEqual(summary["status"], status)
+        self.assertEqual([name for name in summary if summary[name] is None], list(absent))
+
+    def setUp(self):
+        super().setUp()
+        self.run_scene("Adaptivity/Maximum steps=1", scene=self.bar())
+        self.members = self.summary()
+
+    def test_done(self):
+        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
+        self.run_scene("Loading/Steps=2", "Error/Bound=false", "Adaptivity/Maximum steps=1",
+                       scene=self.bar())
+        self.check_members("done", "message", "normal_contact", "error_bound")
+
+    def test_a_displacement_of_zero(self):
+        for _ in range(2):  # the second run knows the files of the first
+            self.run_scene("Adaptivity/Start degree=1", "Adaptivity/Maximum steps=1",
+                           scene=self.still("1; 0"))
+            self.check_members("done", "message", "normal_contact", "loading", "error_bound")
+            self.assertIsNone(self.summary()["final"]["estimate_relative"])
+        self.run_scene(scene=self.still("0; 0"))
+        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
+
+    def test_words_are_no_numbers(self):
+        self.run_scene("Boundary bottom/Friction bound=", "Boundary bottom/Friction coefficient=0.3",
+                       "Boundary bottom/Contact=unilateral", "Adaptivity/Maximum steps=1")
+        self.assertEqual(self.summary()["final"]["coulomb_method"], "newton")
+        self.assertEqual(self.rows()[0]["coulomb_method"], "newton")
+
+    def test_failed(self):
+        self.run_scene(status=2, preexec_fn=size_limit(6000))
+        self.check_members("failed", "stopped_by", "normal_contact", "loads", "final", "loading",
+                           "error_bound", "no_error_bound", "forces", "balance", "contact",
+                 "von_mises")
+
+    def test_running_and_interrupted(self):
+        run = self.stopped("Adaptivity/Maximum steps=99", rows=2)
+        early = ("normal_contact", "loading", "error_bound", "no_error_bound", "forces", "balance", "contact",
+                 "von_mises")
+        self.check_members("running", "stopped_by", "message", *early)
+        run.send_signal(signal.SIGTERM)
+        run.send_signal(signal.SIGCONT)
+        run.communicate(timeout=120)
+        self.check_members("interrupted", "stopped_by", *early)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ class Signals(RunTest):
                                    f"safe in {self.out}")
             self.assertEqual(self.summary()["status"], "interrupted")
             self.assertEqual(self.summary()["message"], f"hpvi: interrupted by {number.name}")
-            self.assertNotIn("stopped_by", self.summary())
+            self.assertIsNone(self.summary()["stopped_by"])
 
     def test_a_step_is_given_up_between_its_stages(self):
         run = self.start("Geometry/Subdivisions=70, 70", rows=0)
@@ -98,7 +98,7 @@ class Streams(RunTest):
         self.assertEqual(self.check_whole(), 2)
 
     def test_what_was_only_to_be_printed_is_missed(self):
-        for option in ("--help", "--version", "--print-parameters"):
+        for option in ("--help", "-h", "--version", "--print-parameters"):
             with open("/dev/full", "wb") as full:
                 done = subprocess.run([PROGRAM, option], stdout=full, stderr=subprocess.PIPE,
                                       env=ENVIRONMENT, timeout=120, check=False)
@@ -119,6 +119,33 @@ class Disks(RunTest):
         self.assertNotIn(".hpvi.tmp", self.names())
         self.run_scene(SHORT)
         self.assertEqual(self.check_whole(), 2)
+
+    def test_a_row_is_there_as_a_whole_or_not(self):
+        quiet = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false")
+        line = self.run_scene(*ENDLESS, *quiet, status=2, preexec_fn=size_limit(9000))
+        steps = len(self.rows())
+        self.assertIn(f"convergence.csv cannot be written: File too large; steps 1 to {steps} are safe", line)
+        table = (self.out / "convergence.csv").read_text()
+        self.assertTrue(table.endswith("\n") and len(table) < 9000)
+        self.assertEqual(self.summary()["steps"], steps)
+
+    def test_a_table_that_another_has_changed_is_written_anew(self):
+        run = self.stopped(*ENDLESS, rows=3)
+        before = len(self.rows())
+        (self.home / "copy").hardlink_to(self.out / "degrees.csv")
+        copied = (self.home / "copy").read_text()
+        (self.out / "convergence.csv").write_text("mine")
+        (self.out / "solution.pvd").unlink()
+        run.send_signal(signal.SIGCONT)
+        for line in run.stdout:
+            if line.split()[:1] == [str(before + 2)]:
+                break
+        run.send_signal(signal.SIGTERM)
+        run.communicate(timeout=120)
+        self.assertGreater(self.check_whole(), before)
+        self.assertEqual([int(row["step"]) for row in self.rows()], list(range(1, len(self.rows()) + 1)))
+        self.assertEqual((self.home / "copy").read_text(), copied)
+        self.assertEqual((self.out / "solution.pvd").read_text().count("solution-"), len(self.rows()))
 
     def test_the_first_step_may_be_too_large(self):
         line = self.run_scene(status=2, preexec_fn=size_limit(6000))

@@ -88,6 +88,17 @@ class Loading(RunTest):
                          [(float(row["t"]), f"solution-{int(row['step']):02}.vtu")
                           for row in self.rows("loading.csv")])
 
+    def test_of_each_load_step_the_last_step_may_be_kept_alone(self):
+        self.run_scene("Output/Steps=last", "Adaptivity/Method=hap2", "Boundary bottom/Friction bound=0.1*(1+0.2*x)")
+        kept = [int(row["step"]) for row in self.rows("loading.csv")]
+        self.assertGreater(len(self.rows()), len(kept))
+        for name, suffix in (("contact", "csv"), ("mesh", "svg"), ("solution", "vtu")):
+            self.assertEqual(sorted(self.out.glob(f"{name}-*")),
+                             [self.out / f"{name}-{step:02}.{suffix}" for step in kept])
+        self.assertEqual(self.files(), self.names())
+        sets = ElementTree.parse(self.out / "solution.pvd").getroot().findall("./Collection/*")
+        self.assertEqual([s.get("file") for s in sets], [f"solution-{step:02}.vtu" for step in kept])
+
     def test_effective_parameters_are_the_same_run(self):
         self.run_scene()
         once = self.contents()
@@ -108,7 +119,7 @@ class Loading(RunTest):
         self.assertNotIn("t", self.rows()[0])
         self.assertNotIn("load_step", self.rows()[0])
         self.assertNotIn("slip", self.rows("contact-01.csv")[0])
-        self.assertNotIn("loading", self.summary())
+        self.assertIsNone(self.summary()["loading"])
 
     def test_finished_load_steps_stay(self):
         # In the third load step the prescribed displacements pass the plane between tried points.

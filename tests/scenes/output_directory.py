@@ -128,12 +128,76 @@ class OutputDirectory(RunTest):
         self.run_scene(SHORT, scene=self.out / "mine.prm")
         self.assertEqual((self.out / "mine.prm").read_bytes(), self.scene.read_bytes())
 
+    def test_results_of_another_scene_file_are_named(self):
+        first, second = self.home / "a/case.prm", self.home / "b/case.prm"
+        for scene in (first, second):
+            scene.parent.mkdir()
+            shutil.copy(self.bar(), scene)
+        self.assertNotIn("replaces", self.run_scene(scene=first))
+        self.assertEqual(self.summary()["scene_file"], str(first))
+        self.assertNotIn("replaces", self.run_scene(scene=first))
+        again = self.home / "again.prm"
+        again.symlink_to(first)
+        self.assertNotIn("replaces", self.run_scene(scene=again))
+        self.assertIn(f"\nnote: replaces the results of {again} in {self.out}\n", self.run_scene(scene=second))
+        self.assertEqual(self.summary()["scene_file"], str(second))
+
+    def test_steps_are_listed_as_ranges(self):
+        self.run_scene(LONG, "Output/Mesh picture=false")
+        self.assertEqual(self.summary()["files"],
+                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "scene.prm",
+                          "solution-{01..04}.vtu", "solution.pvd", "summary.json"])
+
+    def test_the_last_step_alone(self):
+        last = "Output/Steps=last"
+        self.run_scene(LONG)
+        every = self.contents()
+        self.run_scene(LONG, last)
+        self.assertEqual(self.names(), [name for name in result_names(4) if "0" not in name or "04" in name])
+        self.assertEqual(self.files(), self.names())
+        self.assertEqual(len(self.rows()), 4)
+        for name in ("contact-04.csv", "mesh-04.svg", "solution-04.vtu", "degrees.csv"):
+            self.assertEqual((self.out / name).read_bytes(), every[name])
+        self.assertEqual((self.out / "solution.pvd").read_text().count("solution-"), 1)
+        self.refuse(last + "s", words=["all or last"])
+        run = self.stopped("Adaptivity/Maximum steps=9", last, rows=3)
+        run.kill()
+        run.communicate()
+        steps = len(self.rows())
+        self.assertGreaterEqual(steps, 2)
+        for name in (f"contact-{steps:02}.csv", f"mesh-{steps:02}.svg", f"solution-{steps:02}.vtu"):
+            self.assertIn(name, self.names())
+        self.assertNotIn("contact-01.csv", self.names())
+
+    def test_pieces_of_processes_are_results_like_others(self):
+        primal = ("Solver/Path=primal", "Adaptivity/Method=hup2")
+        self.run_scene(*primal, LONG, "Output/Steps=last")
+        self.assertEqual([name for name in self.names() if name.startswith("solution")],
+                         ["solution-04.0.vtu", "solution-04.pvtu", "solution.pvd"])
+        self.run_scene(*primal, LONG)
+        self.assertIn("solution-{01..04}.0.vtu", self.summary()["files"])
+        self.assertEqual(self.files(), self.names())
+        self.run_scene(*primal, SHORT)
+        self.assertEqual(self.files(), self.names())
+        self.assertNotIn("solution-03.0.vtu", self.names())
+        self.run_scene(SHORT)
+        self.assertEqual(self.check_whole(), 2)
+        (self.home / "victim").write_text("mine")
+        (self.out / "solution-01.pvtu").write_text("mine")
+        self.refuse(*primal, words=["solution-01.pvtu"])
+        (self.out / "solution-01.pvtu").unlink()
+        (self.out / "solution-01.0.vtu").symlink_to(self.home / "victim")
+        self.refuse(*primal, words=["solution-01.0.vtu"])
+        (self.out / "solution-01.0.vtu").rename(self.out / ".hpvi.0.tmp")
+        self.run_scene(*primal, SHORT)
+        self.assertEqual((self.home / "victim").read_text(), "mine")
+
     def test_a_second_run_is_refused_and_a_kill_leaves_no_lock(self):
         first = self.stopped("Adaptivity/Maximum steps=9", rows=3)
         self.refuse(SHORT, words=["another run of hpvi"])
         first.kill()
         first.communicate()
-        listed = self.summary()["files"]
+        listed = self.files()
         self.assertEqual(self.summary()["status"], "running")
         self.assertGreaterEqual(self.summary()["steps"], 2)
         self.assertLessEqual(set(self.names()) - {".hpvi.tmp"}, set(listed))

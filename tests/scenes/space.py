@@ -12,7 +12,9 @@ import subprocess
 import sys
 import tempfile
 
-HPVI, MPIRUN = sys.argv[1:3]
+from runs import PROGRAM as HPVI, expanded
+
+MPIRUN = sys.argv[1]  # runs.py has taken the program
 SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver/Primal tolerance=1e-11"]
 
 
@@ -73,8 +75,10 @@ with tempfile.TemporaryDirectory() as scratch:
 
     for directory, n in ((one, 1), (two, 2)):
         summary = json.loads((directory / "summary.json").read_text())
+        members = list(summary)
         assert summary["status"] == "done" and summary["processes"] == n
-        assert sorted(summary["files"]) == sorted(p.name for p in directory.iterdir()), summary["files"]
+        listed = sorted(name for entry in summary["files"] for name in expanded(entry))
+        assert listed == sorted(p.name for p in directory.iterdir()), listed
         # The loads are int 1.5 (5 - y), -0.75, 0.5 over 4 x 2; supports and contact carry them, moments too.
         forces = {name: entry["force"] + entry["moment"] for name, entry in summary["forces"].items()}
         for got, expected in zip(forces["loads"], (36, -6, 4, 0, 8, 28)):
@@ -128,6 +132,7 @@ with tempfile.TemporaryDirectory() as scratch:
                         "--set", "Output/VTU=false", *(word for entry in extra for word in ("--set", entry))],
                        check=True, capture_output=True)
         summary = json.loads((scratch / "plane/summary.json").read_text())
+        assert list(summary) == members, list(summary)
         assert ("newton_steps" in summary["final"]) == primal, (n, extra)
         if primal:
             assert summary["error_bound"] is None and "primal" in summary["no_error_bound"]

@@ -62,7 +62,7 @@ Record record(const Scene<2> &scene)
           output.write_step(step);
         });
   }
-  const std::regex timed("convergence\\.csv|summary\\.json|solution\\.pvd|scene\\.prm|\\..*");
+  const std::regex timed("convergence\\.csv|summary\\.json|scene\\.prm|\\..*");
   for (const auto &entry : std::filesystem::directory_iterator(directory))
     if (const std::string name = entry.path().filename(); !std::regex_match(name, timed))
     {

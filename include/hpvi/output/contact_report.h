@@ -42,14 +42,18 @@ template <int dim>
 std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
                            const std::vector<UnboundedStress<dim>> &unbounded);
 
-/** Two members of summary.json: forces by boundary, and how well they balance. */
+/** Forces and moments of the loads and by boundary, an object of JSON. */
 template <int dim>
-std::string equilibrium_json(const Equilibrium<dim> &equilibrium);
+std::string forces_json(const Equilibrium<dim> &equilibrium);
+
+/** How well they balance, likewise. */
+template <int dim>
+std::string balance_json(const Equilibrium<dim> &equilibrium);
 
 /** The resultant of all loads of a scene, of a history those of its first load step: a line before the first step. */
 std::string loads_in_words(const Scene<2> &scene);
 
-/** A member of summary.json: the same of the step at hand; null before there is one. */
+/** The same of the step at hand as an object of JSON; null before there is one. */
 std::string loads_json(const std::optional<LoadSum> &loads);
 
 /** A point or vector as an array of JSON. */

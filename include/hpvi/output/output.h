@@ -9,7 +9,7 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <system_error>
 #include <vector>
 
 namespace hpvi
@@ -27,8 +27,12 @@ public:
 /**
  * Says which files a run leaves behind, and with ResultDirectory is the only one that writes files. Each file is
  * renamed into place whole; the tables and `summary.json` are brought up to date after every step,
- * so that a run which ends early keeps its finished steps. `summary.json` names a file before it is
+ * so that a run which ends early keeps its finished steps. Tables and `solution.pvd` grow by one write of what is
+ * new, so that the ten thousandth step costs no more than the first. `summary.json` names a file before it is
  * written, so that a run which is killed leaves nothing that a later one would not know.
+ *
+ * With OutputSteps::last the files of a step go when those of the next one are whole: however a run ends,
+ * those of its last finished step are there.
  *
  * | file | content |
  * |---|---|
@@ -73,19 +77,24 @@ public:
   /** As in "steps 1 to 3 are safe": what a run leaves that ends here. */
   std::string safe_steps() const;
 
+  /** ResultDirectory::other_scene(): whose results are replaced. */
+  std::string replaced_scene() const;
+
 private:
-  /** Is this the name of a file that this run may write? */
-  bool writes(const std::string &name) const;
-  void write(const std::string &name, const std::string &content);
-  void replace(const std::string &name, const std::string &content) const;
+  void announce(const std::vector<std::string> &names);
+  void write(const std::string &name, const std::string &content) const;
+  void update(const std::string &name, const GrowingText &content);
+  void check(const std::string &name, const std::error_code &error) const;
   void write_summary() const;
+  std::vector<std::string> write_pictures(const StepReport<dim> &step);
 
   const Scene<dim> &scene;
   ResultDirectory directory;
   bool is_usable = false; ///< proved by writing `scene.prm`
   Tables<dim> tables;
-  Summary<dim> summary;
-  std::vector<std::pair<double, std::string>> vtu_files; ///< step, or time, and file name
+  Summary summary;
+  GrowingText pvd;
+  std::vector<std::string> superseded; ///< by the files of the next step
 };
 } // namespace hpvi
 

@@ -4,11 +4,11 @@
 
 #include <hpvi/output/record.h>
 #include <hpvi/output/result_directory.h>
+#include <hpvi/output/summary.h>
 #include <hpvi/primal/primal_solver.h>
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -38,26 +38,29 @@ public:
   /** As in "steps 1 to 3 are safe". */
   std::string safe_steps() const;
 
+  /** As Output::replaced_scene(); of the first process. */
+  std::string replaced_scene() const;
+
 private:
-  bool writes(const std::string &name) const;
-  void write(const std::string &name, const std::string &content);
+  void announce(const std::vector<std::string> &names);
+  void write(const std::string &name, const std::string &content) const;
+  void update(const std::string &name, const GrowingText &content);
+  void check(const std::string &name, const std::error_code &error) const;
   void write_solution(const PrimalReport<dim> &step);
   void write_tables(const PrimalReport<dim> &step);
-  std::string summary() const;
+  void count(const PrimalReport<dim> &step, const Record &row);
+  void write_summary() const;
 
   const Scene<dim> &scene;
   const std::string path;
   const MPI_Comm communicator;
   const bool is_first;
-  std::unique_ptr<ResultDirectory> directory;            ///< of the first process
-  bool is_usable = false;                                ///< proved by the first files
-  std::vector<Record> rows;                              ///< of convergence.csv
-  std::vector<Record> degrees;                           ///< of degrees.csv
-  std::vector<std::pair<double, std::string>> solutions; ///< step and file name
-  StageTimes times;                                      ///< sums over the steps
-  std::string status = "running", message, stopped_by;
-  std::vector<std::string> warnings; ///< of the last step
-  std::string forces;                ///< of the last step, where a limit ended the run
+  std::unique_ptr<ResultDirectory> directory; ///< of the first process
+  bool is_usable = false;                     ///< proved by the first files
+  GrowingText convergence, degrees, pvd;
+  std::vector<std::string> pictures;   ///< the files with the number of the step
+  std::vector<std::string> superseded; ///< by those of the next step
+  Summary summary;
 };
 } // namespace hpvi
 

@@ -4,6 +4,7 @@
 
 #include <hpvi/base/formatting.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,16 @@ using Record = std::vector<std::pair<std::string, std::string>>;
 /** Comma-separated, with the names of the last record as head. */
 std::string csv(const std::vector<Record> &records);
 
+/** A file that grows with every step, and how many of its first bytes the last change has left. */
+struct GrowingText
+{
+  std::string text;
+  std::size_t same = 0;
+};
+
+/** Add a line to a table, the first below a head. */
+void add_row(GrowingText &table, const Record &row);
+
 /** An array of JSON, each item on a line of its own. */
 template <class Lines>
 std::string json_lines(const Lines &lines)
@@ -26,8 +37,14 @@ std::string json_lines(const Lines &lines)
   return "[" + list + (list.empty() ? "]" : "\n  ]");
 }
 
-/** As an object of JSON, which knows neither empty fields nor infinity: there it has null. */
+/** As JSON, which knows neither infinity nor NaN: there it has null. */
+std::string json_number(double value);
+
+/** As an object of JSON, with null for an empty field and for what json_number() has no digits for. */
 std::string json_object(const Record &record);
+
+/** A whole file of JSON: an object of these members, whose values are JSON themselves. */
+std::string json_file(const Record &members);
 } // namespace hpvi
 
 #endif

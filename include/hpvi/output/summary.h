@@ -6,53 +6,44 @@
 #include <hpvi/output/record.h>
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace hpvi
 {
-/** How a run stands: what `summary.json` says beside the scene. */
-template <int dim>
+/**
+ * How a run stands: what `summary.json` says beside the scene. Its members are the same on each path and
+ * whatever the outcome; what there is not, not yet or not on this path is null.
+ */
 struct Summary
 {
   std::string status = "running"; ///< later "done", "failed", "interrupted"
   std::string message;            ///< why it failed or was interrupted
-  unsigned int steps = 0;         ///< finished ones
-  Record last_row;                ///< of the last of them in convergence.csv
-  StageTimes times;               ///< sums over them
   std::string stopped_by;         ///< the limit that ended the run
+  unsigned int processes = 1;
+  unsigned int steps = 0; ///< finished ones
+  Record last_row;        ///< of the last of them in convergence.csv
+  StageTimes times;       ///< sums over them
   std::vector<std::string> warnings;
-  std::vector<ContactState<dim>> contact;      ///< of the last step
-  std::vector<StressSample<dim>> peaks;        ///< likewise
-  std::vector<UnboundedStress<dim>> unbounded; ///< likewise
-  Equilibrium<dim> equilibrium; ///< of the last step, where stopped_by names what ended the run
-
-  std::optional<ErrorBound> bound; ///< of the last step
-  std::string no_bound;            ///< why there is none
-  double relative_bound = 0;
-  double energy = 0;            ///< J(u_N), likewise
   LoadStep load;                ///< the last one that is done, of a history
-  std::optional<LoadSum> loads; ///< of the last step
+  std::optional<LoadSum> loads; ///< of the last step, in the plane
+
+  /** As JSON, of the last step, where stopped_by names what ended the run: */
+  struct Ending
+  {
+    std::string error_bound = "null", no_error_bound = "null"; ///< or the reason
+    std::string forces = "null", balance = "null", contact = "null", von_mises = "null";
+  };
+  Ending ending;
 
   /** Count a finished step, whose row is @p row. */
+  template <int dim>
   void add(const StepReport<dim> &step, const Record &row);
 
   /** With the names of the program's own @p files. */
-  std::string json(const Scene<dim> &scene, const std::set<std::string> &files) const;
-
-private:
-  std::string json_bound() const;
+  template <int dim>
+  std::string json(const Scene<dim> &scene, const std::vector<std::string> &files) const;
 };
-
-/** What summary.json begins with on each path: how the run stands, what it solves and with which program. */
-template <int dim>
-std::string json_head(const Scene<dim> &scene, const std::string &status,
-                      const std::string &stopped_by, const std::string &message);
-
-/** What it ends with. */
-std::string json_tail(const StageTimes &times, const std::vector<std::string> &warnings,
-                      const std::set<std::string> &files);
 } // namespace hpvi
 
 #endif

@@ -12,7 +12,7 @@ namespace hpvi
 {
 /**
  * The tables with a row per step: what `convergence.csv` and `degrees.csv` hold; and `loading.csv` with a
- * row per load step of a history.
+ * row per load step of a history. They grow by a row, unless a new degree asks for a new column.
  */
 template <int dim>
 class Tables
@@ -21,14 +21,17 @@ public:
   void add(const StepReport<dim> &step);
 
   const Record &last_row() const; ///< of convergence()
-  std::string convergence() const;
-  std::string degrees() const;
-  std::string loading() const;
+  const GrowingText &convergence() const;
+  const GrowingText &degrees() const;
+  const GrowingText &loading() const;
 
 private:
-  std::vector<Record> rows;
+  void add_degrees();
+
+  Record row;
+  GrowingText rows, degree_rows, load_steps;
   std::vector<std::vector<unsigned int>> elements; ///< by step and degree
-  std::vector<Record> load_steps;
+  std::size_t n_columns = 0;                       ///< the highest degree so far and 1
 };
 
 /** Name and seconds of every stage. */

@@ -3,10 +3,10 @@
 #define hpvi_vtu_h
 
 #include <hpvi/adaptivity/step_report.h>
+#include <hpvi/output/record.h>
 #include <hpvi/primal/primal_solver.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -29,8 +29,8 @@ struct PrimalVtu
 template <int dim>
 PrimalVtu vtu(const PrimalReport<dim> &step, const std::vector<std::string> &pieces);
 
-/** `solution.pvd`: pairs of step, or time, and file name in order, to be opened at once. */
-std::string pvd(const std::vector<std::pair<double, std::string>> &files);
+/** Name a file in `solution.pvd`, by which ParaView opens all of them; @p time is the step, or the time of a history. */
+void add_to_pvd(GrowingText &pvd, double time, const std::string &file);
 } // namespace hpvi
 
 #endif

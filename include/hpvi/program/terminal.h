@@ -16,6 +16,9 @@ std::string version_line();
 /** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
 std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivity, bool has_bound);
 
+/** Says that results of another scene file are replaced; nothing where @p scene_file is empty. */
+std::string replacement_in_words(const std::string &scene_file, const std::string &directory);
+
 /** What could not be printed is no result; @p complete says what is there nonetheless. Throws OutputFailure. */
 void check_standard_output(const std::string &complete);
 
