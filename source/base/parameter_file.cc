@@ -51,6 +51,9 @@ private:
     text.resize(stream.gcount());
     if (text.size() > limit)
       throw InputError(shown + ": is larger than a megabyte; name a scene file (.prm)");
+    const std::string begin = text.substr(0, 2);
+    if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || begin.find('\0') != std::string::npos)
+      throw InputError(shown + ": is written in UTF-16; save it as UTF-8");
     return text;
   }
 
@@ -124,8 +127,50 @@ std::vector<Assignment> read_parameter_file(const std::string &file)
   return FileScanner(file).scan();
 }
 
+namespace
+{
+/** Characters that editors and word processors put in the place of others, which look the same. */
+struct LookAlike
+{
+  char32_t code;
+  const char *name, *remedy;
+};
+
+constexpr LookAlike look_alikes[] = {{0xA0, "no-break space (U+00A0)", "a blank"},
+                                     {0x202F, "narrow no-break space (U+202F)", "a blank"},
+                                     {0x2009, "thin space (U+2009)", "a blank"},
+                                     {0x200B, "zero-width space (U+200B)", "nothing"},
+                                     {0xFEFF, "byte order mark (U+FEFF)", "nothing"},
+                                     {0x2212, "minus sign (U+2212)", "-"},
+                                     {0x2010, "hyphen (U+2010)", "-"},
+                                     {0x2011, "no-break hyphen (U+2011)", "-"},
+                                     {0x2013, "dash (U+2013)", "-"},
+                                     {0x2014, "dash (U+2014)", "-"},
+                                     {0x2018, "quotation mark (U+2018)", "'"},
+                                     {0x2019, "quotation mark (U+2019)", "'"},
+                                     {0xB4, "acute accent (U+00B4)", "'"},
+                                     {0xD7, "multiplication sign (U+00D7)", "*"},
+                                     {0xB7, "middle dot (U+00B7)", "*"},
+                                     {0xB2, "superscript (U+00B2)", "^2"}};
+
+/** What the reader of @p text cannot see; empty without one of them. */
+std::string name_look_alike(const std::string &text)
+{
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const Character character = character_at(text, i);
+    for (const LookAlike &other : look_alikes)
+      if (character.length > 0 && character.code == other.code)
+        return std::string("; it holds a ") + other.name + ": write " + other.remedy;
+    i += std::max<std::size_t>(character.length, 1);
+  }
+  return {};
+}
+} // namespace
+
 void fail(const std::string &where, const std::string &what, const std::string &problem_and_remedy)
 {
-  throw InputError(where + ": " + printable(what) + ": " + problem_and_remedy);
+  throw InputError(where + ": " + printable(what) + ": " + problem_and_remedy +
+                   name_look_alike(what));
 }
 } // namespace hpvi

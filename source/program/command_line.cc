@@ -27,7 +27,7 @@ po::options_description visible_options()
   add("validate", "check the scene and write nothing");
   add("print-parameters", "print all entries of the scene with their values; without a scene: the "
                           "defaults, documented");
-  add("help", "print this text");
+  add("help,h", "print this text");
   add("version", "print the version");
   return options;
 }

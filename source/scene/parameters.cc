@@ -165,7 +165,10 @@ std::string Parameters::place(const std::string &section, const std::string &nam
 void Parameters::reject(const std::string &section, const std::string &name,
                         const std::string &problem) const
 {
-  throw InputError(place(section, name) + ": " + problem);
+  const std::string path = section.empty() ? name : section + "/" + name;
+  const auto origin = origins.find(path);
+  fail(origin == origins.end() ? shown : origin->second, path + " = " + text(section, name),
+       problem);
 }
 
 std::string Parameters::print(const bool documented) const

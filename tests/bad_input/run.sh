@@ -136,6 +136,18 @@ refused "/dev/zero: is larger than a megabyte" "name a scene file" -- /dev/zero
 refused "a b?.prm: cannot be read" -- $'a\nb\x1b.prm'
 refused "no?.prm: cannot be read" -- $'no\xe9.prm'
 
+# --- what nobody sees
+printf '\xff\xfes\0e\0t\0' >"$scratch/little.prm"
+printf '\0s\0e\0t' >"$scratch/big.prm"
+printf 'set Dimension = 2\nset\xc2\xa0Title = x\n' >"$scratch/blank.prm"
+for file in little big; do
+  refused "$file.prm: is written in UTF-16" "save it as UTF-8" -- "$scratch/$file.prm"
+done
+refused "blank.prm:2: " "not a statement" "no-break space (U+00A0): write a blank" -- "$scratch/blank.prm"
+invalid "not an expression" "minus sign (U+2212): write -" -- $'Boundary left/Traction=\u22121 + x; 0'
+invalid "not accepted" "minus sign (U+2212): write -" -- $'Geometry/Lower corner=\u22121, 0'
+invalid "unknown entry" "quotation mark (U+2019): write '" -- $'Material/Young\u2019s modulus=3'
+
 # --- numbers
 broken negative_young.prm ":3:" "Material/Young's modulus = -15" "E > 0"
 for value in 0 -1 nan inf 1e400 "" "1 2" fifteen; do

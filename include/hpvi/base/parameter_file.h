@@ -21,7 +21,10 @@ struct Assignment
  */
 std::vector<Assignment> read_parameter_file(const std::string &file);
 
-/** The one line about bad input: @p what is the entry with its value, or the statement. */
+/**
+ * The one line about bad input: @p what is the entry with its value, or the statement. Names what hides in it, like a
+ * no-break space.
+ */
 [[noreturn]] void fail(const std::string &where, const std::string &what,
                        const std::string &problem_and_remedy);
 } // namespace hpvi
