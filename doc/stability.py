@@ -995,7 +995,7 @@ def hertz(a, k=10., centre="0"):
 
 def bottom(run):
     """What summary.json says of the contact boundary."""
-    return run.summary.get("contact", {}).get("bottom", {})
+    return (run.summary.get("contact") or {}).get("bottom", {})
 
 
 def touching(run):
