@@ -11,8 +11,10 @@
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/text.h>
+#include <hpvi/contact/resistance.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
@@ -34,6 +36,37 @@ namespace
 double ratio(const double part, const double whole)
 {
   return part == 0 ? 0. : part / whole;
+}
+
+/** Those that contact sees first; of the others a load that nothing resists is more than round-off. */
+template <int dim>
+LoadedMotions<dim> loaded_motions(const Discretisation<dim> &discretisation)
+{
+  const RigidMotions<dim> &free = *discretisation.free_motions;
+  const Vector<double> &f = discretisation.system.f;
+  const unsigned int n = discretisation.scene.free_motions().size();
+  LoadedMotions<dim> result{{}, Vector<double>(n), free.n_seen()};
+  for (unsigned int m = 0; m < n; ++m)
+  {
+    Vector<double> one(n);
+    one[m] = 1;
+    result.motions.push_back(free.motion(one));
+    if (m < free.n_seen())
+    {
+      result.loads[m] = free.balance().e[m];
+      continue;
+    }
+    const Vector<double> R = free.at_unknowns(one);
+    double load = 0, absolute = 0;
+    for (unsigned int k = 0; k < R.size(); ++k)
+    {
+      load += f[k] * R[k];
+      absolute += std::abs(f[k] * R[k]);
+    }
+    if (std::abs(load) > 1e-10 * absolute)
+      result.loads[m] = load;
+  }
+  return result;
 }
 } // namespace
 
@@ -101,6 +134,7 @@ struct AdaptiveSolver<dim>::Stages
 
   void begin(const std::string &stage, const std::string &note = {}) const;
   std::string dense_note() const;
+  void assemble();
   void discretise();
   void factor();
   Solution<dim> solve(ReducedSolution &reduced);
@@ -115,6 +149,7 @@ struct AdaptiveSolver<dim>::Stages
                          const Refinement &refinement) const;
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
+  void change_mesh(const Refinement &refinement);
   void resume(const RunState &state);
 };
 
@@ -141,7 +176,7 @@ std::string AdaptiveSolver<dim>::Stages::dense_note() const
 // element matrices: away from the refined cells most cells are congruent to cells that were there
 // before.
 template <int dim>
-void AdaptiveSolver<dim>::Stages::discretise()
+void AdaptiveSolver<dim>::Stages::assemble()
 {
   begin("numbering the unknowns of " + std::to_string(degrees.size()) + " elements");
   std::shared_ptr<const Spaces<dim>> spaces;
@@ -155,6 +190,34 @@ void AdaptiveSolver<dim>::Stages::discretise()
   missed = loads->missed_displacements(*mesh, degrees);
   // The previous one goes last: it keeps the element matrices that the new one shares.
   discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
+}
+
+// Where contact alone holds the body, statics has a say before anything is factored. Loads whose
+// resultant lies outside the foundation end the run. A resultant inside may still pass between the
+// last point of the multiplier and the end of the contact, where this mesh cannot press: cells are
+// bisected there until it can. The same mesh always leads to the same bisections, so that a run state
+// need not keep them.
+template <int dim>
+void AdaptiveSolver<dim>::Stages::discretise()
+{
+  assemble();
+  if (!discretisation->free_motions)
+    return;
+  require_equilibrium(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+  for (unsigned int levels_left = 8;; --levels_left)
+  {
+    const std::optional<MissingContact> missing =
+        missing_contact(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+    if (!missing)
+      return;
+    if (levels_left == 0 || missing->cells.empty())
+      throw NumericalFailure(missing->why);
+    Refinement refinement{std::vector<bool>(degrees.size()), degrees};
+    for (const unsigned int cell : missing->cells)
+      refinement.bisect[cell] = true;
+    change_mesh(refinement);
+    assemble();
+  }
 }
 
 // @sect3{Solve}
@@ -307,6 +370,13 @@ Refinement AdaptiveSolver<dim>::Stages::mark(const Solution<dim> &solution,
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
+  change_mesh(refinement);
+  refinements.push_back(refinement);
+}
+
+template <int dim>
+void AdaptiveSolver<dim>::Stages::change_mesh(const Refinement &refinement)
+{
   begin("refining");
   StageTimer timer(times.refine);
   // Solutions keep the mesh that they live on.
@@ -314,7 +384,6 @@ void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
   refined->copy_triangulation(*mesh);
   degrees = refine_mesh(*refined, degrees, refinement);
   mesh = refined;
-  refinements.push_back(refinement);
 }
 
 // @sect3{Going on where a run has ended}

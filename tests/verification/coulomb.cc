@@ -139,8 +139,19 @@ TEST(CoulombFriction, HoldsABlockUpToItsAngle)
     EXPECT_NEAR(std::abs(outcome.contact.friction_resultant), 1.5 * std::sin(angle), 1e-9);
     EXPECT_EQ(failure_of(scene(std::tan(angle) * (1 + 1e-6))), "");
     const std::string failure = failure_of(scene(std::tan(angle) * (1 - 1e-6)));
-    EXPECT_NE(failure.find("no equilibrium: the loads push the body along ("), std::string::npos)
-        << failure;
+    const auto number_after = [&](const std::string &words)
+    {
+      const std::size_t found = failure.find(words);
+      return found == std::string::npos ? NAN : std::stod(failure.substr(found + words.size()));
+    };
+    const double mu = number_after("friction resists with "), N = 1.5 * std::cos(angle);
+    EXPECT_EQ(failure.find("no equilibrium: sliding along bottom: "), 0U) << failure;
+    EXPECT_NEAR(number_after("the loads push with "), 1.5 * std::sin(angle), 1e-8) << failure;
+    EXPECT_NEAR(mu, std::tan(angle) * (1 - 1e-6), 1e-8) << failure;
+    EXPECT_NEAR(number_after(" * "), N, 1e-8) << failure;
+    EXPECT_NEAR(number_after(" = "), mu * N, 1e-8) << failure;
+    EXPECT_NE(failure.find("raise Friction coefficient"), std::string::npos) << failure;
+    EXPECT_EQ(failure.find("Friction bound"), std::string::npos) << failure;
   }
 }
 

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/contact/collapse.h>
+#include <hpvi/contact/resistance.h>
+#include <hpvi/solver/equality_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/** Tractions at points, each with a factor between two sides: what contact can do is their sum. */
+template <int dim>
+struct Tractions
+{
+  std::vector<Point<dim>> x;
+  std::vector<Tensor<1, dim>> direction; ///< of the displacement that it works on
+  std::vector<unsigned int> cell;        ///< of its face; none for a part of a multiplier
+  FeasibleSet factors;
+
+  void add(const Point<dim> &point, const Tensor<1, dim> &traction, const double lower,
+           const double upper, const unsigned int at = none)
+  {
+    x.push_back(point);
+    direction.push_back(traction);
+    cell.push_back(at);
+    factors.add_interval(lower, upper);
+  }
+
+  /** The sides of Coulomb's cone: `n + mu t` and `n - mu t`. */
+  void add_cone(const Point<dim> &point, const Tensor<1, dim> &normal,
+                const Tensor<1, dim> &tangent, const double mu, const unsigned int at = none)
+  {
+    for (const double sign : {-1., 1.})
+      add(point, normal + sign * mu * tangent, 0., infinity, at);
+  }
+};
+
+template <int dim>
+Tractions<dim> on_this_mesh(const ContactSpace<dim> &contact_space)
+{
+  using Kind = typename ContactMultiplier<dim>::Kind;
+  Tractions<dim> result;
+  for (const ContactMultiplier<dim> &unknown : contact_space.multipliers())
+    if (unknown.kind == Kind::pressure)
+      result.add(unknown.x, unknown.direction, unknown.is_bilateral ? -infinity : 0., infinity);
+    else if (unknown.partner == none)
+      result.add(unknown.x, unknown.weight * unknown.direction, -unknown.bound, unknown.bound);
+    else
+      result.add_cone(unknown.x, contact_space.multipliers()[unknown.partner].direction,
+                      unknown.direction, unknown.coefficient);
+  return result;
+}
+
+template <int dim>
+Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space)
+{
+  Tractions<dim> result;
+  for (const ContactFace<dim> &face : contact_space.faces())
+  {
+    const ContactFrame<dim> middle = face.frame(0.5);
+    const double friction = face.length * face.friction.integral();
+    result.add(middle.x, middle.tangent, -friction, friction);
+    if (!face.condition->has_pressure())
+      continue;
+    const unsigned int pieces = 8, cell = face.cell->active_cell_index();
+    std::vector<double> points = face.normal_points;
+    for (unsigned int k = 0; k <= pieces; ++k)
+      points.push_back(double(k) / pieces);
+    for (const double s : points)
+    {
+      const ContactFrame<dim> here = face.frame(s);
+      result.add(here.x, here.normal, face.condition->is_unilateral() ? 0. : -infinity, infinity,
+                 cell);
+      if (face.condition->friction.coefficient)
+        result.add_cone(here.x, here.normal, here.tangent, face.friction_coefficient(here.x), cell);
+    }
+  }
+  return result;
+}
+
+/** What @p traction does along a motion; round-off of a point where the motion ought to vanish is zero. */
+template <int dim>
+double work(const Tensor<1, dim> &traction, const RigidBodyMotion<dim> &motion, const Point<dim> &x)
+{
+  const double product = traction * motion.at(x),
+               terms = motion.translation.norm() +
+                       std::abs(motion.rotation) * x.distance(motion.centre);
+  return std::abs(product) <= 1e-13 * traction.norm() * terms ? 0. : product;
+}
+
+/** Along which of the first @p n motions, the others at rest, @p tractions cannot balance the loads. */
+template <int dim>
+std::optional<Imbalance> imbalance_of(const Tractions<dim> &tractions,
+                                      const LoadedMotions<dim> &loaded, const unsigned int n)
+{
+  const unsigned int m = loaded.motions.size();
+  EqualityConstraints balance{FullMatrix<double>(tractions.x.size(), m), loaded.loads};
+  for (unsigned int i = 0; i < tractions.x.size(); ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      balance.G(i, j) = work(tractions.direction[i], loaded.motions[j], tractions.x[i]);
+  return find_imbalance(tractions.factors, balance);
+}
+
+/** The largest rotation of the motions, about one over the size of the body. */
+template <int dim>
+double fastest_turn(const LoadedMotions<dim> &loaded)
+{
+  double turn = 0;
+  for (const RigidBodyMotion<dim> &motion : loaded.motions)
+    turn = std::max(turn, std::abs(motion.rotation));
+  return turn;
+}
+
+/** What @p tractions resist with at most where those that press and rub without end do not act. */
+template <int dim>
+double bounded_resistance(const Tractions<dim> &tractions, const RigidBodyMotion<dim> &motion)
+{
+  double sum = 0;
+  for (unsigned int i = 0; i < tractions.x.size(); ++i)
+    if (std::isfinite(tractions.factors.upper_side(i)))
+      sum += tractions.factors.upper_side(i) *
+             std::abs(work(tractions.direction[i], motion, tractions.x[i]));
+  return sum;
+}
+
+/** As in "the loads turn the body about (1 0) with 2, contact can resist with 1". */
+template <int dim>
+std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalance,
+                     const double otherwise = infinity)
+{
+  RigidBodyMotion<dim> motion = loaded.sum(imbalance.motion);
+  // A rotation about a far point is one more to read than a sliding body.
+  if (std::abs(motion.rotation) < 0.1 * fastest_turn(loaded) * motion.translation.norm())
+    motion.rotation = 0;
+  const bool pushes = motion.is_translation();
+  // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
+  const double unit = pushes ? motion.translation.norm() : std::abs(motion.rotation);
+  std::ostringstream line;
+  line.precision(10);
+  line << "the loads " << (pushes ? "push" : "turn") << " the body " << motion.direction()
+       << " with " << imbalance.load / unit << ", contact can resist with "
+       << imbalance.resistance / unit;
+  if (std::isfinite(otherwise))
+    line << " there and " << otherwise / unit << " on a fine one";
+  return line.str();
+}
+} // namespace
+
+template <int dim>
+RigidBodyMotion<dim> LoadedMotions<dim>::sum(const Vector<double> &coefficients) const
+{
+  RigidBodyMotion<dim> result{{}, 0, motions.front().centre};
+  for (unsigned int j = 0; j < motions.size(); ++j)
+  {
+    result.translation += coefficients[j] * motions[j].translation;
+    result.rotation += coefficients[j] * motions[j].rotation;
+  }
+  return result;
+}
+
+/** By Gram and Schmidt, in coordinates of one length. */
+template <int dim>
+std::optional<double> LoadedMotions<dim>::along(const RigidBodyMotion<dim> &motion) const
+{
+  static_assert(dim == 2, "one rotation");
+  const double turn = fastest_turn(*this);
+  if (turn == 0. && motion.rotation != 0.)
+    return {};
+  const auto coordinates = [&](const RigidBodyMotion<dim> &one)
+  {
+    const Tensor<1, dim> at_centre = one.at(motions.front().centre);
+    return Tensor<1, dim + 1>({at_centre[0], at_centre[1], turn > 0. ? one.rotation / turn : 0.});
+  };
+  std::vector<Tensor<1, dim + 1>> basis;
+  std::vector<double> load;
+  for (unsigned int m = 0; m < motions.size(); ++m)
+  {
+    Tensor<1, dim + 1> rest = coordinates(motions[m]);
+    load.push_back(loads[m]);
+    for (unsigned int k = 0; k < m; ++k)
+    {
+      const double part = rest * basis[k];
+      rest -= part * basis[k];
+      load.back() -= part * load[k];
+    }
+    load.back() /= rest.norm();
+    basis.push_back(rest / rest.norm());
+  }
+  Tensor<1, dim + 1> rest = coordinates(motion);
+  const double size = rest.norm();
+  double result = 0;
+  for (unsigned int k = 0; k < basis.size(); ++k)
+  {
+    const double part = rest * basis[k];
+    rest -= part * basis[k];
+    result += part * load[k];
+  }
+  return rest.norm() <= 1e-8 * size ? std::optional<double>(result) : std::nullopt;
+}
+
+template <int dim>
+void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded)
+{
+  const std::optional<Imbalance> imbalance =
+      imbalance_of(on_any_mesh(contact_space), loaded, loaded.motions.size());
+  if (!imbalance)
+    return;
+  std::string words = collapse(contact_space, loaded);
+  if (words.empty())
+  {
+    const std::string entry = friction_entry(contact_space);
+    words = in_words(loaded, *imbalance) + " at most; add a support, " +
+            (entry.empty() ? "" : "raise " + entry + " ") + "or change the loads";
+  }
+  throw NumericalFailure("no equilibrium: " + words);
+}
+
+template <int dim>
+std::optional<MissingContact> missing_contact(const ContactSpace<dim> &contact_space,
+                                              const LoadedMotions<dim> &loaded)
+{
+  const std::optional<Imbalance> imbalance =
+      imbalance_of(on_this_mesh(contact_space), loaded, loaded.n_seen);
+  if (!imbalance)
+    return {};
+  const RigidBodyMotion<dim> motion = loaded.sum(imbalance->motion);
+  const Tractions<dim> tractions = on_any_mesh(contact_space);
+  std::set<unsigned int> cells;
+  double most = 0;
+  Point<dim> where;
+  for (unsigned int i = 0; i < tractions.x.size(); ++i)
+    if (const double resistance = work(tractions.direction[i], motion, tractions.x[i]);
+        tractions.cell[i] != none && resistance > 0.)
+    {
+      cells.insert(tractions.cell[i]);
+      if (resistance > most)
+        where = tractions.x[i];
+      most = std::max(most, resistance);
+    }
+  std::ostringstream why;
+  why << "no equilibrium on this mesh: ";
+  if (!cells.empty())
+    why << in_words(loaded, *imbalance) << "; it could near (" << where
+        << "), which the points of its multiplier do not reach: set Geometry/Graded towards there "
+           "with more Grading levels, or move the loads";
+  else
+    why << in_words(loaded, *imbalance, bounded_resistance(tractions, motion))
+        << ", for Friction bound varies between the points of its multiplier; raise "
+           "Geometry/Subdivisions or set Geometry/Graded towards where it does";
+  return MissingContact{{cells.begin(), cells.end()}, why.str()};
+}
+
+template struct LoadedMotions<2>;
+template void require_equilibrium(const ContactSpace<2> &, const LoadedMotions<2> &);
+template std::optional<MissingContact> missing_contact(const ContactSpace<2> &,
+                                                       const LoadedMotions<2> &);
+} // namespace hpvi
