@@ -4,6 +4,7 @@
 #include <hpvi/body/cell_map.h>
 #include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/solver/quadratic_program.h>
+#include <hpvi/stresses/mean_gradients.h>
 
 #include <algorithm>
 #include <cmath>
@@ -504,6 +505,64 @@ std::string missed_displacement(const Solution<dim> &solution)
          "bisects";
 }
 
+/** Displacements are those since the body was at rest, so that past load steps count. */
+template <int dim>
+std::string large_strain(const Solution<dim> &solution)
+{
+  const std::vector<MeanGradient<dim>> means =
+      mean_gradients(solution.displacement_space, solution.tables, solution.u);
+  const auto &worst = *std::max_element(means.begin(), means.end(),
+                                        [](const auto &a, const auto &b)
+                                        { return a.largest_strain() < b.largest_strain(); });
+  if (worst.largest_strain() < 0.05)
+    return {};
+  return line("the strain is ", 100 * worst.largest_strain(),
+              " % on average over the coarse cell at (", worst.centre,
+              "): linear elasticity is for strains of a few percent at most; check loads, "
+              "prescribed displacements and Young's modulus");
+}
+
+/** A body that turns by the angle a grows by `1/cos a - 1` in linear theory, 0.4 % at 5 degrees. */
+template <int dim>
+std::string large_rotation(const Solution<dim> &solution)
+{
+  const std::vector<MeanGradient<dim>> means =
+      mean_gradients(solution.displacement_space, solution.tables, solution.u);
+  const auto &worst =
+      *std::max_element(means.begin(), means.end(),
+                        [](const auto &a, const auto &b) { return a.rotation() < b.rotation(); });
+  const double degrees = worst.rotation() * 180 / numbers::PI;
+  if (degrees < 5)
+    return {};
+  return line("the body turns by ", degrees, " degrees on average over the coarse cell at (",
+              worst.centre,
+              "): linear elasticity is for rotations of a few degrees at most; check loads, "
+              "prescribed displacements and Young's modulus");
+}
+
+/** Contact and its data stay where they were in the body at rest. */
+template <int dim>
+std::string long_slip(const Solution<dim> &solution, const std::vector<ContactState<dim>> &contact)
+{
+  const Corners<dim> &corners = solution.scene.geometry.corners;
+  const double size = std::max(corners[0].distance(corners[3]), corners[1].distance(corners[2]));
+  double longest = 0;
+  Point<dim> where;
+  for (const ContactState<dim> &state : contact)
+    for (const ContactPoint<dim> &point : state.points)
+      if (!point.is_open && std::abs(point.tangential_displacement) > longest)
+      {
+        longest = std::abs(point.tangential_displacement);
+        where = point.x;
+      }
+  if (longest < 0.1 * size)
+    return {};
+  return line("the body slides by ", labelled(longest, solution.scene.length_unit), " at (", where,
+              "), ", 100 * longest / size,
+              " % of its size, where contact is that of the body at rest; check loads and "
+              "prescribed displacements");
+}
+
 /** Empty fields of the table are explained once. */
 std::string no_condition_number(const History &history)
 {
@@ -539,6 +598,9 @@ std::vector<std::string> warnings(const Solution<dim> &solution,
         round_off(algebraic),
         elongated_elements(solution),
         sharp_corners(solution.scene.geometry),
+        large_strain(solution),
+        large_rotation(solution),
+        long_slip(solution, contact),
         locking(solution),
         rich_multiplier(solution),
         whole_body_slips(solution, contact),

@@ -2,10 +2,15 @@
 // Each warning where it belongs, and not where it does not.
 #include "discretisation.h"
 
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/body/deformation.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
 
 namespace
 {
@@ -40,6 +45,97 @@ TEST(Warnings, BilateralContactThatPulls)
                     "pulls"));
   EXPECT_FALSE(warns(shipped_scene("han-6-12", with(steps, {{"Boundary top/Traction", "0; -50"}})),
                      "pulls"));
+}
+
+/** The unit square with @p u on all sides, which is the solution where it is linear. */
+Scene<2> deformed_square(const std::string &u, const Overrides &more = {})
+{
+  Overrides entries = {{"Geometry/Subdivisions", "2, 2"}, {"Adaptivity/Maximum steps", "1"}};
+  for (const std::string side : {"left", "right", "bottom", "top"})
+    entries.emplace_back("Boundary " + side + "/Displacement", u);
+  return scene_of(with(entries, more));
+}
+
+TEST(Warnings, StrainsAndRotationsThatAreNotSmall)
+{
+  const std::string strain = "the strain is ", turn = "the body turns by ";
+  EXPECT_FALSE(warns(deformed_square("0; -0.049*y"), strain));
+  EXPECT_TRUE(warns(deformed_square("0; -0.051*y"), strain + "5.1 % on average"));
+  EXPECT_TRUE(warns(deformed_square("0.12*y; 0"), strain + "6 %")); // along the diagonals
+  EXPECT_TRUE(warns(deformed_square("0.06*y + 0.1*x*y; 0"), "cell at (0.75 0.75)"));
+  EXPECT_FALSE(warns(deformed_square("-0.08*y; 0.08*x"), turn));
+  EXPECT_TRUE(warns(deformed_square("-0.1*y; 0.1*x"), turn + "5.73 degrees"));
+  EXPECT_FALSE(warns(deformed_square("-0.1*y; 0.1*x"), strain));
+  EXPECT_FALSE(warns(deformed_square("5; 7"), strain)); // only moved
+  // A mesh that is refined has the same coarse cells.
+  EXPECT_TRUE(warns(deformed_square("0.06*y + 0.1*x*y; 0", {{"Adaptivity/Maximum steps", "4"},
+                                                            {"Adaptivity/Method", "hup2"}}),
+                    "cell at (0.75 0.75)"));
+}
+
+/** Unloaded at the end: the largest before counts, with its place. */
+TEST(Warnings, StrainsOfPastLoadSteps)
+{
+  std::vector<std::string> last;
+  const std::string strain = "if(t < 0.4, 0.1, if(t < 0.7, 0.2, 0.01))";
+  LoadHistory<2>(deformed_square("0; -y*" + strain, {{"Loading/Steps", "3"}}))
+      .run([&](const StepReport<2> &step) { last = step.warnings; });
+  EXPECT_TRUE(std::any_of(last.begin(), last.end(),
+                          [](const std::string &line)
+                          {
+                            return line.find("the strain is 20 %") == 0 &&
+                                   line.find("load step 2, t = 0.6") != std::string::npos;
+                          }));
+}
+
+TEST(Warnings, SlipThatIsLong)
+{
+  const auto pushed = [](const std::string &u)
+  {
+    return scene_of({{"Boundary top/Displacement", u + "; free"},
+                     {"Boundary bottom/Contact", "bilateral"},
+                     {"Boundary bottom/Friction bound", "1e-6"},
+                     {"Adaptivity/Maximum steps", "1"}});
+  };
+  EXPECT_FALSE(warns(pushed("0.14"), "the body slides"));
+  EXPECT_TRUE(warns(pushed("0.142"), "the body slides by 0.142"));
+}
+
+/** "strain", "rotation", "slip", as far as @p warnings speak of them. */
+std::string not_small(const std::vector<std::string> &warnings)
+{
+  std::string result;
+  for (const auto &[subject, words] : {std::pair("strain", "the strain is "),
+                                       {"rotation", "the body turns by "},
+                                       {"slip", "the body slides by "}})
+    for (const std::string &warning : warnings)
+      if (warning.find(words) == 0)
+        result += (result.empty() ? "" : ", ") + std::string(subject);
+  return result;
+}
+
+/** Those that doc/reliability.md lists, in two steps each. */
+TEST(Warnings, ShippedScenesWhoseStrainsAreNotSmallAreListed)
+{
+  std::map<std::string, std::string> listed, found;
+  std::ifstream page("doc/reliability.md");
+  const std::regex row(R"(\| `([a-z0-9-]+)` \| ((strain|rotation|slip)[a-z, ]*) \|.*)");
+  std::smatch match;
+  for (std::string line; std::getline(page, line);)
+    if (std::regex_match(line, match, row))
+      listed[match[1]] = match[2];
+  for (const auto &file : std::filesystem::directory_iterator("prm"))
+  {
+    const std::string name = file.path().stem().string();
+    if (name == "dome" || name == "slab") // in space
+      continue;
+    const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "2"}});
+    std::vector<std::string> last;
+    LoadHistory<2>(scene).run([&](const StepReport<2> &step) { last = step.warnings; });
+    if (const std::string subjects = not_small(last); !subjects.empty())
+      found[name] = subjects;
+  }
+  EXPECT_EQ(found, listed);
 }
 
 TEST(Warnings, MultiplierAboveOneBetweenGaussPoints)

@@ -16,7 +16,7 @@ namespace hpvi
  * What in a result asks for care, one line each with its numbers and a remedy: tensile normal
  * traction of bilateral contact, |lambda_N| above 1 between Gauss points, transitions that are not
  * resolved, round-off that reaches the digits shown, an indicator that stagnates or rises, elongated elements, corners near 0 or 180 degrees, low degree where Poisson's ratio
- * is near 1/2, a multiplier that is too rich, a body that slips as a whole, a friction bound that jumps
+ * is near 1/2, a multiplier that is too rich, a body that slips as a whole, strains, rotations and slip that are not small, a friction bound that jumps
  * inside an edge, steps of @p history whose table lacks a condition number.
  */
 template <int dim>
