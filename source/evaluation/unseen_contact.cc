@@ -97,6 +97,8 @@ UnseenGap<dim> missed_gap(const ContactFace<dim> &face, const Solution<dim> &sol
   const EdgeDisplacement<dim> u_n(face, solution, &ContactFrame<dim>::normal);
   UnseenGap<dim> worst{nullptr, {}, 0., 0.};
   double most = negligible;
+  for (const double value : values)
+    most = std::max(most, 1e-9 * std::abs(value)); // round-off is no miss
   const unsigned int n_samples = 128;
   for (unsigned int k = 0; k < n_samples; ++k)
   {
@@ -138,10 +140,15 @@ std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution)
 {
   const Geometry<dim> &geometry = solution.scene.geometry;
   const double shortest = 1e-6 * geometry.corners[0].distance(geometry.corners[3]);
-  const double negligible = 1e-3 * deformation(solution);
+  const auto &faces = solution.contact_space.faces();
+  const auto may_miss = [&](const ContactFace<dim> &face)
+  { return face.condition->is_unilateral() && face.condition->gap && face.length > shortest; };
   std::vector<UnseenGap<dim>> result;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    if (face.condition->is_unilateral() && face.condition->gap && face.length > shortest)
+  if (std::none_of(faces.begin(), faces.end(), may_miss))
+    return result;
+  const double negligible = 1e-3 * deformation(solution);
+  for (const ContactFace<dim> &face : faces)
+    if (may_miss(face))
       if (const UnseenGap<dim> missed = missed_gap(face, solution, negligible); missed.face)
         result.push_back(missed);
   return result;

@@ -225,6 +225,7 @@ TEST(NarrowGap, CountsWhereTheBodyReaches)
   EXPECT_EQ(n_missed("if(x < 0.5, 0, 1)", "-0.02"), 0U); // a vertex stands there
   EXPECT_EQ(n_missed("if(x < 0.4, 0, 1)", "-0.02"), 1U);
   EXPECT_EQ(n_missed("0.01*x^2", "-0.02"), 0U);
+  EXPECT_EQ(n_missed("0.3*(x - 0.4)^2", "0"), 0U); // a zero displacement touches up to round-off
 }
 
 TEST(NarrowGap, IsNeverSeenInSmoothScenes)
