@@ -55,7 +55,7 @@ template <int dim>
 struct FrictionLaw
 {
   Expression<dim> bound;       ///< Tresca's g(x) >= 0 [stress]; null: not Tresca's law
-  Expression<dim> coefficient; ///< Coulomb's mu_f(x) >= 0: |T_t| <= mu_f |T_n|; null: not his law
+  Expression<dim> coefficient; ///< Coulomb's mu_f(x): |T_t| <= mu_f max(0, -T_n); null: not his law
   Expression<dim> past; ///< u_t(x) from which slip is counted [length], in a load history; null: 0
 
   explicit operator bool() const
