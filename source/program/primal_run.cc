@@ -113,7 +113,8 @@ struct Ending
 };
 
 template <int dim>
-void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, Ending &ending)
+void run_steps(const Scene<dim> &scene, PrimalSolver<dim> &solver, PrimalOutput<dim> &output,
+               Ending &ending)
 {
   ProgressLine progress;
   solver.run(
@@ -126,7 +127,14 @@ void run_steps(PrimalSolver<dim> &solver, PrimalOutput<dim> &output, Ending &end
         ending.warnings = step.warnings;
         ending.balance = "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
                          ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                         " of their absolute sums\n";
+                         " of their absolute sums;\n  Newton's method left " +
+                         text(step.newton.residual, 2) +
+                         " of the loads, for Solver/Primal tolerance = " +
+                         text(scene.solver.primal_tolerance) +
+                         (scene.solver.primal_tolerance > 0
+                              ? ""
+                              : ": enough beside the error of the mesh, 1e-10 balances them") +
+                         "\n";
         output.write_step(step);
       },
       [&](const Progress &stage)
@@ -175,7 +183,7 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   print_table_head();
   try
   {
-    run_steps(solver, output, ending);
+    run_steps(scene, solver, output, ending);
   }
   catch (const Interruption &interruption)
   {

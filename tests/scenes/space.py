@@ -99,8 +99,11 @@ with tempfile.TemporaryDirectory() as scratch:
 
     # Contact that opens: states and counts agree, and what opens is no part of the slipping area.
     lifted = scratch / "lifted"
-    subprocess.run([HPVI, "--output", str(lifted), "prm/dome.prm", "--set", "Adaptivity/Maximum steps=2", "--set",
-                    "Solver/Primal tolerance=1e-11"], check=True, capture_output=True)
+    told = subprocess.run([HPVI, "--output", str(lifted), "prm/dome.prm", "--set", "Adaptivity/Maximum steps=2", "--set",
+                           "Solver/Primal tolerance=1e-11"], check=True, capture_output=True, text=True).stdout
+    row = rows(lifted / "convergence.csv")[-1]
+    left = float(told.split("Newton's method left ")[1].split()[0])
+    assert abs(left / float(row["newton_residual"]) - 1) < 0.1 and "Primal tolerance = 1e-11\n" in told, told
     points, row = rows(lifted / "contact-02.csv"), rows(lifted / "convergence.csv")[-1]
     states = [p["state"] for p in points]
     assert set(states) == {"open", "slip", "stick"}, set(states)
