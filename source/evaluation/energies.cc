@@ -29,8 +29,14 @@ std::vector<double> zeros(const F &function, const unsigned int n_samples)
     const double right = static_cast<double>(k) / n_samples, f_right = function(right);
     if ((f_left < 0. && f_right > 0.) || (f_left > 0. && f_right < 0.))
     {
+      // Signs alone: products of small values underflow.
+      const auto sign = [&](const double s)
+      {
+        const double value = function(s);
+        return (value > 0.) - (value < 0.);
+      };
       const auto bracket = boost::math::tools::bisect(
-          function, left, right, boost::math::tools::eps_tolerance<double>(48));
+          sign, left, right, boost::math::tools::eps_tolerance<double>(48));
       result.push_back(0.5 * (bracket.first + bracket.second));
     }
     else if (f_right == 0. && k < n_samples)
