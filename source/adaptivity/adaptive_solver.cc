@@ -18,6 +18,7 @@
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/scene/scene_checks.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
@@ -138,6 +139,7 @@ struct AdaptiveSolver<dim>::Stages
   void discretise();
   void factor();
   Solution<dim> solve(ReducedSolution &reduced);
+  void drop_round_off(Vector<double> &z, Vector<double> &u);
   void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
   std::optional<ErrorBound> bound(const Solution<dim> &solution);
@@ -261,6 +263,8 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
                   " multipliers"
             : "finding the displacement");
   reduced.z = previous.values(contact_space, *tables);
+  if (system.f.all_zero()) // the start would set the tolerance of a solution that may be zero
+    reduced.z = 0.;
   const auto &motions = discretisation->free_motions;
   if (motions)
     reduced.motion = motions->from_basis(motion);
@@ -270,6 +274,7 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
           .solve(reduced, algebraic);
   times.qp += reduced.seconds;
   times.recover += timer.wall_time() - reduced.seconds;
+  drop_round_off(reduced.z, u);
   keep_start(reduced.z, motions ? motions->in_basis(reduced.motion) : Vector<double>());
   if (scene.error_bound && scene.no_error_bound().empty() &&
       (scene.is_nearly_incompressible() ||
@@ -279,6 +284,20 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   if (kept_factor || !is_load_step)
     factored.reset();
   return {scene, discretisation->spaces, std::move(u), reduced.z};
+}
+
+/** What is round-off beside the data of the scene and its history is zero: friction and pressure, then u. */
+template <int dim>
+void AdaptiveSolver<dim>::Stages::drop_round_off(Vector<double> &z, Vector<double> &u)
+{
+  const DataScale scale = data_scale(scene);
+  if (z.size() > 0 && z.linfty_norm() > round_off_of_data * scale.stress)
+    return;
+  z = 0.;
+  if (u.linfty_norm() > round_off_of_data * scale.displacement)
+    return;
+  u = 0.;
+  algebraic = {};
 }
 
 /** The next step begins where this one ends. */

@@ -3,6 +3,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/scene/scene_checks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,9 @@ template <int dim>
 bool is_exact_to_round_off(const Solution<dim> &solution, const double estimate,
                            const double missed)
 {
-  const double small = 1e-7 * solution.scene.largest_mu() * solution.u.linfty_norm(),
+  const double largest =
+                   std::max(solution.u.linfty_norm(), data_scale(solution.scene).displacement),
+               small = 1e-7 * solution.scene.largest_mu() * largest,
                larger = std::max(estimate, missed * std::sqrt(solution.scene.coercivity()));
   return larger <= small && larger <= 4 * round_off_of_estimate(solution);
 }

@@ -4,6 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
 #include <hpvi/discretisation/interpolation.h>
+#include <hpvi/scene/scene_checks.h>
 
 #include <algorithm>
 #include <cctype>
@@ -63,7 +64,7 @@ struct LoadHistory<dim>::Evolution
 
   explicit Evolution(const Scene<dim> &scene);
 
-  void begin(unsigned int load_step);
+  void begin(unsigned int number);
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
   std::string reason(const std::string &stopped_by) const;
@@ -85,11 +86,12 @@ LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene) : scene(scene)
 }
 
 template <int dim>
-void LoadHistory<dim>::Evolution::begin(const unsigned int load_step)
+void LoadHistory<dim>::Evolution::begin(const unsigned int number)
 {
-  load.number = load_step;
-  load.t = scene.loading.time(load_step);
-  const auto next = std::make_shared<Scene<dim>>(scene.loading.at(load.t));
+  load.number = number;
+  load.t = scene.loading.time(number);
+  const auto next = std::make_shared<Scene<dim>>(
+      load_step(scene, number, current ? data_scale(*current) : DataScale()));
   if (!past)
   {
     current = next;

@@ -3,6 +3,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/scene/scene_checks.h>
 #include <hpvi/solver/quadratic_program.h>
 #include <hpvi/stresses/mean_gradients.h>
 
@@ -34,6 +35,16 @@ std::string labelled(const double value, const std::string &unit)
   return unit.empty() || unit == "1" ? line(value) : line(value, " ", unit);
 }
 
+/** A stress that the last bits of u make, or that is nothing beside the data, is none. */
+template <int dim>
+double round_off_stress(const Solution<dim> &solution)
+{
+  const Scene<dim> &scene = solution.scene;
+  const double diameter = scene.geometry.corners.front().distance(scene.geometry.corners.back());
+  return round_off_of_data * std::max(scene.largest_mu() * solution.u.linfty_norm() / diameter,
+                                      data_scale(scene).stress);
+}
+
 /** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
 template <int dim>
 std::string tensile_contact(const Solution<dim> &solution,
@@ -50,12 +61,7 @@ std::string tensile_contact(const Solution<dim> &solution,
     if (!worst || state.highest_tension > worst->highest_tension)
       worst = &state;
   }
-  // A stress that the last bits of u alone make is none.
-  const Geometry<dim> &geometry = solution.scene.geometry;
-  const double diameter = geometry.corners[0].distance(geometry.corners[3]),
-               round_off =
-                   1e-12 * solution.scene.largest_mu() * solution.u.linfty_norm() / diameter;
-  if (!worst || !(tension > 0.01 * all && worst->highest_tension > round_off))
+  if (!worst || !(tension > 0.01 * all && worst->highest_tension > round_off_stress(solution)))
     return {};
   return line("bilateral contact pulls: ", 100 * tension / all,
               " % of the normal traction is tensile, up to ",
@@ -112,7 +118,8 @@ std::string pulling_pressure(const Solution<dim> &solution,
   double share = 0.05;
   for (const ContactState<dim> &state : contact)
     if (solution.scene.boundaries[state.boundary].is_unilateral() &&
-        state.highest_tension > share * state.highest_pressure)
+        state.highest_tension > share * state.highest_pressure &&
+        state.highest_tension > round_off_stress(solution))
     {
       worst = &state;
       share = state.highest_tension / state.highest_pressure;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/iterative_refinement.h>
+#include <hpvi/scene/scene_checks.h>
 
 #include <cmath>
 #include <limits>
@@ -107,13 +108,14 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
 }
 
 /**
- * A bound of the energy that the last bits of u have: 100 times `mu (epsilon |u|)^2` for each unknown. A
- * body with no more is moved, not strained. The stiffest material has most.
+ * A bound of the energy that the last bits of u have, or of what the data displace: 100 times `mu (epsilon |u|)^2`
+ * for each unknown. A body with no more is moved, not strained. The stiffest material has most.
  */
 template <int dim>
 double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
-  const double last_bit = std::numeric_limits<double>::epsilon() * u.linfty_norm();
+  const double largest = std::max(u.linfty_norm(), data_scale(discretisation.scene).displacement),
+               last_bit = std::numeric_limits<double>::epsilon() * largest;
   return 100 * discretisation.scene.largest_mu() * last_bit * last_bit * u.size();
 }
 

@@ -30,6 +30,12 @@ double dot(const Vector<double> &a, const Vector<double> &b)
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
+/** What loads as large as @p f could do along @p R: loads across it are no less subject to round-off. */
+double largest_work(const Vector<double> &f, const Vector<double> &R)
+{
+  return f.l1_norm() * R.linfty_norm();
+}
+
 /**
  * Soft beside the body, a hundredth of the mean stiffness of @p kept: for the quadratic program it is a
  * penalty, and a strong one converges fast. It costs as many digits of u along R alone.
@@ -117,8 +123,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
       for (unsigned int i = 0; i < multipliers.size(); ++i)
         equations.G(i, m) += combinations[m][j] * B_columns[j][i];
     equations.e[m] = dot(system.f, R[m]);
-    for (unsigned int k = 0; k < R[m].size(); ++k)
-      equations.round_off[m] += round_off * std::abs(system.f[k] * R[m][k]);
+    equations.round_off[m] = round_off * largest_work(system.f, R[m]);
     if (std::abs(equations.e[m]) <= equations.round_off[m])
       equations.e[m] = 0.;
   }

@@ -2,6 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/scene/scene_checks.h>
 
 #include <algorithm>
 #include <array>
@@ -114,15 +115,15 @@ bool is_open(const ContactFace<dim> &face, const Vector<double> &z, const double
   return !presses(after) && !(after > 0 && presses(after - 1));
 }
 
-/** The largest of all pressures: one that is round-off beside it is none. */
+/** A pressure that is round-off beside the largest of all, or beside the data, is none. */
 template <int dim>
-double negligible_pressure(const Solution<dim> &solution)
+double negligible_pressure(const Solution<dim> &solution, const DataScale &data)
 {
   double largest = 0;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
     for (const unsigned int unknown : face.pressures)
       largest = std::max(largest, solution.z[unknown]);
-  return 1e-10 * largest;
+  return std::max(1e-10 * largest, round_off_of_data * data.stress);
 }
 
 /** The Gauss points of a face's multiplier, along the tangent. */
@@ -157,10 +158,10 @@ std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
   return points;
 }
 
-/** Resultant and largest values of T_n and u_n - u_0. */
+/** Resultant and largest values of T_n and u_n - u_0, as far as they exceed the round-off of @p data. */
 template <int dim>
 void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solution,
-                         ContactState<dim> &state)
+                         const DataScale &data, ContactState<dim> &state)
 {
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
   const bool has_pressure = face.condition->has_pressure();
@@ -173,7 +174,7 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
     const double traction = -pressures[q].pressure;
     state.normal_resultant += gauss.weight(q) * frame.measure * traction;
     state.tension += gauss.weight(q) * frame.measure * std::max(traction, 0.);
-    if (traction > state.highest_tension)
+    if (traction > std::max(state.highest_tension, round_off_of_data * data.stress))
     {
       state.highest_tension = traction;
       state.highest_tension_point = frame.x;
@@ -182,14 +183,14 @@ void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solu
                  depth = face.condition->is_unilateral() ? u_n - face.condition->gap_at(frame.x)
                          : has_pressure                  ? std::abs(u_n)
                                                          : 0.;
-    if (depth > state.deepest_penetration)
+    if (depth > std::max(state.deepest_penetration, round_off_of_data * data.displacement))
     {
       state.deepest_penetration = depth;
       state.deepest_penetration_point = frame.x;
     }
   }
   for (const PressurePoint<dim> &point : pressures)
-    if (point.pressure > state.highest_pressure)
+    if (point.pressure > std::max(state.highest_pressure, round_off_of_data * data.stress))
     {
       state.highest_pressure = point.pressure;
       state.highest_pressure_point = point.x;
@@ -241,7 +242,8 @@ std::string mode_name(const ContactMode mode)
 template <int dim>
 std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
 {
-  const double negligible = negligible_pressure(solution);
+  const DataScale data = data_scale(solution.scene);
+  const double negligible = negligible_pressure(solution, data);
   std::vector<ContactState<dim>> states;
   std::vector<std::pair<Point<dim>, Point<dim>>> ends;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
@@ -257,7 +259,7 @@ std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
     state.length += face.length;
     for (const ContactPoint<dim> &point : points_of(face, solution, negligible))
       state.points.push_back(point);
-    add_normal_traction(face, solution, state);
+    add_normal_traction(face, solution, data, state);
     add_friction(face, solution, negligible, state);
   }
   for (unsigned int k = 0; k < states.size(); ++k)

@@ -3,6 +3,7 @@
 #include <hpvi/body/supports.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/scene/scene_checks.h>
 
 #include <cmath>
 #include <numeric>
@@ -110,8 +111,11 @@ Equilibrium<dim> Resultants<dim>::finish()
       supporting.push_back(reaction);
   }
   result.reactions = supporting;
-  result.force_imbalance = absolute_force > 0 ? force.norm() / absolute_force : 0.;
-  result.moment_imbalance = absolute_moment > 0 ? size_of(moment) / absolute_moment : 0.;
+  const Corners<dim> &corners = scene.geometry.corners;
+  const double size = corners.front().distance(corners.back()),
+               none = round_off_of_data * data_scale(scene).stress * std::pow(size, dim - 1);
+  result.force_imbalance = absolute_force > none ? force.norm() / absolute_force : 0.;
+  result.moment_imbalance = absolute_moment > none * size ? size_of(moment) / absolute_moment : 0.;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -230,7 +231,7 @@ std::vector<EntryFunctions> functions_of(const Scene<2> &scene)
   return result;
 }
 
-/** Loads and displacements enter energies as squares. */
+/** Loads and displacements enter energies as squares; in load steps, checked by themselves, the smallest are 0. */
 void check_magnitude(const Scene<2> &scene, const EntryFunctions &functions)
 {
   for (const auto &component : functions.components)
@@ -239,7 +240,8 @@ void check_magnitude(const Scene<2> &scene, const EntryFunctions &functions)
     for (const Point<2> &point : functions.points)
       if (const double value = component ? component->value(point) : 0.; std::isfinite(value))
         magnitude = std::max(magnitude, std::abs(value));
-    if (magnitude > largest || (magnitude > 0 && magnitude < smallest))
+    const bool is_small = magnitude > 0 && magnitude < smallest && !scene.has_load_history();
+    if (magnitude > largest || is_small)
       reject(scene, functions.section, functions.name,
              "has a component of magnitude " + to_string(magnitude) +
                  ", outside 1e-100 to 1e100; choose other units or write 0");
@@ -403,20 +405,6 @@ std::string support_entry(const BoundaryCondition<2> &boundary)
              "; let u_n <= u_0 there or free one component");
 }
 
-/** The largest displacement or gap that any boundary prescribes. */
-double largest_displacement(const Scene<2> &scene, const std::vector<Edge> &edges)
-{
-  double largest = 0;
-  for (unsigned int f = 0; f < edges.size(); ++f)
-    for (const Point<2> &point : edges[f].sample())
-    {
-      largest = std::max(largest, std::abs(scene.boundaries[f].gap_at(point)));
-      for (const PointCondition &condition : conditions_at(scene.boundaries[f], edges[f], point))
-        largest = std::max(largest, std::abs(condition.value));
-    }
-  return largest;
-}
-
 /** What @p condition asks for beyond the orthonormal @p basis: no direction if that decides it. */
 PointCondition rest_of(PointCondition condition, const std::vector<PointCondition> &basis)
 {
@@ -432,7 +420,7 @@ PointCondition rest_of(PointCondition condition, const std::vector<PointConditio
 /** Can all @p conditions at one corner hold together, and @p limits `u_n <= u_0` with them? */
 void check_corner(const Scene<2> &scene, const Point<2> &corner,
                   const std::vector<PointCondition> &conditions,
-                  const std::vector<PointCondition> &limits, const double scale)
+                  const std::vector<PointCondition> &limits, const double tolerance)
 {
   constexpr double parallel = 1e-6;
   std::vector<PointCondition> basis; // by Gram and Schmidt
@@ -442,13 +430,13 @@ void check_corner(const Scene<2> &scene, const Point<2> &corner,
     const double norm = rest.direction.norm();
     if (norm > parallel)
       basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
-    else if (std::abs(rest.value) > 1e-10 * scale)
+    else if (std::abs(rest.value) > tolerance)
       reject_corner(scene, scene.boundaries[basis.front().boundary],
                     scene.boundaries[rest.boundary], corner, rest.value);
   }
   for (const PointCondition &limit : limits)
     if (const PointCondition rest = rest_of(limit, basis);
-        rest.direction.norm() <= parallel && rest.value < -1e-10 * scale)
+        rest.direction.norm() <= parallel && rest.value < -tolerance)
       reject_penetration(scene, scene.boundaries[basis.front().boundary],
                          scene.boundaries[limit.boundary], corner, -rest.value);
 }
@@ -671,7 +659,7 @@ private:
 void check_corners(const Scene<2> &scene)
 {
   const std::vector<Edge> edges = edges_of(scene.geometry);
-  const double scale = largest_displacement(scene, edges);
+  const double tolerance = support_tolerance(scene);
   for (unsigned int c = 0; c < scene.geometry.corners.size(); ++c)
   {
     const Point<2> &corner = scene.geometry.corners[c];
@@ -685,7 +673,7 @@ void check_corners(const Scene<2> &scene)
         if (boundary.is_unilateral())
           limits.push_back({edges[f].normal, boundary.gap_at(corner), boundary.id});
       }
-    check_corner(scene, corner, conditions, limits, scale);
+    check_corner(scene, corner, conditions, limits, tolerance);
   }
 }
 
@@ -703,6 +691,23 @@ void check_exact_solution(const Scene<2> &scene)
                "; measure errors by Error/Reference solution");
   for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
     ExactSolutionCheck(scene, b).run();
+}
+
+/** @p check of each load step in turn; what it refuses names the load step. */
+void check_load_steps(const Scene<2> &scene, const std::function<void(unsigned int)> &check)
+{
+  for (unsigned int step = 1; step <= scene.loading.steps; ++step)
+    try
+    {
+      check(step);
+    }
+    catch (const InputError &error)
+    {
+      const std::string line = error.what(), time = "t = " + to_string(scene.loading.time(step));
+      if (step == 1 || line.find(time) != std::string::npos)
+        throw;
+      throw InputError(line + " (load step " + std::to_string(step) + ", " + time + ")");
+    }
 }
 
 /** A history has no closed form here, and what one load step is compared with is none of another. */
@@ -724,18 +729,17 @@ void check_load_history(const Scene<2> &scene, const SceneUse use)
     reject(scene, "Error", "Reference solution", history);
   if (scene.output.reference)
     reject(scene, "Output", "Reference solution", history, "true");
-  for (unsigned int step = 1; step <= loading.steps; ++step)
-    try
-    {
-      loading.at(loading.time(step)).check(use);
-    }
-    catch (const InputError &error)
-    {
-      const std::string line = error.what(), time = "t = " + to_string(loading.time(step));
-      if (step == 1 || line.find(time) != std::string::npos)
-        throw;
-      throw InputError(line + " (load step " + std::to_string(step) + ", " + time + ")");
-    }
+  DataScale past;
+  check_load_steps(scene,
+                   [&](const unsigned int step)
+                   {
+                     const Scene<2> next = load_step(scene, step, past);
+                     next.check(use);
+                     past = data_scale(next);
+                   });
+  if (past.stress == 0) // without data, or with none that is large enough to be squared
+    check_load_steps(scene,
+                     [&](const unsigned int step) { loading.at(loading.time(step)).check(use); });
 }
 
 /** A reference solution holds the entries of its problem, for those who compare with it. */
@@ -900,4 +904,104 @@ void check_scene(const Scene<2> &scene, const SceneUse use)
   check_normal_contact(scene);
   check_multiplier_degree(scene, use);
 }
+
+// ---------------------------------------------------------------- round-off of data
+
+namespace
+{
+/** Raises @p magnitude to what @p function has at @p points, but for what its check refuses. */
+template <int dim>
+void raise(double &magnitude, const Expression<dim> &function,
+           const std::vector<Point<dim>> &points, const std::function<double(double)> &size)
+{
+  if (function)
+    for (const Point<dim> &point : points)
+      if (const double value = size(function->value(point)); value <= largest)
+        magnitude = std::max(magnitude, value);
+}
+
+/** @p function, but 0 where that is round-off. */
+template <int dim>
+void drop(const double round_off, Expression<dim> &function)
+{
+  if (function)
+    function = expression<dim>(
+        [function = function, round_off](const Point<dim> &x)
+        {
+          const double value = function->value(x);
+          return std::abs(value) < round_off ? 0. : value;
+        });
+}
+
+template <int dim>
+double size_of(const Geometry<dim> &geometry)
+{
+  return geometry.corners.front().distance(geometry.corners.back());
+}
+} // namespace
+
+template <int dim>
+DataScale data_scale(const Scene<dim> &scene)
+{
+  const double size = size_of(scene.geometry);
+  const auto absolute = [](const double value) { return std::abs(value); };
+  DataScale scale = scene.past_data;
+  double force = 0;
+  for (const Expression<dim> &component : scene.body_force)
+    raise<dim>(force, component, sample_body(scene.geometry), absolute);
+  scale.stress = std::max(scale.stress, force * size);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    const std::vector<Point<dim>> points = sample_side(scene.geometry, boundary.id);
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      raise<dim>(scale.stress, boundary.traction[c], points, absolute);
+      raise<dim>(scale.displacement, boundary.displacement[c], points, absolute);
+    }
+    raise<dim>(scale.displacement, boundary.gap, points, [](const double gap) { return -gap; });
+    raise<dim>(scale.displacement, boundary.friction.past, points, absolute);
+  }
+  double softest = scene.largest_mu();
+  for (const Material &material : scene.materials)
+    softest = std::min(softest, material.mu());
+  const double strain = scale.stress / scene.largest_mu();
+  scale.stress = std::max(scale.stress, softest * scale.displacement / size);
+  scale.displacement = std::max(scale.displacement, strain * size);
+  return scale;
+}
+
+template <int dim>
+double support_tolerance(const Scene<dim> &scene)
+{
+  return 1e-10 * data_scale(scene).displacement;
+}
+
+template <int dim>
+Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const DataScale &past)
+{
+  Scene<dim> result = scene.loading.at(scene.loading.time(number));
+  result.past_data = past;
+  // A tenth of what counts as round-off of a solution: nothing that is seen is lost.
+  const auto round_off = [](const double largest)
+  { return std::max(0.1 * round_off_of_data * largest, smallest); };
+  const DataScale scale = data_scale(result);
+  for (Expression<dim> &component : result.body_force)
+    drop(round_off(scale.stress / size_of(scene.geometry)), component);
+  for (BoundaryCondition<dim> &boundary : result.boundaries)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      drop(round_off(scale.stress), boundary.traction[c]);
+      drop(round_off(scale.displacement), boundary.displacement[c]);
+    }
+    drop(round_off(scale.displacement), boundary.gap);
+  }
+  return result;
+}
+
+template DataScale data_scale(const Scene<2> &);
+template DataScale data_scale(const Scene<3> &);
+template double support_tolerance(const Scene<2> &);
+template double support_tolerance(const Scene<3> &);
+template Scene<2> load_step(const Scene<2> &, unsigned int, const DataScale &);
 } // namespace hpvi

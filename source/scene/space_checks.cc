@@ -165,14 +165,14 @@ double prescribed(const BoundaryCondition<3> &boundary, const unsigned int compo
 
 /** A support beside unilateral contact must not move the body into the foundation. */
 void check_gap(const Scene<3> &scene, const BoundaryCondition<3> &contact,
-               const BoundaryCondition<3> &support, const Point<3> &x)
+               const BoundaryCondition<3> &support, const Point<3> &x, const double tolerance)
 {
   const double sign = contact.id % 2 == 0 ? -1. : 1.,
                u_n = sign * prescribed(support, contact.id / 2, x);
   if (!contact.is_unilateral() || std::isnan(u_n))
     return;
   const double gap = contact.gap_at(x);
-  if (u_n > gap + 1e-10 * std::max(std::abs(gap), std::abs(u_n)))
+  if (u_n > gap + tolerance)
     reject(scene, section_of(support), "Displacement",
            "contradicts Boundary " + contact.name + "/Gap at their common point " + to_string(x) +
                ", for u_n exceeds the gap by " + to_string(u_n - gap) +
@@ -181,7 +181,7 @@ void check_gap(const Scene<3> &scene, const BoundaryCondition<3> &contact,
 
 /** Two sides that meet in an edge must agree there. */
 void check_edge(const Scene<3> &scene, const BoundaryCondition<3> &one,
-                const BoundaryCondition<3> &two)
+                const BoundaryCondition<3> &two, const double tolerance)
 {
   const double edge = scene.geometry.corners[0][two.id / 2],
                far_edge = scene.geometry.corners[7][two.id / 2];
@@ -189,12 +189,12 @@ void check_edge(const Scene<3> &scene, const BoundaryCondition<3> &one,
   {
     if (x[two.id / 2] != (two.id % 2 == 0 ? edge : far_edge))
       continue;
-    check_gap(scene, one, two, x);
-    check_gap(scene, two, one, x);
+    check_gap(scene, one, two, x, tolerance);
+    check_gap(scene, two, one, x, tolerance);
     for (unsigned int c = 0; c < 3; ++c)
     {
       const double a = prescribed(one, c, x), b = prescribed(two, c, x);
-      if (std::abs(a - b) > 1e-10 * std::max(std::abs(a), std::abs(b))) // NaN: one is free
+      if (std::abs(a - b) > tolerance) // NaN: one is free
       {
         const BoundaryCondition<3> &changeable = one.has_contact() ? two : one;
         reject(scene, section_of(changeable), "Displacement",
@@ -375,10 +375,11 @@ void check_scene(const Scene<3> &scene, const SceneUse use)
   check_functions(scene);
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
     check_boundary(scene, boundary);
+  const double tolerance = support_tolerance(scene);
   for (unsigned int a = 0; a < 6; ++a)
     for (unsigned int b = a + 1; b < 6; ++b)
       if (a / 2 != b / 2)
-        check_edge(scene, scene.boundaries[a], scene.boundaries[b]);
+        check_edge(scene, scene.boundaries[a], scene.boundaries[b], tolerance);
   free_motions(scene);
   for_each_value(scene, CheckNumber{scene});
   check_primal_path(scene);

@@ -430,6 +430,7 @@ invalid "Boundary left/Traction" '"sqrt(0.5-t)" with t = 0.75 is not finite' -- 
 invalid "Boundary bottom/Friction bound" "is negative with t = 0.75" -- "Loading/Steps=4" "Boundary bottom/Friction bound=0.5-t"
 invalid "Boundary right/Displacement" "contradicts" "(load step 3, t = 0.75)" -- "Loading/Steps=4" \
   "Boundary right/Displacement=0; if(t>0.6,1,0)"
+invalid "Boundary left/Traction" "1e-120" "outside 1e-100 to 1e100" -- "Loading/Steps=4" "Boundary left/Traction=0; 1e-120*t"
 invalid "Output/Reference solution = true" "asks for a history" "remove either" -- "Loading/Steps=4" "Output/Reference solution=true"
 invalid "Error/Reference solution = base.prm" "asks for a history" -- "Loading/Steps=4" "Error/Reference solution=base.prm"
 invalid "Exact solution/Solution = stick-slip" "asks for a history" -- "${exact[@]}" "Loading/Steps=4"
@@ -460,6 +461,15 @@ valid "friction alone" "Boundary bottom/Contact=tangential" "Boundary right/Disp
 valid "Hertz's contact" "${hertz[@]}" "Boundary bottom/Gap=(x-2)^2/E"
 valid "partial slip" "${partial_slip[@]}" "Boundary bottom/Friction bound=sqrt(max(0, 1-(x-2)^2))"
 valid "a load history" "Loading/Steps=3" "Boundary left/Traction=sin(t); x*t" "Boundary bottom/Friction bound=1-t"
+valid "a support that is round-off off the foundation" "${open[@]}" "Boundary bottom/Gap=" \
+  "Boundary right/Displacement=0; 0.01*sin(2*pi)"
+valid "the same in the last load step" "${open[@]}" "Boundary bottom/Gap=" "Loading/Steps=4" \
+  "Boundary right/Displacement=0; if(t<0.9,0.01*t,0.01*sin(2*pi*t))" "Boundary left/Traction="
+valid "loads that decay" "Loading/Steps=100" "Boundary left/Traction=0; exp(-1000*(t-0.5)^2)"
+valid "loads that begin with less than double precision squares" "Loading/Steps=40" "Boundary left/Traction=0; exp(-10000*(t-0.5)^2)"
+"$hpvi" "$scenes/base.prm" --set "Material/Young's modulus=1e70" --set "Boundary left/Traction=1e-90*(2-y); -1e-90" \
+  --set "Boundary bottom/Friction bound=0.3e-90" --output "$scratch/tiny" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain "base.prm" "slips whose products underflow end the run"
 exact_scene=()
 for override in "${exact[@]}"; do
   exact_scene+=(--set "$override")

@@ -71,6 +71,8 @@ check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
 # --- boundaries
 invalid "rigid-body motion" -- "Boundary right/Displacement="
 invalid "contradicts" "common point" -- "Boundary top/Displacement=1; free; free"
+"$hpvi" --validate prm/slab.prm --set "Boundary top/Displacement=0.1*sin(pi); free; free" --set "Boundary right/Displacement=0; 0; 0" >/dev/null ||
+  { echo "two supports that differ by round-off are refused"; failures=1; }
 invalid "Traction" "that Displacement prescribes" -- "Boundary right/Traction=1; 0; 0"
 invalid "needs contact" -- "Boundary top/Friction bound=1"
 invalid "Gap" "at their common point" "u_n <= u_0" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=-0.1"

@@ -131,6 +131,66 @@ class Loading(RunTest):
         self.assertEqual(self.summary()["status"], "failed")
         self.assertEqual(self.summary()["loading"]["finished"], 2)
 
+SQUARE = """
+subsection Material
+  set Young's modulus = 1000
+end
+subsection Boundary bottom
+  set Contact = {contact}
+  set {friction}
+end
+subsection Boundary {side}
+  set {load}
+end
+subsection Loading
+  set Steps = {steps}
+end
+subsection Adaptivity
+  set Maximum steps = 3
+end
+"""
+COULOMB, TRESCA, FADING = ("Friction coefficient = 0.3", "Friction bound = 3",
+                           "Friction bound = 3*sin(pi*t)")
+KINDS = [("bilateral", COULOMB), ("bilateral", TRESCA), ("bilateral", FADING),
+         ("unilateral", COULOMB), ("unilateral", TRESCA), ("unilateral", FADING)]
+HELD = "Displacement = 0.001*sin(2*pi*t); -0.002*sin(pi*t)"
+PUSHED = "Traction = 1*sin(2*pi*t); -10*sin(pi*t)"
+# contact, friction, the boundary of the load and the load, load steps
+RETURNS = [("bilateral", COULOMB, "top", "Displacement = 0.03*(1-t); 0", 2),
+           ("tangential", TRESCA, "top", HELD, 4),
+           ("unilateral", COULOMB, "right",
+            "Displacement = 0; if(t < 0.9, 0.001*t, 0.001*sin(2*pi*t))", 4)]
+RETURNS += [(*kind, "top", load, steps) for kind in KINDS
+            for load, steps in ((HELD, 4), (PUSHED, 4), (PUSHED, 3))]
+
+
+class ReturnToZero(RunTest):
+    """Histories whose data at the end are the round-off of zero."""
+
+    def run_history(self, contact, friction, side, load, steps):
+        self.scene = self.home / "zero.prm"
+        self.scene.write_text(SQUARE.format(contact=contact, friction=friction, side=side,
+                                            load=load, steps=steps))
+        return self.run_scene("Output/VTU=false", "Output/Mesh picture=false")
+
+    def test_what_is_left_is_zero_or_locked_in(self):
+        for case in RETURNS:
+            with self.subTest(case=case):
+                printed = self.run_history(*case)
+                last = self.rows("loading.csv")[-1]
+                # Friction that keeps its bound keeps a stress; that of Coulomb leaves with the pressure.
+                if case[1] != TRESCA:
+                    self.assertEqual(last["stopped_by"], "round-off")
+                    self.assertEqual(len([s for s in self.rows() if s["load_step"] == str(case[4])]),
+                                     1)
+                    for name in ("force_bottom_x", "force_bottom_y", "force_loads_x"):
+                        self.assertLess(abs(float(last[name])), 1e-9, name)
+                    for words in ("|lambda|", "pulls", "round-off reaches", "rose from"):
+                        self.assertNotRegex(printed,
+                                            re.escape(words) + rf".*\(load step {case[4]},")
+                balance = self.summary()["balance"]
+                self.assertLess(max(balance["force"], balance["moment"]), 1e-8)
+
 
 if __name__ == "__main__":
     unittest.main()
