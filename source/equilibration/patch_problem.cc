@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/patch_problem.h>
 
 #include <algorithm>
@@ -11,6 +12,14 @@ using namespace dealii;
 
 namespace
 {
+/** Throws NumericalFailure unless a local matrix is positive definite. */
+void require_regular(const bool is_positive_definite)
+{
+  if (!is_positive_definite)
+    throw NumericalFailure("round-off spoils the tractions of a patch of cells, as where it is "
+                           "many thousand times as long as wide");
+}
+
 constexpr unsigned int none = numbers::invalid_unsigned_int;
 
 /** Pivots of conditions that others imply, relative to the largest. */
@@ -264,12 +273,12 @@ void PatchProblem::factorise(PatchFactor &factor) const
     add_conditions(cells[k], blocks[k], first, factor);
     first += cells[k].element.n_conditions;
   }
-  AssertThrow(cholesky(n, factor.H.data(), n), ExcInternalError());
+  require_regular(cholesky(n, factor.H.data(), n));
   const auto [known, is_new] = cache.independent_conditions.try_emplace(form(factor.present));
   if (!is_new && choose(known->second, factor))
     return;
   known->second = independent_conditions(factor);
-  AssertThrow(choose(known->second, factor), ExcInternalError());
+  require_regular(choose(known->second, factor));
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
