@@ -180,6 +180,8 @@ std::string AdaptiveSolver<dim>::Stages::dense_note() const
 template <int dim>
 void AdaptiveSolver<dim>::Stages::assemble()
 {
+  if (discretisation && &discretisation->spaces->displacement_space.triangulation() == mesh.get())
+    return; // prepare() has been here
   begin("numbering the unknowns of " + std::to_string(degrees.size()) + " elements");
   std::shared_ptr<const Spaces<dim>> spaces;
   {
@@ -593,6 +595,15 @@ RunState AdaptiveSolver<dim>::state(const StepReport<dim> &step) const
           stages->refinements, step.solution.u,
           step.solution.z,     stages->motion,
           stages->history};
+}
+
+/** Before anything is reported or written. */
+template <int dim>
+void AdaptiveSolver<dim>::prepare(const std::function<void(const Progress &)> &about_to)
+{
+  const OneThread one_thread;
+  stages->about_to = about_to;
+  stages->discretise();
 }
 
 // @sect3{The loop}

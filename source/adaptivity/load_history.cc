@@ -204,6 +204,12 @@ template <int dim>
 LoadHistory<dim>::~LoadHistory() = default;
 
 template <int dim>
+void LoadHistory<dim>::prepare(const std::function<void(const Progress &)> &about_to)
+{
+  evolution->solver->prepare(about_to);
+}
+
+template <int dim>
 void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                            const std::function<void(const Progress &)> &about_to)
 {

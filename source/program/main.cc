@@ -134,15 +134,34 @@ std::string work_in_words(const LoadStep &load)
 
 // ---------------------------------------------------------------- what the program does
 
+/** What the first step may still reject comes before anything is written; where it fails, the run will say so. */
+void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &)> &announce)
+{
+  try
+  {
+    solver.prepare(announce);
+  }
+  catch (const NumericalFailure &)
+  {
+  }
+}
+
 void run(const Scene<dim> &scene, const std::string &directory)
 {
-  LoadHistory<dim> solver(scene); // first: it may still reject the mesh
   note_interruptions();
+  ProgressLine progress;
+  const auto announce = [&](const Progress &stage)
+  {
+    stop_if_interrupted();
+    progress.show(stage);
+  };
+  LoadHistory<dim> solver(scene);
+  prepare(solver, announce);
+  progress.erase();
   Output<dim> output(scene, directory);
   StageTimes times;
   std::vector<std::string> warnings;
   std::string closing_words, reason; ///< of the last step
-  ProgressLine progress;
   std::cout << version_line() << '\n'
             << legible(scene.title) << '\n'
             << replacement_in_words(output.replaced_scene(), directory) << '\n'
@@ -166,11 +185,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
                 " of their absolute sums\n" + work_in_words(step.load);
           output.write_step(step);
         },
-        [&](const Progress &stage)
-        {
-          stop_if_interrupted();
-          progress.show(stage);
-        });
+        announce);
   }
   catch (const Interruption &interruption)
   {

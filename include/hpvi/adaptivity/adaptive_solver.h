@@ -52,6 +52,12 @@ public:
   ~AdaptiveSolver();
 
   /**
+   * The beginning of run(), up to the last that the first step asks the functions of the scene for. Throws
+   * InputError where they are no good between the points at which Scene::check() has tried them.
+   */
+  void prepare(const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+
+  /**
    * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
    * may throw to give up the step. Until it returns, in the callbacks too, dense algebra has
    * OneThread. Throws NumericalFailure.

@@ -26,6 +26,9 @@ public:
   explicit LoadHistory(const Scene<dim> &scene);
   ~LoadHistory();
 
+  /** AdaptiveSolver::prepare(), of the first load step. */
+  void prepare(const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+
   /**
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
    * StepReport::stopped_by says of each load step why it is done: as AdaptiveSolver does, or "error of
