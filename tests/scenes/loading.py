@@ -191,6 +191,14 @@ class ReturnToZero(RunTest):
                 balance = self.summary()["balance"]
                 self.assertLess(max(balance["force"], balance["moment"]), 1e-8)
 
+    def test_round_off_of_one_load_pushes_nothing(self):
+        for friction in ("Friction bound = 0", COULOMB):
+            with self.subTest(friction=friction):
+                self.run_history("unilateral", friction, "top", "Traction = 5*sin(2*pi); -100", 1)
+                force = self.summary()["forces"]["bottom"]["force"]
+                self.assertAlmostEqual(force[1], 100., 9)
+                self.assertLess(abs(force[0]), 1e-9)
+
 
 if __name__ == "__main__":
     unittest.main()
