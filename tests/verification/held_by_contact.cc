@@ -338,6 +338,17 @@ TEST(EccentricLoads, AreRefusedWithTheirReasonBeyondTheLastPoint)
   }
 }
 
+/** Two pressures whose resultant is at x = 0.7 rub with a coefficient of 0.1 * 0.7 at most, not of 0.1. */
+TEST(EccentricLoads, SlideByTheCoefficientWhereTheyPress)
+{
+  Scene<2> scene = wall(0.7, 2, 3, true);
+  scene.boundary("bottom").friction.coefficient = expression<2>(
+      std::function<double(const Point<2> &)>([](const Point<2> &x) { return 0.1 * x[0]; }));
+  EXPECT_EQ(failure_of(scene),
+            "no equilibrium: sliding along bottom: the loads push with 0.2, friction resists with "
+            "0.07 * 2 = 0.14; add a support, raise Friction coefficient or lower the loads");
+}
+
 /** A mesh that is fine enough stays as it is, and a run state knows the bisected one again. */
 TEST(EccentricLoads, AreMetByBisectionOnlyWhereTheyMustBe)
 {
