@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Numbers that decide: tolerances, numbers of points, which indicator counts. Each test sits near enough to one of them
+// that another number would decide otherwise.
+#include "discretisation.h"
+
+#include <hpvi/adaptivity/limits.h>
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/adaptivity/warnings.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/unseen_contact.h>
+
+namespace
+{
+using namespace verification;
+
+/** A unit square of one cell, E = 2, nu = 0, plane strain: mu = 1. */
+Scene<2> square(Overrides entries)
+{
+  entries.insert(entries.begin(), {{"Material/Young's modulus", "2"},
+                                   {"Material/Poisson's ratio", "0"},
+                                   {"Adaptivity/Method", "hup2"},
+                                   {"Adaptivity/Maximum steps", "1"}});
+  return scene_of(entries);
+}
+
+/** The coarse mesh of a scene and its spaces of one degree. */
+struct CoarseSpaces
+{
+  Triangulation<2> mesh;
+  std::shared_ptr<const Spaces<2>> spaces;
+
+  CoarseSpaces(const Scene<2> &scene, const unsigned int degree)
+  {
+    make_mesh(scene, mesh);
+    spaces = std::make_shared<const Spaces<2>>(scene, borrowed(mesh),
+                                               Degrees(mesh.n_active_cells(), degree),
+                                               std::make_shared<const ShapeTables<2>>());
+  }
+
+  /** The body as it was, free of tractions. */
+  Solution<2> at_rest(const Scene<2> &scene) const
+  {
+    return {scene, spaces, Vector<double>(spaces->displacement_space.n_dofs()),
+            Vector<double>(spaces->contact_space.n_multipliers())};
+  }
+};
+
+/** The last step of a run; @p look sees it. */
+void run(const Scene<2> &scene, const std::function<void(const StepReport<2> &)> &look)
+{
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (!step.stopped_by.empty())
+          look(step);
+      });
+}
+
+// ---------------------------------------------------------------- loads, gaps, friction
+
+/** 4 % of the loads are left over, and nothing that the mesh sees resists them. */
+TEST(Thresholds, LoadsThatNearlyCancelPushAllTheSame)
+{
+  const Scene<2> scene =
+      square({{"Geometry/Subdivisions", "2, 2"},
+              {"Boundary bottom/Contact", "bilateral"},
+              {"Boundary bottom/Friction bound", "if(abs(x - 0.6) < 0.00001, 1e5, 0)"},
+              {"Boundary top/Traction", "-0.48; -1"},
+              {"Boundary left/Traction", "0.52; 0"}});
+  try
+  {
+    run(scene, [](const StepReport<2> &) { FAIL() << "it has an equilibrium"; });
+  }
+  catch (const NumericalFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find("the loads push it with 0.04,"), std::string::npos)
+        << failure.what();
+  }
+}
+
+/** It vanishes in the middle of the edge, and acts near its ends. */
+TEST(Thresholds, FrictionCoefficientIsSeenBesideTheMiddleOfAnEdge)
+{
+  const Scene<2> scene =
+      square({{"Adaptivity/Method", "hup3"},
+              {"Boundary bottom/Contact", "unilateral"},
+              {"Boundary bottom/Friction coefficient", "if(abs(x - 0.5) > 0.25, 0.4, 0)"},
+              {"Boundary top/Displacement", "0.03; -0.02"}});
+  run(scene,
+      [](const StepReport<2> &step)
+      {
+        const ContactState<2> &state = step.contact.at(0);
+        EXPECT_GT(std::abs(state.friction_resultant), 0.1 * std::abs(state.normal_resultant));
+      });
+}
+
+/** int x^4, of which the two points of the displacement's own rule would find 7/36. */
+TEST(Thresholds, MomentsOfTheGapAreExactBeyondTheDegreeOfTheCell)
+{
+  const Scene<2> scene = square({{"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary bottom/Gap", "x^4"},
+                                 {"Boundary top/Displacement", "0; 0"},
+                                 {"Solver/Normal contact", "multiplier"}});
+  const CoarseSpaces coarse(scene, 2);
+  const auto &unknowns = coarse.spaces->contact_space.multipliers();
+  ASSERT_EQ(unknowns.size(), 1u);
+  EXPECT_NEAR(unknowns[0].gap, 0.2, 1e-14);
+}
+
+/** Two sides of one direction share the node between them, and none may pass through its own foundation. */
+TEST(Thresholds, TheNearerFoundationHoldsANodeOfTwoSides)
+{
+  for (const double bottom : {0.01, 0.03})
+  {
+    Scene<2> scene;
+    scene.geometry.shape = Shape::quadrilateral;
+    scene.geometry.corners = quadrilateral_corners(
+        {{Point<2>(0, 0), Point<2>(1, -1e-7), Point<2>(2, 0), Point<2>(1, 1)}});
+    scene.solver.normal_contact = NormalContact::nodes;
+    for (const auto &[side, gap] : {std::make_pair("bottom", bottom), {"right", 0.04 - bottom}})
+    {
+      scene.boundary(side).contact = Contact::unilateral;
+      scene.boundary(side).gap = expression<2>(gap);
+    }
+    const CoarseSpaces coarse(scene, 2);
+    unsigned int n_shared = 0;
+    for (const ContactMultiplier<2> &node : coarse.spaces->contact_space.multipliers())
+      if (node.x.distance(Point<2>(1, -1e-7)) < 1e-6)
+      {
+        EXPECT_NEAR(node.gap / node.weight, 0.01, 1e-15);
+        ++n_shared;
+      }
+    EXPECT_EQ(n_shared, 1u);
+  }
+}
+
+/** At a corner that a support holds. */
+TEST(Thresholds, SupportsMayNotMoveANodeThroughTheFoundation)
+{
+  Scene<2> scene;
+  scene.solver.normal_contact = NormalContact::nodes;
+  scene.boundary("bottom").contact = Contact::unilateral;
+  scene.boundary("bottom").gap = expression<2>(0.01);
+  for (const double u_n : {0.005, 0.011})
+  {
+    scene.boundary("left").displacement = {{expression<2>(0.), expression<2>(-u_n)}};
+    if (u_n < 0.01)
+      EXPECT_NO_THROW(CoarseSpaces(scene, 2));
+    else
+      EXPECT_THROW(CoarseSpaces(scene, 2), InputError);
+  }
+}
+
+/** A foundation that carries a hundred-thousandth of what another does is in contact. */
+TEST(Thresholds, ASmallPressureClosesContact)
+{
+  const Scene<2> scene = square({{"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary left/Contact", "unilateral"},
+                                 {"Boundary top/Displacement", "free; -0.5"},
+                                 {"Boundary right/Displacement", "-5e-6; free"},
+                                 {"Solver/Normal contact", "multiplier"}});
+  run(scene,
+      [](const StepReport<2> &step)
+      {
+        ASSERT_EQ(step.contact.size(), 2u);
+        for (const ContactState<2> &state : step.contact)
+          for (const ContactPoint<2> &point : state.points)
+          {
+            EXPECT_FALSE(point.is_open);
+            EXPECT_NEAR(point.normal_traction, state.boundary == 0 ? -1e-5 : -1., 1e-12);
+          }
+      });
+}
+
+// ---------------------------------------------------------------- what passes through foundations
+
+/** Of the nodes one touches, and the polynomial between them does not follow a kink. */
+TEST(Thresholds, PenetrationOfAFewPercentIsWarnedOf)
+{
+  const auto is_warned_of = [](const std::string &gap)
+  {
+    bool result = false;
+    run(square({{"Boundary bottom/Contact", "unilateral"},
+                {"Boundary bottom/Gap", gap},
+                {"Boundary top/Displacement", "0; -0.2"},
+                {"Solver/Normal contact", "nodes"}}),
+        [&](const StepReport<2> &step)
+        { result = mentions(step.warnings, "penetrates the foundation"); });
+    return result;
+  };
+  EXPECT_TRUE(is_warned_of("0.1*abs(x - 0.3)"));
+  EXPECT_FALSE(is_warned_of("0.1*(x - 0.3)^2"));
+}
+
+/** A pebble between the points of an edge, at the odd twelfths of its length. */
+TEST(Thresholds, APebbleThatIsSmallBesideTheEdgeIsSeen)
+{
+  for (const unsigned int k : {1U, 3U, 5U, 7U, 9U, 11U})
+  {
+    const std::string place = std::to_string(k) + "/12";
+    const Scene<2> scene =
+        square({{"Boundary bottom/Contact", "unilateral"},
+                {"Boundary bottom/Gap", "0.01 - 0.02*exp(-((x - " + place + ")/0.002)^2)"},
+                {"Boundary top/Displacement", "0; -0.001"}});
+    const CoarseSpaces coarse(scene, 2);
+    const auto places = unseen_contacts(coarse.at_rest(scene));
+    ASSERT_EQ(places.size(), 1u) << place;
+    EXPECT_NEAR(places[0].depth, 0.01, 1e-6);
+    EXPECT_NEAR(places[0].where[0], k / 12., 1e-4);
+  }
+}
+
+/** (4.45) of `u_n - u_0 = 1 + x^4`: mu^2 p/h int (1 + x^4)^2. */
+TEST(Thresholds, PenetrationIsIntegratedBeyondTheDegreeOfTheCell)
+{
+  const Scene<2> scene = square({{"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary bottom/Gap", "-1 - x^4"},
+                                 {"Boundary top/Displacement", "free; free"},
+                                 {"Boundary left/Displacement", "0; free"}});
+  const CoarseSpaces coarse(scene, 2);
+  const ErrorEstimate estimate = estimate_error(coarse.at_rest(scene));
+  EXPECT_NEAR(estimate.penetration.at(0), 2 * (1 + 2. / 5 + 1. / 9), 1e-12);
+}
+
+// ---------------------------------------------------------------- limits
+
+/** Twenty times the indicator of round-off may be an error still. */
+TEST(Thresholds, RoundOffEndsARunAtAFewTimesItself)
+{
+  const Overrides sheared = {{"Boundary bottom/Displacement", "0; 0"},
+                             {"Boundary top/Displacement", "0.1*x^2; -0.1"}};
+  Scene<2> scene = square(sheared);
+  scene.adaptivity.maximum_steps = 100;
+  run(square(sheared),
+      [&](const StepReport<2> &step)
+      {
+        const Solution<2> solution(scene, step.solution.spaces, step.solution.u, step.solution.z);
+        const double round_off = round_off_of_estimate(solution);
+        const auto limit_at = [&](const double estimate) {
+          return reached_limit(solution, {{estimate, 1e-3, 1e-3, 0.}}, 0.);
+        };
+        EXPECT_EQ(limit_at(2 * round_off), "round-off");
+        EXPECT_EQ(limit_at(20 * round_off), "");
+      });
+}
+
+/** The load moves along the top: its mesh has to follow until the indicator is that of the first load step. */
+TEST(Thresholds, LoadStepsAreAsFineAsTheFirstByTheResidualIndicator)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "4, 1"},
+                                   {"Geometry/Subdivisions", "8, 2"},
+                                   {"Boundary bottom/Contact", "bilateral"},
+                                   {"Boundary left/Displacement", "0; free"},
+                                   {"Boundary top/Traction", "0; -exp(-9*(x - 6*t + 2)^2)"},
+                                   {"Adaptivity/Method", "hpa3"},
+                                   {"Adaptivity/Indicator", "residual"},
+                                   {"Adaptivity/Tolerance", "0"},
+                                   {"Adaptivity/Maximum steps", "5"},
+                                   {"Loading/Steps", "2"}});
+  double first = 0;
+  LoadHistory<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (step.stopped_by.empty())
+          return;
+        if (step.load.number == 1)
+          first = step.relative_estimate;
+        else
+        {
+          EXPECT_EQ(step.stopped_by, "Tolerance");
+          EXPECT_LE(step.relative_estimate, 1.2 * first);
+        }
+      });
+  EXPECT_GT(first, 0);
+}
+
+/** A tolerance on a bound that does not exist is compared with something else, which is said. */
+TEST(Thresholds, ToleranceOnNoBoundIsSaid)
+{
+  for (const char *const on : {"bound", "residual"})
+    run(square({{"Geometry/Shape", "quadrilateral"},
+                {"Geometry/Corners", "0, 0; 1, 0; 1.2, 1.3; 0, 1"},
+                {"Boundary bottom/Displacement", "0; 0"},
+                {"Boundary top/Traction", "0; -1"},
+                {"Adaptivity/Maximum steps", "9"},
+                {"Adaptivity/Tolerance", "0.9"},
+                {"Adaptivity/Tolerance on", on}}),
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_EQ(step.stopped_by, "Tolerance");
+          EXPECT_EQ(mentions(step.warnings, "there is no bound of the error"),
+                    on == std::string("bound"));
+        });
+}
+} // namespace
