@@ -38,6 +38,8 @@ UnseenContact<dim> deepest_point(const ContactFace<dim> &face, const Solution<di
     const unsigned int before = k == 0 ? 0 : k - 1, after = std::min(k + 1, n_samples);
     if (samples[k] > samples[before] || samples[k] > samples[after])
       continue;
+    if (-samples[k] > deepest.depth) // so narrow a minimum may be lost again
+      deepest = {&face, face.point(double(k) / n_samples), -samples[k]};
     const auto [s, least] = boost::math::tools::brent_find_minima(gap, double(before) / n_samples,
                                                                   double(after) / n_samples, 40);
     if (-least > deepest.depth)
