@@ -74,8 +74,7 @@ TEST(Thresholds, LoadsThatNearlyCancelPushAllTheSame)
   }
   catch (const NumericalFailure &failure)
   {
-    EXPECT_NE(std::string(failure.what()).find("the loads push it with 0.04,"), std::string::npos)
-        << failure.what();
+    EXPECT_NE(std::string(failure.what()).find(" with 0.04,"), std::string::npos) << failure.what();
   }
 }
 
