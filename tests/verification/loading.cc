@@ -632,6 +632,9 @@ TEST(LoadHistory, KeepsTheFactorWhileTheMatrixStays)
         {"Body force/Expression", "0; -0.1*t"}},
        4},
       {{{"Boundary bottom/Friction bound", "if(t < 0.6 | x > 2, 0.1, 0)"}}, 3}, // edges lose it
+      {{{"Boundary bottom/Friction bound", // as many, but others
+         "if(t < 0.6, if(x < 2, 0.1, 0), if(x > 2, 0.1, 0))"}},
+       3},
       {{{"Boundary bottom/Contact", "unilateral"},
         {"Boundary bottom/Gap", "-0.01*t"},
         {"Boundary right/Displacement", ""}, // contact alone holds the body
