@@ -306,6 +306,7 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
   double rho = 0;
   for (unsigned int step = 0; !(r.l2_norm() <= tolerance); ++step, ++n_steps)
   {
+    before_step();
     precondition(z, r);
     const double next = r * z;
     if (step == 0)

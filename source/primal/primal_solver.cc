@@ -146,7 +146,7 @@ struct PrimalSolver<dim>::Stages
 
   void begin(const std::string &stage) const;
   NewtonReport solve();
-  NewtonReport iterate(MomentNewton<dim> &newton, DistributedVector &v,
+  NewtonReport iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &matrix, DistributedVector &v,
                        const NewtonSettings &settings);
   NewtonSettings first_settings() const;
   bool is_exact(const NewtonReport &newton, NewtonSettings &settings) const;
@@ -169,18 +169,26 @@ void PrimalSolver<dim>::Stages::begin(const std::string &stage) const
   about_to({static_cast<unsigned int>(history.size()) + 1, stage, ""});
 }
 
+/** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
 template <int dim>
-NewtonReport PrimalSolver<dim>::Stages::iterate(MomentNewton<dim> &newton, DistributedVector &v,
+NewtonReport PrimalSolver<dim>::Stages::iterate(MomentNewton<dim> &newton,
+                                                MomentMatrix<dim> &matrix, DistributedVector &v,
                                                 const NewtonSettings &settings)
 {
+  const unsigned int steps_before = matrix.n_steps;
+  std::string place;
+  matrix.before_step = [&]()
+  {
+    begin("finding stick and slip: " + place + std::to_string(matrix.n_steps - steps_before) +
+          " steps of conjugate gradients");
+  };
   return newton.solve(v, lambda, settings,
-                      [this](const NewtonReport &sofar)
+                      [&](const NewtonReport &sofar)
                       {
-                        begin("finding stick and slip: " +
-                              std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
-                                                                    : "Newton step ") +
-                              std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", " +
-                              std::to_string(sofar.cg_steps) + " steps of conjugate gradients");
+                        place =
+                            std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
+                                                                  : "Newton step ") +
+                            std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
                       });
 }
 
@@ -238,7 +246,7 @@ NewtonReport PrimalSolver<dim>::Stages::solve()
   do
   {
     timer.restart();
-    report += iterate(newton, v, settings);
+    report += iterate(newton, matrix, v, settings);
     times.qp += timer.wall_time();
     u = space->displacement(v);
     estimate_error();

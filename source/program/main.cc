@@ -355,9 +355,7 @@ void be_silent()
 /** What befalls one process alone leaves the others waiting for it: it ends them. */
 void end_others(const std::exception &error)
 {
-  int is_running = 0;
-  MPI_Initialized(&is_running);
-  if (n_started_processes() == 1 || !is_running || is_foreseen(error))
+  if (n_started_processes() == 1 || is_foreseen(error))
     return;
   std::fprintf(stderr, "%s\n", failure_line(error).c_str());
   MPI_Abort(MPI_COMM_WORLD, exit_status(error));
@@ -369,13 +367,19 @@ int main(int argc, char *argv[])
   do_without_threads_of_openblas(argv);
   occupy_standard_streams();
   survive_failed_writes();
+  std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
+  const auto start_mpi = [&]()
+  {
+    if (!mpi)
+      mpi = std::make_unique<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
+  };
+  if (may_have_company())
+    start_mpi();
   if (!is_first_process())
     be_silent();
-  std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   try
   {
-    obey(parse(argc, argv), [&]()
-         { mpi = std::make_unique<dealii::Utilities::MPI::MPI_InitFinalize>(argc, argv, 1); });
+    obey(parse(argc, argv), start_mpi);
     check_standard_output("");
     return 0;
   }

@@ -20,14 +20,12 @@ using namespace dealii;
 
 namespace
 {
-/** The first of the variables that Open MPI and MPICH set for each process, as a number. */
-unsigned int number_from(const std::initializer_list<const char *> variables,
-                         const unsigned int otherwise)
+bool is_mpi_running()
 {
-  for (const char *const variable : variables)
-    if (const char *const value = std::getenv(variable))
-      return std::atoi(value);
-  return otherwise;
+  int is_initialised = 0, is_finalised = 0;
+  MPI_Initialized(&is_initialised);
+  MPI_Finalized(&is_finalised);
+  return is_initialised && !is_finalised;
 }
 
 void print_table_head()
@@ -145,14 +143,22 @@ void run_steps(const Scene<dim> &scene, PrimalSolver<dim> &solver, PrimalOutput<
 }
 } // namespace
 
+bool may_have_company()
+{
+  for (const char *const variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) // Open MPI, MPICH
+    if (const char *const value = std::getenv(variable))
+      return std::atoi(value) > 1;
+  return false;
+}
+
 unsigned int n_started_processes()
 {
-  return std::max(1U, number_from({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1));
+  return is_mpi_running() ? Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) : 1;
 }
 
 bool is_first_process()
 {
-  return number_from({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0) == 0;
+  return !is_mpi_running() || Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 }
 
 template <int dim>

@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -59,6 +60,8 @@ public:
   /** An approximate solution of `(A + H) z = r`. */
   void precondition(DistributedVector &z, const DistributedVector &r) const;
 
+  /** Called before each step of conjugate gradients; may throw where it does so on all processes. */
+  std::function<void()> before_step = []() {};
   unsigned int n_steps = 0;  ///< of conjugate gradients so far
   unsigned int n_setups = 0; ///< of multigrid, or factorisations, so far
   double setup_seconds = 0;  ///< which these took

@@ -8,7 +8,10 @@
 
 namespace hpvi
 {
-/** How many processes mpirun has started with this one; 1 where there is none. */
+/** Does the environment say that mpirun has started several processes? A program started by one of them inherits it. */
+bool may_have_company();
+
+/** How many processes share the work, as MPI knows it; 1 where it has not been started. */
 unsigned int n_started_processes();
 
 /** Is this the one of them that speaks for all? */
