@@ -176,6 +176,11 @@ with tempfile.TemporaryDirectory() as scratch:
     assert re.search(rb"step 2: finding stick and slip: Newton step 3, \d+ steps of conjugate gradients", shown), shown
     assert b"finding stick" not in printed[1].encode()
 
+    # What another program under mpirun has left in the environment silences nobody.
+    inherited = {**os.environ, "OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "2"}
+    assert subprocess.run([HPVI, "--version"], env=inherited, check=True, capture_output=True,
+                          text=True).stdout.startswith("hpvi "), "silent"
+
     # The scene that a run leaves repeats it.
     again = subprocess.run([HPVI, "--validate", str(one / "scene.prm")], capture_output=True, text=True)
     assert again.returncode == 0, again.stderr
