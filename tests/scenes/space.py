@@ -114,12 +114,15 @@ with tempfile.TemporaryDirectory() as scratch:
         u_0 = 0.08 * (float(p["x"]) ** 2 + float(p["z"]) ** 2)
         assert abs(gap - u_0 + float(p["normal_displacement"])) < 1e-12
         assert pressure == 0 if p["state"] == "open" else pressure > 0 and abs(gap) < 3e-3, p
+    hardest = min(points, key=lambda p: float(p["normal_traction"]))
+    summary = json.loads((lifted / "summary.json").read_text())
+    for axis, x in zip("xyz", summary["contact"]["bottom"]["largest_pressure_at"]):
+        assert abs(x - float(hardest[axis])) < 1e-9, hardest
     for part in ("normal", "penetration", "tension"):
         assert float(row["estimate_" + part]) >= 0
     squares = sum(float(row["estimate_" + part]) ** 2 for part in (
         "volume", "jumps", "neumann", "contact", "normal", "penetration", "tension"))
     assert abs(squares ** 0.5 / float(row["estimate"]) - 1) < 1e-12
-    summary = json.loads((lifted / "summary.json").read_text())
     bottom = summary["contact"]["bottom"]
     assert bottom["area"] > bottom["open_area"] > 2 and 0 < bottom["slipping_area"] < 2
     assert 0 < bottom["largest_penetration"] < 0.01 and len(bottom["largest_penetration_at"]) == 3

@@ -4,6 +4,7 @@
 
 #include <hpvi/adaptivity/adaptive_solver.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace
@@ -131,5 +132,64 @@ TEST(Plane, TurnedSlabsAgree)
     EXPECT_EQ(upright[k].n_slipping, lying[k].n_slipping);
     EXPECT_NEAR(upright[k].lagrangian, lying[k].lagrangian, 1e-10 * std::abs(lying[k].lagrangian));
   }
+}
+
+/** A foundation that carries a millionth of what another does is in contact. */
+TEST(Plane, ASmallPressureClosesContact)
+{
+  Scene<2> scene;
+  scene.solver.primal_tolerance = 1e-12;
+  scene.solver.normal_contact = NormalContact::multiplier;
+  scene.adaptivity.method = Method::hup2;
+  scene.adaptivity.start_degree = 2;
+  scene.adaptivity.maximum_steps = 1;
+  scene.materials[0].poisson = 0;
+  for (const char *const side : {"left", "bottom"})
+    scene.boundary(side).contact = Contact::unilateral;
+  scene.boundary("right").displacement[0] = expression<2>(-1e-6);
+  scene.boundary("top").displacement[1] = expression<2>(-1.);
+  unsigned int n_points = 0;
+  steps_of<2>(scene,
+              [&](const PrimalReport<2> &step)
+              {
+                for (const MomentPoint<2> &point : step.contact)
+                {
+                  EXPECT_FALSE(point.is_open);
+                  ++n_points;
+                }
+              });
+  EXPECT_GT(n_points, 1u);
+}
+
+/** As scenes of the reduced path are: a force that pulls, from a thousandth of all. */
+TEST(Plane, BilateralContactThatPullsIsSaid)
+{
+  for (const auto &[load, pulls] : {std::make_pair("0; 10", true), {"0; -0.001", false}})
+  {
+    std::vector<std::string> warnings;
+    steps_of<2>(example("han-6-12", {{"Adaptivity/Method", "hup2"},
+                                     {"Adaptivity/Maximum steps", "2"},
+                                     {"Boundary left/Traction", load},
+                                     {"Boundary top/Traction", pulls ? "" : "0; -50"}}),
+                [&](const PrimalReport<2> &step) { warnings = step.warnings; });
+    const bool is_said =
+        std::any_of(warnings.begin(), warnings.end(),
+                    [](const std::string &warning)
+                    { return warning.find("bilateral contact pulls") != std::string::npos; });
+    EXPECT_EQ(is_said, pulls) << load;
+  }
+}
+
+/** A thirtieth of the time of all steps is over before the last one. */
+TEST(Plane, MaximumSecondsAreSeconds)
+{
+  Scene<2> scene =
+      example("han-6-12", {{"Adaptivity/Method", "hup3"}, {"Adaptivity/Maximum steps", "5"}});
+  double seconds = 0;
+  const std::size_t n_steps =
+      steps_of<2>(scene, [&](const PrimalReport<2> &step) { seconds = step.seconds; }).size();
+  EXPECT_EQ(n_steps, 5u);
+  scene.adaptivity.maximum_seconds = seconds / 30;
+  EXPECT_LT(steps_of<2>(scene).size(), n_steps);
 }
 } // namespace
