@@ -236,7 +236,7 @@ std::vector<std::string> differences(const Outcome &one, const Outcome &other,
 {
   Comparison comparison;
   compare_ends(one, other, comparison);
-  double norm = 1e-6 * std::sqrt(one.stiffness);
+  double norm = 1e-5 * std::sqrt(one.stiffness);
   for (unsigned int k = 0; k < std::min(one.steps.size(), other.steps.size()); ++k)
   {
     const StepOutcome &a = one.steps[k], &b = other.steps[k];
@@ -250,10 +250,12 @@ std::vector<std::string> differences(const Outcome &one, const Outcome &other,
   {
     const SideOutcome &a = one.sides[k], &b = other.sides[k];
     const std::string place = "side " + std::to_string(k) + ", ";
-    const double force = tolerances.force * std::max(one.all_forces, 1e-8 * one.stiffness);
+    const double force = tolerances.force * std::max(one.all_forces, 1e-6 * one.stiffness);
     comparison.near(place + "force", 0, (a.force - b.force).norm(), force);
     comparison.near(place + "moment", a.moment, b.moment, force);
     comparison.near(place + "friction", a.friction, b.friction, force);
+    if (one.all_forces < 1e-6 * one.stiffness) // nothing presses: round-off alone decides on zones
+      continue;
     if (!tolerances.same_multipliers && (a.zones.empty() || b.zones.empty()))
       continue;
     comparison.near(place + "largest pressure", a.pressure, b.pressure,

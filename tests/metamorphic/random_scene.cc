@@ -100,9 +100,8 @@ void choose_body(RandomScene &scene, Dice &dice)
 void choose_contact(RandomScene &scene, Side &side, const bool interferes, Dice &dice)
 {
   side.contact = dice.chosen({"bilateral", "unilateral", "unilateral", "tangential"});
-  if (side.contact == "unilateral" && (!interferes || dice.happens(0.6)))
-    side.gap =
-        interferes && dice.happens(0.5) ? dice.function(0.01) : "0.0002 + " + dice.positive(0.02);
+  if (side.contact == "unilateral" && dice.happens(0.6))
+    side.gap = interferes && dice.happens(0.5) ? dice.function(0.01) : dice.positive(0.02);
   if (side.contact != "tangential" && dice.happens(0.25))
     side.coefficient = dice.happens(0.7) ? text(dice.number(0.05, 0.4)) : "0.1 + 0.2*X*Y";
   else if (side.contact == "tangential" || dice.happens(0.8))

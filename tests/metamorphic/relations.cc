@@ -133,7 +133,7 @@ void Relations::say_what_says_nothing()
              side.displacement[1].empty())
     {
       side.contact = "unilateral";
-      side.gap = "1000";
+      side.gap = "100";
       is_said = true;
     }
   if (!is_said)
