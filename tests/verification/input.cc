@@ -360,7 +360,7 @@ TEST(Corners, AreWarnedOfBelowFiveAndAbove175Degrees)
   EXPECT_TRUE(
       result("0,0; 4,0; 8,0.2797071; 4,0.2797071").warns("4 degrees at (0 0), 176 degrees"));
   EXPECT_TRUE(result("0,0; 4,0; 4,4; 1.95,2.05").warns("177.1 degrees at (1.95 2.05)"));
-  EXPECT_FALSE(result("0,0; 4,0; 8,0.5; 4,0.5").warns("degrees"));
+  EXPECT_FALSE(result("0,0; 4,0; 8,0.5; 4,0.5").warns("corners of"));
 }
 
 TEST(Boundaries, AFaceOfNoneIsNoticed)
