@@ -123,16 +123,15 @@ void run_steps(const Scene<dim> &scene, PrimalSolver<dim> &solver, PrimalOutput<
         ending.times += step.times;
         ending.stopped_by = step.stopped_by;
         ending.warnings = step.warnings;
-        ending.balance = "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
-                         ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                         " of their absolute sums;\n  Newton's method left " +
-                         text(step.newton.residual, 2) +
-                         " of the loads, for Solver/Primal tolerance = " +
-                         text(scene.solver.primal_tolerance) +
-                         (scene.solver.primal_tolerance > 0
-                              ? ""
-                              : ": enough beside the error of the mesh, 1e-10 balances them") +
-                         "\n";
+        ending.balance =
+            "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) + ", moments to " +
+            text(step.equilibrium.moment_imbalance, 2) +
+            " of their absolute sums;\n  Newton's method left " + text(step.newton.residual, 2) +
+            " of the loads, for Solver/Primal tolerance = " + text(scene.solver.primal_tolerance) +
+            (scene.solver.primal_tolerance > 0
+                 ? ""
+                 : ": enough beside the error of the mesh, 1e-10 balances them") +
+            "\n";
         output.write_step(step);
       },
       [&](const Progress &stage)

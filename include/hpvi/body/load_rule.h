@@ -2,8 +2,8 @@
 #ifndef hpvi_load_rule_h
 #define hpvi_load_rule_h
 
-#include <hpvi/body/cell_map.h>
 #include <hpvi/algebra/cut_rule.h>
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
