@@ -334,16 +334,29 @@ bool varies(const std::array<Expression<2>, 2> &load)
   return varies(load[0]) || varies(load[1]);
 }
 
-/** The part of its coarse cell that a cell is, in reference coordinates. */
-BoundingBox<2> part_of_coarse(const CellId &id)
+/** The index of the coarse cell of @p cell. (deal.II's CellId holds 30 levels, and meshes may have more.) */
+template <class Cell>
+unsigned int coarse_index(Cell cell)
+{
+  while (cell->level() > 0)
+    cell = cell->parent();
+  return cell->index();
+}
+
+/** The part of its coarse cell that @p cell is, in reference coordinates. */
+template <class Cell>
+BoundingBox<2> part_of_coarse(Cell cell)
 {
   Point<2> lower;
   double width = 1;
-  for (const auto child : id.get_child_indices())
+  for (; cell->level() > 0; cell = cell->parent())
   {
-    width /= 2;
+    unsigned int child = 0;
+    while (cell->parent()->child(child) != cell)
+      ++child;
     for (unsigned int d = 0; d < 2; ++d)
-      lower[d] += (child >> d & 1) * width;
+      lower[d] = (lower[d] + (child >> d & 1)) / 2;
+    width /= 2;
   }
   return BoundingBox<2>({lower, lower + Point<2>(width, width)});
 }
@@ -388,7 +401,7 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
   total.centre = centre_of(scene.geometry);
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
-    const auto id = cell->id().get_coarse_cell_id();
+    const unsigned int id = cell->index();
     if (varies(scene.body_force))
       coarse[{id, inside}] = cut(cell, inside);
     if (scene.has_body_force())
@@ -535,15 +548,14 @@ template <int dim>
 typename LoadRules<dim>::Pieces LoadRules<dim>::pieces(const Cell &cell,
                                                        const unsigned int face) const
 {
-  const CellId id = cell->id();
-  const auto known = coarse.find({id.get_coarse_cell_id(), face});
+  const auto known = coarse.find({coarse_index(cell), face});
   if (known == coarse.end()) // constant
     return {{0., 1.}, {BoundingBox<dim>({Point<dim>(), Point<dim>(1., 1.)})}, {}};
   if (cell->level() == 0)
     return known->second;
   if (is_unresolved(known->second))
     return cut(cell, face);
-  const BoundingBox<dim> part = part_of_coarse(id);
+  const BoundingBox<dim> part = part_of_coarse(cell);
   Pieces result;
   if (face == inside)
     for (const BoundingBox<dim> &box : known->second.boxes)
@@ -594,7 +606,7 @@ std::vector<UnresolvedLoad<dim>> LoadRules<dim>::unresolved(const Triangulation<
   std::vector<UnresolvedLoad<dim>> result;
   const auto look = [&](const auto &cell, const unsigned int face, const std::string &name)
   {
-    const auto known = coarse.find({cell->id().get_coarse_cell_id(), face});
+    const auto known = coarse.find({coarse_index<Cell>(cell), face});
     if (known == coarse.end() || !is_unresolved(known->second))
       return;
     const Pieces here = pieces(cell, face);
@@ -663,18 +675,17 @@ void LoadRules<dim>::cut_displacements(const Cell &cell, const unsigned int face
   }
   std::sort(cuts.begin(), cuts.end());
   if (!cuts.empty())
-    displacement_cuts[{cell->id().get_coarse_cell_id(), face}] = cuts;
+    displacement_cuts[{coarse_index(cell), face}] = cuts;
 }
 
 template <int dim>
 std::vector<double> LoadRules<dim>::displacement_points(const Cell &cell,
                                                         const unsigned int face) const
 {
-  const CellId id = cell->id();
-  const auto known = displacement_cuts.find({id.get_coarse_cell_id(), face});
+  const auto known = displacement_cuts.find({coarse_index(cell), face});
   if (known == displacement_cuts.end())
     return {};
-  const BoundingBox<dim> part = part_of_coarse(id);
+  const BoundingBox<dim> part = part_of_coarse(cell);
   const unsigned int d = 1 - face / 2;
   const std::vector<double> cuts =
       seen_from(part.lower_bound(d), part.side_length(d), known->second);
