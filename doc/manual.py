@@ -29,7 +29,8 @@ EXAMPLES = {
     ("Solver", "QP maximum multiplications"): "1000", ("Solver", "Diagonal scaling"): "false",
     ("Solver", "Coulomb solver"): "fixed point", ("Solver", "Multiplier degree offset"): "-3",
     ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
-    ("Output", "Mesh picture"): "false", ("Output", "Contact tables"): "false",
+    ("Output", "Steps"): "last", ("Output", "Mesh picture"): "false",
+    ("Output", "Contact tables"): "false",
     ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
