@@ -77,6 +77,8 @@ std::string tensile_contact(const Solution<dim> &solution,
 template <int dim>
 std::string overshooting_multiplier(const Solution<dim> &solution)
 {
+  if (solution.z.size() == 0)
+    return {};
   double excess = 1e-9 * solution.z.linfty_norm(), friction = 0, bound = 0;
   for (unsigned int i = 0; i < solution.z.size(); ++i)
     excess = std::max(excess, 0.05 * solution.contact_space.bound(i, solution.z));
