@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from contact import solved
+from figures import read_csv
 from stability import (COLOURS, ERROR_LABEL, Laboratory, chart, number, plain, progress, put_table,
                        save, write_csv)
 
@@ -98,48 +99,71 @@ def of(rows, problem, solver, column):
     return [r[column] for r in rows if (r["problem"], r["solver"]) == (problem, solver)]
 
 
+def is_solved(row):
+    return row["solved"].startswith(f"{STEPS} ")
+
+
 def draw_solvers(rows):
-    figure, panels = chart(3, "Iterations of a step, median and most; crosses: runs that end early",
-                           13, sharey=True)
+    """Runs that end early stand in a band of their own: the few steps that they did say nothing of the rest."""
+    figure, panels = chart(3, "Iterations of a step: median (markers) and most (dotted) of the runs that were solved",
+                           13, 4.6, sharey=True)
+    low, high = 250, 900  # the band
     for axes, problem in zip(panels, PROBLEMS):
+        axes.axhspan(low, high, color="#e8e8e8", linewidth=0)
         for solver, (colour, marker) in LOOK.items():
-            value = {c: np.array([np.nan if v == "-" else float(v)
-                                  for v in of(rows, problem, solver, c)])
-                     for c in ("iterations, median", "most")}
-            axes.loglog(COEFFICIENTS, value["iterations, median"], color=colour, marker=marker,
-                        label=solver, linewidth=1.3)
-            axes.loglog(COEFFICIENTS, value["most"], color=colour, linestyle=":", linewidth=1.3)
-            early = [not s.startswith(f"{STEPS} ") for s in of(rows, problem, solver, "solved")]
-            axes.loglog(np.array(COEFFICIENTS)[early], value["most"][early], "x", color=colour,
-                        markersize=11)
-        axes.set_title(problem)
-        axes.set_xlabel("coefficient of friction $\\mu_f$ [-]")
-    panels[0].set_ylabel("factorisations, or problems of Tresca [-]")
-    panels[0].legend()
+            of_solver = [r for r in rows if (r["problem"], r["solver"]) == (problem, solver)]
+            solved_runs = [r for r in of_solver if is_solved(r)]
+            mu = [float(r["mu_f"]) for r in solved_runs]
+            axes.loglog(mu, [float(r["iterations, median"]) for r in solved_runs], color=colour,
+                        marker=marker, label=solver, linewidth=1.3)
+            axes.loglog(mu, [float(r["most"]) for r in solved_runs], color=colour, linestyle=":",
+                        linewidth=1.3)
+            for row in of_solver:
+                if not is_solved(row):
+                    axes.plot(float(row["mu_f"]), 600, "x", color=colour, markersize=9,
+                              markeredgewidth=2)
+                    axes.annotate(row["solved"], (float(row["mu_f"]), 340), ha="center",
+                                  va="center", fontsize=8, color=colour)
+        axes.text(0.09, (low * high) ** 0.5, "not solved:\nsteps done", fontsize=8, va="center")
+        axes.set(title=problem, xlabel="coefficient of friction $\\mu_f$ [-]", ylim=(0.8, high),
+                 xlim=(0.08, 8))
+        axes.set_xticks(COEFFICIENTS, [f"{mu:g}" for mu in COEFFICIENTS])
+        axes.set_xticks([], minor=True)
+    panels[0].set_yticks([1, 10, 100], ["1", "10", "100"])
+    panels[0].set_ylabel("factorisations (Newton),\nproblems of Tresca (fixed point) [-]")
+    panels[0].legend(loc="upper left", bbox_to_anchor=(0, 0.8), fontsize=9)
     save(figure, "solvers.png", PAGE)
 
 
 def draw_contraction(rows):
     figure, panels = chart(3, "The fixed point beside Newton's method", 15)
     for k, problem in enumerate(PROBLEMS):
-        contraction = [np.nan if v == "-" else float(v)
-                       for v in of(rows, problem, "fixed point", "contraction")]
-        factors = {s: np.array(of(rows, problem, s, "dense factorisations"))
+        contraction = np.array([np.nan if v == "-" else float(v)
+                                for v in of(rows, problem, "fixed point", "contraction")])
+        factors = {s: np.array(of(rows, problem, s, "dense factorisations"), float)
                    for s in ("fixed point", "Newton")}
         # A run that ended early took fewer than it asked for.
-        whole = [all(s.startswith(f"{STEPS} ") for s in pair)
-                 for pair in zip(*(of(rows, problem, s, "solved") for s in factors))]
+        whole = np.array([all(s.startswith(f"{STEPS} ") for s in pair)
+                          for pair in zip(*(of(rows, problem, s, "solved") for s in factors))])
         ratio = np.where(whole, factors["fixed point"] / np.maximum(factors["Newton"], 1), np.nan)
-        times = {s: np.array(of(rows, problem, s, "milliseconds")) for s in factors}
+        times = {s: np.array(of(rows, problem, s, "milliseconds"), float) for s in factors}
         slower = np.where(whole, times["fixed point"] / times["Newton"], np.nan)
         look = {"color": COLOURS[k], "marker": "osD"[k], "label": problem}
         panels[0].loglog(COEFFICIENTS, contraction, **look)
+        panels[0].loglog(np.array(COEFFICIENTS)[~whole], contraction[~whole], linestyle="",
+                         **{**look, "label": None}, markerfacecolor="white", markersize=9)
         panels[1].loglog(COEFFICIENTS, ratio, **look)
         panels[2].loglog(COEFFICIENTS, slower, **look)
     for axes in panels:
         axes.axhline(1, color="k", linewidth=0.8)
         axes.set_xlabel("coefficient of friction $\\mu_f$ [-]")
+        axes.set_xticks(COEFFICIENTS, [f"{mu:g}" for mu in COEFFICIENTS])
+        axes.set_xticks([], minor=True)
+        axes.set_xlim(0.085, 6)
         axes.legend()
+    panels[0].set_title("hollow: runs that were not solved", fontsize=9)
+    for axes in panels[1:]:
+        axes.set_title("runs that both solved", fontsize=9)
     panels[0].set_ylabel("contraction number, the largest seen [-]")
     panels[1].set_ylabel("dense factorisations, fixed point / Newton [-]")
     panels[2].set_ylabel("time of the solver, fixed point / Newton [-]")
@@ -275,7 +299,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/coulomb", type=pathlib.Path)
+    parser.add_argument("--draw", action="store_true",
+                        help="run nothing: draw the solvers' charts from doc/coulomb/solvers.csv")
     arguments = parser.parse_args()
+    if arguments.draw:
+        rows = read_csv(GALLERY / "solvers.csv")
+        draw_solvers(rows)
+        draw_contraction(rows)
+        return
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     GALLERY.mkdir(exist_ok=True)
     lab = Laboratory(str(pathlib.Path(arguments.program).resolve()), arguments.output.resolve())
