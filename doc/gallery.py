@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run every scene of prm/ and draw what it ends with: doc/gallery/SCENE.png. Scenes of others are drawn into DIR.
 
-gallery.py --program build/hpvi --output DIR [SCENE.prm...]
+gallery.py --program build/hpvi --output DIR [--draw] [SCENE.prm...]
+
+--draw draws what an earlier call has left in DIR, and runs nothing.
 """
 import argparse
 import os
@@ -12,11 +14,14 @@ import sys
 
 import numpy as np
 
-from figures import Patches, Run, deformation_scale, plt, read_csv, stress_limit
+from figures import (Line2D, Patches, Run, array, deformation_scale, plt, read_csv, scale_text,
+                     stress_limit)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GALLERY = ROOT / "doc/gallery"
 STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
+# Bodies in space are seen from below, for there the contact is: where x, y and z lie on the paper.
+PAPER = ((0.85, 0., 0.53), (-0.21, 0.92, 0.33))
 
 
 def solve(program, scene, output):
@@ -26,40 +31,158 @@ def solve(program, scene, output):
                           env={"OMP_NUM_THREADS": "1", **os.environ})
     if done.returncode != 0:
         sys.exit(f"{scene}: {done.stderr.strip()}")
-    return Run(directory)
 
 
-def states_of(rows):
-    return [STATES[row["state"]] for row in rows]
+def label(name, unit, kind):
+    """A scene that names no unit has its own."""
+    return f"{name} [{unit or 'unit of ' + kind}]"
 
 
-def draw_body(axes, run):
-    """Von Mises stress on the deformed body, and what happens at the Gauss points of the contact."""
+def add_stress_bar(figure, axes, colours, run, is_cut, **place):
+    bar = figure.colorbar(colours, ax=axes, extend="max" if is_cut else "neither", aspect=30, pad=0.03,
+                          **place)
+    bar.set_label(label("von Mises stress", run.stress, "stress"))
+    bar.locator = plt.MaxNLocator(5)
+    bar.update_ticks()
+
+
+def add_key(figure, rows):
+    """Which states the contact has, and their colours."""
+    present = {row["state"] for row in rows}
+    figure.legend(handles=[Line2D([], [], color=colour, linewidth=4, label=state)
+                           for state, colour in STATES.items() if state in present],
+                  loc="lower center", ncol=3, frameon=False, handlelength=1.2)
+    height = 0.33 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+
+
+def tidy(axes, names, run):
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.locator_params(nbins=5)
+    axes.set(xlabel=label(names[0], run.length, "length"), ylabel=label(names[1], run.length, "length"))
+
+
+# ------------------------------------------------------------------ in the plane
+
+
+def draw_contact(axes, rows, patches, moved):
+    """The state of each Gauss point along its boundary, as far as halfway to its neighbours."""
+    points = np.array([[float(row["x"]), float(row["y"])] for row in rows])
+    resting = patches.points.reshape(-1, 2)
+    nearest = [np.argmin(((resting - point) ** 2).sum(axis=1)) for point in points]
+    points += moved.reshape(-1, 2)[nearest] - resting[nearest]
+    for boundary in {row["boundary"] for row in rows}:
+        of_it = [k for k, row in enumerate(rows) if row["boundary"] == boundary]
+        ends = np.concatenate([points[of_it[:1]], (points[of_it[:-1]] + points[of_it[1:]]) / 2, points[of_it[-1:]]])
+        axes.plot(*ends.T, color="white", linewidth=7, zorder=3, solid_capstyle="butt", clip_on=False)
+        states = [rows[k]["state"] for k in of_it]
+        changes = [k for k in range(1, len(states)) if states[k] != states[k - 1]]
+        for first, last in zip([0, *changes], [*changes, len(states)]):
+            axes.plot(*ends[first:last + 1].T, color=STATES[states[first]], linewidth=4, zorder=4,
+                      solid_capstyle="butt", clip_on=False)
+
+
+def draw_body(run, rows):
+    """Von Mises stress on the deformed body, and what happens along its contact."""
     patches = Patches(run)
     scale = deformation_scale(patches)
-    x = patches.points + scale * patches.displacement
-    for cell, stress in zip(x, patches.von_mises):
-        axes.pcolormesh(cell[..., 0], cell[..., 1], stress, cmap="viridis", shading="gouraud",
-                        vmin=0, vmax=stress_limit(patches), rasterized=True)
-    rows = read_csv(run.last("contact", "csv"))
-    points = np.array([[float(row["x"]), float(row["y"])] for row in rows])
-    all_points, moved = patches.points.reshape(-1, 2), x.reshape(-1, 2)
-    nearest = [np.argmin(((all_points - point) ** 2).sum(axis=1)) for point in points]
-    points += moved[nearest] - all_points[nearest]
-    axes.scatter(points[:, 0], points[:, 1], s=6, c=states_of(rows), linewidths=0, zorder=3)
-    axes.set_aspect("equal", adjustable="datalim")
-    return f"displacement × {scale:g}" if scale != 1 else ""
+    moved = patches.points + scale * patches.displacement
+    width, height = np.ptp(moved.reshape(-1, 2), axis=0)
+    figure, axes = plt.subplots(figsize=(3.7, 2 + min(2.4, 2.9 * height / width)), layout="constrained")
+    limit = stress_limit(patches)
+    for cell, stress in zip(moved, patches.von_mises):
+        colours = axes.pcolormesh(cell[..., 0], cell[..., 1], stress, cmap="viridis",
+                                  shading="gouraud", vmin=0, vmax=limit, rasterized=True)
+    draw_contact(axes, rows, patches, moved)
+    for frame, low, high in zip((axes.set_xlim, axes.set_ylim), moved.min(axis=(0, 1, 2)), moved.max(axis=(0, 1, 2))):
+        frame(low - 0.04 * width, high + 0.04 * width)
+    tidy(axes, "xy", run)
+    add_stress_bar(figure, axes, colours, run, patches.von_mises.max() > limit, location="bottom")
+    return figure, scale
 
 
-def draw_foundation(axes, run):
-    """A body in space: the contact seen from above, with the friction on it."""
-    rows = read_csv(run.last("contact", "csv"))
+# ------------------------------------------------------------------ in space
+
+
+class Box:
+    """The cells of a box in space: (n+1)^3 points each, x fastest, from all pieces of the last step."""
+
+    def __init__(self, run):
+        pieces = [path.read_text(encoding="latin-1")
+                  for path in sorted(run.directory.glob(f"solution-{run.steps:02d}*.vtu"))]
+        cells = int(run.rows[-1]["elements"])
+        for name, mark in (("points", "<Points>"), ("displacement", 'Name="displacement"'),
+                           ("von_mises", 'Name="von_mises"')):
+            values = np.concatenate([array(piece, mark) for piece in pieces])
+            side = round((len(values) / cells) ** (1 / 3))
+            setattr(self, name, values.reshape(cells, side, side, side, values.shape[1]))
+
+    def face(self, axis, end):
+        """Its cells on a side of the box: places, displacements and stresses of their points."""
+        index = [slice(None)] * 4
+        index[3 - axis] = (0, -1)[end]
+        x = self.points[..., axis]
+        is_on_it = np.abs(x[tuple(index)] - (x.min(), x.max())[end]).max(axis=(1, 2)) < 1e-5 * np.ptp(x)
+        return [values[tuple(index)][is_on_it]
+                for values in (self.points, self.displacement, self.von_mises)]
+
+
+def on_paper(x):
+    return x @ np.array(PAPER).T
+
+
+def name_edges(axes, box):
+    """Below, to the right and to the left of the body: where it begins and ends in each direction."""
+    low, high = box.points.min(axis=(0, 1, 2, 3)), box.points.max(axis=(0, 1, 2, 3))
+    middle = (low + high) / 2
+    for axis, place, offset, side in ((0, (middle[0], low[1], low[2]), (-4, -6), {"ha": "right", "va": "top"}),
+                                      (1, (high[0], middle[1], high[2]), (5, 0), {"ha": "left", "va": "center"}),
+                                      (2, (high[0], low[1], middle[2]), (5, -5), {"ha": "left", "va": "top"})):
+        axes.annotate(f"{'xyz'[axis]}: {low[axis]:g} to {high[axis]:g}", on_paper(np.array(place)), offset,
+                      textcoords="offset points", fontsize=9, **side)
+
+
+def draw_box(figure, axes, run):
+    """Von Mises stress on three faces of the deformed body, that of the contact among them."""
+    box = Box(run)
+    patches = [box.face(0, 0), box.face(1, 0), box.face(2, 1)]  # left, bottom, back
+    scale = deformation_scale(box)
+    stresses = np.concatenate([stress.ravel() for _, _, stress in patches])
+    limit = np.quantile(stresses, 0.995)
+    for points, displacement, stress in patches:
+        for cell, values in zip(on_paper(points + scale * displacement), stress[..., 0]):
+            colours = axes.pcolormesh(cell[..., 0], cell[..., 1], values, cmap="viridis",
+                                      shading="gouraud", vmin=0, vmax=limit, rasterized=True)
+    name_edges(axes, box)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    add_stress_bar(figure, axes, colours, run, stresses.max() > limit, location="bottom", shrink=0.8)
+    return scale
+
+
+def draw_foundation(axes, run, rows):
+    """The contact, with the friction on it."""
     x, z, t_x, t_z = (np.array([float(row[name]) for row in rows]) for name in (
         "x", "z", "tangential_traction_x", "tangential_traction_z"))
-    axes.scatter(x, z, s=9, c=states_of(rows), linewidths=0)
-    axes.quiver(x, z, t_x, t_z, width=0.004, color="#333333")
-    axes.set_aspect("equal", adjustable="datalim")
-    return "friction on the bottom, from above"
+    axes.scatter(x, z, s=7, c=[STATES[row["state"]] for row in rows], linewidths=0)
+    size = np.hypot(t_x, t_z)
+    some = np.flatnonzero(size > 0.02 * size.max())[::max(1, len(x) // 150)]
+    axes.quiver(x[some], z[some], t_x[some], t_z[some], width=0.004, color="#333333", scale=20 * size.max())
+    axes.margins(0.1)
+    axes.set_title(label(f"friction on the body,\nup to {size.max():.2g}", run.stress, "stress"), fontsize=9)
+    tidy(axes, "xz", run)
+
+
+def draw_space(run, rows):
+    figure, (body, contact) = plt.subplots(1, 2, figsize=(7.4, 4.1), layout="constrained",
+                                           width_ratios=[1, 1])
+    scale = draw_box(figure, body, run)
+    draw_foundation(contact, run, rows)
+    return figure, scale
+
+
+# ------------------------------------------------------------------ pictures
 
 
 def folder(scene, output):
@@ -68,14 +191,14 @@ def folder(scene, output):
 
 
 def draw(scene, run, output):
-    figure, axes = plt.subplots(figsize=(3.6, 2.7), constrained_layout=True)
-    is_flat = "z" not in read_csv(run.last("contact", "csv"))[0]
-    note = (draw_body if is_flat else draw_foundation)(axes, run)
-    axes.set_axis_off()
-    axes.set_title(scene.stem + (f"\n{note}" if note else ""), fontsize=8)
+    rows = read_csv(run.last("contact", "csv"))
+    figure, scale = (draw_space if "z" in rows[0] else draw_body)(run, rows)
+    add_key(figure, rows)
+    note = scale_text(scale) if scale != 1 else "displacement true to scale"
+    figure.suptitle(f"{scene.stem}\n{note}" + (", seen from below" if "z" in rows[0] else ""), fontsize=10)
     picture = folder(scene, output) / f"{scene.stem}.png"
     picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(picture, dpi=110, metadata={"Software": None})
+    figure.savefig(picture, dpi=130, metadata={"Software": None})
     plt.close(figure)
     print(f"  {picture}", flush=True)
 
@@ -84,10 +207,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--output", required=True, type=pathlib.Path)
+    parser.add_argument("--draw", action="store_true", help="draw what an earlier call has left")
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
     for scene in options.scenes or sorted((ROOT / "prm").glob("*.prm")):
-        draw(scene, solve(options.program.resolve(), scene, options.output), options.output)
+        if not options.draw:
+            solve(options.program.resolve(), scene, options.output)
+        draw(scene, Run(options.output / scene.stem), options.output)
 
 
 if __name__ == "__main__":
