@@ -116,9 +116,11 @@ def work(lab, axes):
         n, error = (np.array([abs(float(r[c])) for r in rows[-6:]])
                     for c in ("load steps", "released [N]"))
         axes.loglog(n, error, "os"[k] + "-", color=COLOURS[k],
-                    label=f"g = {rows[-1]['g [N/mm²]']}: slope {slope(n[2:], error[2:]):.1f}")
+                    label=f"g = {rows[-1]['g [N/mm²]']} N/mm²: slope {slope(n[2:], error[2:]):.1f}")
     put_table("work", rows, page=PAGE)
-    axes.set(xlabel="load steps [-]", ylabel="released energy [N]")
+    axes.set(xlabel="load steps [-]", ylabel="absolute value of the released energy [N]")
+    axes.set_xticks(n, [f"{steps:.0f}" for steps in n])
+    axes.set_xticks([], minor=True)
     axes.legend()
 
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
 GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, and where the primal path
-overtakes the reduced one in the plane. Runs that are there already are not repeated; --without million leaves some out."""
+overtakes the reduced one in the plane. Runs that are there already are not repeated; --without million leaves some out;
+--draw runs nothing and draws the charts from the tables of doc/space."""
 import argparse
 import csv
 import json
@@ -24,11 +25,17 @@ parser.add_argument("--unknowns", type=int, default=20000, help="the largest of 
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
 parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy"])
+parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
 OUTPUT, FIGURES = pathlib.Path(options.output), pathlib.Path(options.figures)
 FIGURES.mkdir(parents=True, exist_ok=True)
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1",
                   OMPI_MCA_mpi_yield_when_idle="1")
+
+
+# Colours of Okabe and Ito, which the colour-blind tell apart; marker and line say the same in grey.
+LOOKS = (("#0072b2", "o", "-"), ("#d55e00", "s", "--"), ("#009e73", "^", "-."), ("#000000", "D", ":"),
+         ("#8a5a00", "v", "-"))
 
 
 def measured(command):
@@ -68,10 +75,19 @@ def write(name, head, rows):
         csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
+def read(name):
+    with (FIGURES / name).open(newline="") as file:
+        return [{key: number(value) if key != "method" else value for key, value in row.items()}
+                for row in csv.DictReader(file)]
+
+
 def chart(name, x, y, curves, log_y=True, ticks=None):
-    figure, axes = plt.subplots(figsize=(6.6, 4.2), layout="constrained")
-    for marker, (label, points) in zip("os^Dvx", curves.items()):
-        axes.loglog(*zip(*points), marker + "-", label=label)
+    """Each curve has its name at its end, or where @p curves says: (points, index of a point, offset)."""
+    figure, axes = plt.subplots(figsize=(6.6, 4.4), layout="constrained")
+    for (colour, marker, line), (label, (points, k, offset)) in zip(LOOKS, curves.items()):
+        axes.loglog(*zip(*points), color=colour, marker=marker, linestyle=line)
+        axes.annotate(label, points[k], offset, textcoords="offset points", color=colour, fontsize=9,
+                      ha="right" if offset[0] < 0 else "left", va="center")
     if not log_y:
         axes.set_yscale("linear")
         axes.set_ylim(bottom=0)
@@ -80,8 +96,8 @@ def chart(name, x, y, curves, log_y=True, ticks=None):
         axis.set_ticks([], minor=True)
     axes.set_xlabel(x)
     axes.set_ylabel(y)
+    axes.margins(x=0.15)
     axes.grid(alpha=0.3)
-    axes.legend()
     figure.savefig(FIGURES / name, dpi=100)
     plt.close(figure)
 
@@ -102,7 +118,7 @@ def accuracy():
         limit = min(limit, run("million", "doc/space/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
     J = limit["energy"]
     methods = {"uniform Q2": "hup2", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
-    table, curves = [], {}
+    table = []
     for label, method in methods.items():
         for limits in series():  # each a run of its own: CPU seconds of runs are known, not those of steps
             row = run(f"{method}-{'-'.join(map(str, limits.values()))}",
@@ -117,11 +133,19 @@ def accuracy():
                                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout)
         table += [("GetFEM, uniform Q2", n, energy, abs(1 - energy / J), round(cpu, 3))
                   for n, energy, cpu in json.loads(result.read_text())]
-    for label, n, _, error, cpu in table:
-        curves.setdefault(label, []).append((cpu, error))
     write("accuracy.csv", ["method", "dofs_free", "energy", "error", "cpu_seconds"], table)
-    chart("accuracy.png", "CPU time of a run [s]", "relative error of the energy", curves)
+    draw_accuracy()
     print(f"limit {J:.6f} at {limit['dofs_free']:.0f} unknowns")
+
+
+def draw_accuracy():
+    points = {}
+    for row in read("accuracy.csv"):
+        points.setdefault(row["method"], []).append((row["cpu_seconds"], row["error"]))
+    places = {"uniform Q2": (0, (8, 0)), "adaptive Q2": (0, (-8, 0)), "adaptive Q3": (0, (-8, 0)),
+              "adaptive Q4": (0, (8, 4)), "GetFEM, uniform Q2": (0, (8, 4))}
+    chart("accuracy.png", "CPU time of a run [s]", "relative error of the energy [-]",
+          {label: (points[label], *places[label]) for label in places if label in points})
 
 
 def million():
@@ -129,10 +153,15 @@ def million():
     columns = ["dofs_free", "multipliers", "newton_steps", "newton_cg", "newton_setups", "slipping", "lagrangian",
                "peak_memory", "seconds"]
     write("million.csv", columns, [[round(row[c], 6) for c in columns] for row in rows])
-    chart("million.png", "free unknowns", "conjugate-gradient steps of a mesh",
-          {"doc/space/slab-million.prm on 2 processes": [(r["dofs_free"], r["newton_cg"]) for r in rows]}, log_y=False)
+    draw_million()
     print("million: wall {run_wall:.0f} s, CPU of both {run_cpu:.0f} s, {bytes:.2f} GB".format(
         bytes=rows[-1]["peak_memory"] / 1e9, **rows[-1]))
+
+
+def draw_million():
+    points = [(row["dofs_free"], row["newton_cg"]) for row in read("million.csv")]
+    chart("million.png", "free displacement unknowns of a mesh [-]", "conjugate-gradient steps on it [-]",
+          {"doc/space/slab-million.prm on 2 processes": (points, 3, (-10, 6))}, log_y=False)
 
 
 def speedup():
@@ -157,13 +186,22 @@ def crossover():
         ratio = min(row["seconds"] / row["seconds_factor"] for row in runs["primal"])
         table.append([n, round(cpu["reduced"], 3), round(cpu["primal"], 3), round(ratio, 2)])
     write("crossover.csv", ["multipliers", "reduced_cpu_seconds", "primal_cpu_seconds", "step_over_factorisations"], table)
-    chart("crossover.png", "multipliers", "CPU time of a run [s]",
-          {"reduced path": [(r[0], r[1]) for r in table], "primal path": [(r[0], r[2]) for r in table]},
-          ticks=([250, 500, 1000, 2000], [0.3, 0.5, 1, 2, 3]))
+    draw_crossover()
     for row in table:
         print(*row)
 
 
+def draw_crossover():
+    rows = read("crossover.csv")
+    chart("crossover.png", "multipliers of friction [-]", "CPU time of a run [s]",
+          {f"{path} path": ([(row["multipliers"], row[f"{path}_cpu_seconds"]) for row in rows], -1, (-10, 6))
+           for path in ("reduced", "primal")}, ticks=([250, 500, 1000, 2000], [0.3, 0.5, 1, 2, 3]))
+
+
+if options.draw:
+    draw_accuracy()
+    draw_million()
+    draw_crossover()
 for part in (million, accuracy, crossover, speedup):
-    if part.__name__ not in options.without:
+    if not options.draw and part.__name__ not in options.without:
         part()
