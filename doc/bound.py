@@ -11,10 +11,12 @@ import os
 import pathlib
 import statistics
 
+import matplotlib.pyplot as plt
 import numpy as np
 
+from figures import read_csv
 from stability import (COLOURS, ERROR_LABEL, N_LABEL, Laboratory, chart, number, plain, progress,
-                       put_table, save, style)
+                       put_table, save, write_csv)
 
 HERE = pathlib.Path(__file__).resolve().parent
 GALLERY = HERE / "bound"
@@ -56,7 +58,7 @@ def method_settings(method, steps, indicator):
             "Output/Contact tables=false"]
 
 
-def measure(lab):
+def measure(lab, methods=METHODS, indicators=("residual", "bound")):
     """All runs by problem, method and indicator."""
     runs = {}
     for problem, (_, settings) in PROBLEMS.items():
@@ -64,8 +66,8 @@ def measure(lab):
         against = []
         if problem in OVERKILL:
             against = [lab.reference(scene, problem, *settings, unknowns=90000)[0]]
-        for method, steps in METHODS.items():
-            for indicator in ["residual"] if method == "hup2" else ["residual", "bound"]:
+        for method, steps in methods.items():
+            for indicator in ["residual"] if method == "hup2" else indicators:
                 progress(f"  {problem}, {method}, marked by {indicator}")
                 runs[problem, method, indicator] = lab.run(
                     scene, f"{problem}-{method}-{indicator}", *settings, *against,
@@ -73,35 +75,64 @@ def measure(lab):
     return runs
 
 
+def over_error(run):
+    """N, bound/error and indicator/error of those steps that round-off leaves alone."""
+    error = run.column("error_energy")
+    keep = (run.column("error_relative") > FLOOR) & (run.column("error_bound") > 0)
+    return (run.column(c)[keep] / d for c, d in (("dofs_free", 1), ("error_bound", error[keep]),
+                                                 ("estimate_scaled", error[keep])))
+
+
 def effectivities(runs):
     """Smallest and largest quotient of bound and indicator with the true error."""
     rows = []
-    figure, panels = chart(2, "Bound and indicator over the true error", width=13)
     for (problem, method, indicator), run in runs.items():
-        error = run.column("error_energy")
-        keep = (run.column("error_relative") > FLOOR) & (run.column("error_bound") > 0)
-        bound, estimate = run.column("error_bound")[keep] / error[keep], \
-            run.column("estimate_scaled")[keep] / error[keep]
+        _, bound, estimate = over_error(run)
         rows.append({"problem": PROBLEMS[problem][0], "method": method, "marked by": indicator,
-                     "steps": int(keep.sum()), "least bound/error": plain(bound.min(), 3),
+                     "steps": len(bound), "least bound/error": plain(bound.min(), 3),
                      "largest bound/error": plain(bound.max(), 2),
                      "last bound/error": plain(bound[-1], 2),
                      "indicator/error": f"{plain(estimate.min(), 1)} to {plain(estimate.max(), 1)}"})
-        if method == "hpa3" and indicator == "bound":
-            for axes, values in zip(panels, (bound, estimate)):
-                k = list(PROBLEMS).index(problem)
-                axes.semilogx(run.column("dofs_free")[keep], values, **style(k),
-                              linestyle="-" if k < len(COLOURS) else ":",
-                              label=PROBLEMS[problem][0])
-    for axes, what in zip(panels, ("guaranteed bound / true error",
-                                   "residual indicator / true error")):
-        axes.set(xlabel=N_LABEL, ylabel=what, yscale="log")
-        axes.axhline(1, color="black", linewidth=1)
-    panels[0].set_yticks([1, 1.2, 1.5, 2, 2.5], ["1", "1.2", "1.5", "2", "2.5"])
-    panels[0].set_yticks([], minor=True)
-    panels[1].legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1))
-    save(figure, "effectivity.png", PAGE)
     put_table("effectivity", rows, page=PAGE)
+
+
+def record_chart(runs):
+    """What the chart shows: hpa3, marked by the bound."""
+    write_csv(GALLERY / "chart.csv",
+              [{"problem": PROBLEMS[problem][0], "dofs_free": int(n), "bound/error": number(bound, 5),
+                "indicator/error": number(estimate, 5)}
+               for problem in PROBLEMS
+               for n, bound, estimate in zip(*over_error(runs[problem, "hpa3", "bound"]))])
+
+
+def draw_effectivity():
+    """From chart.csv, a panel for each problem; the last row has those that need another scale."""
+    wide = [problem for problem in PROBLEMS if "incompressible" in problem]
+    figure, panels = plt.subplots(4, 4, figsize=(12.5, 11), sharey="row", layout="constrained")
+    figure.suptitle("Guaranteed bound and residual indicator over the true error, hpa3 marked by the bound")
+    rows = read_csv(GALLERY / "chart.csv")
+    for axes, problem in zip(panels.flat, [p for p in PROBLEMS if p not in wide] + wide):
+        title = PROBLEMS[problem][0]
+        values = np.array([[float(row[c]) for c in ("dofs_free", "indicator/error", "bound/error")]
+                           for row in rows if row["problem"] == title]).T
+        axes.axhline(1, color="black", linewidth=1)
+        for k, (name, colour, marker) in enumerate((("indicator", COLOURS[1], "s"), ("bound", COLOURS[0], "o"))):
+            axes.loglog(values[0], values[k + 1], marker + "-", color=colour, markersize=4, linewidth=1.3)
+            ends = " to ".join(f"{end:.2f}" if end < 10 else f"{end:.0f}"
+                               for end in (values[k + 1].min(), values[k + 1].max()))
+            axes.text(0.97, 0.96 - 0.1 * k, f"{name} {ends}", transform=axes.transAxes, ha="right", va="top",
+                      fontsize=9, color=colour)
+        axes.set(title=title.replace("The same", "Stick-slip"), xlabel=N_LABEL, xlim=(50, 8e4))
+        ticks, top = ([1, 10, 100, 1000], 2e5) if problem in wide else ([1, 1.5, 2, 3, 5], 14)
+        axes.set_ylim(0.9, top)
+        axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.set_yticks([], minor=True)
+        axes.grid(alpha=0.3)
+    for axes in panels.flat[len(PROBLEMS):]:
+        axes.set_axis_off()
+    for axes in panels[:, 0]:
+        axes.set_ylabel("over the true error [-]")
+    save(figure, "effectivity.png", PAGE)
 
 
 def marking(runs):
@@ -256,15 +287,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
-    parser.add_argument("--only", choices=["cost"], help="measure nothing else")
+    parser.add_argument("--only", choices=["cost", "chart"],
+                        help="measure nothing else than the time, or than what the chart of effectivities shows")
+    parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
     arguments = parser.parse_args()
+    if arguments.draw:
+        draw_effectivity()
+        return
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     GALLERY.mkdir(exist_ok=True)
     lab = Laboratory(str(pathlib.Path(arguments.program).resolve()), arguments.output.resolve())
     lab.home.mkdir(parents=True, exist_ok=True)
+    if arguments.only == "chart":
+        record_chart(measure(lab, {"hpa3": METHODS["hpa3"]}, ["bound"]))
+        draw_effectivity()
+        return
     if not arguments.only:
         runs = measure(lab)
         effectivities(runs)
+        record_chart(runs)
+        draw_effectivity()
         marking(runs)
         intervals(runs)
         shares(runs)
