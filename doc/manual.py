@@ -8,10 +8,13 @@ Doxygen makes HTML of them, with MathJax from Debian beside it: no network is ne
 Doxygen warns of ends the run.
 """
 import argparse
+import csv
 import html
+import json
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -199,18 +202,53 @@ def entries_page(program):
     return text.replace("@ENTRIES@", "\n".join(lines))
 
 
-def results_page(program, output):
-    """The page's commands are run, and what they print is put behind them."""
-    directory = output / "runs"
-    directory.mkdir()
-
+def with_results(text, program, directory):
+    """What a page asks for is computed: a scene that it says to write is written, `@RUN arguments@` gives way to the
+    command and what it prints, `@RUN 2: arguments@` if it ends with status 2, `@ROWS NAME: columns; k@` to k rows, evenly
+    spaced, of the last contact table of the run NAME, and `@JSON NAME: member@` to that member of its summary.json."""
     def printed(match):
-        *settings, scene = match[1].split()
-        words = run(program, *settings, ROOT / scene, cwd=directory,
-                    env={**os.environ, "OMP_NUM_THREADS": "1"})
-        return f"```\n$ ./run {match[1]}\n{words}```"
-    text = doxygen_math((PAGES / "results.md").read_text())
-    return re.sub(r"^@RUN (.*)@$", printed, text, flags=re.M)
+        arguments = shlex.split(match[2])
+        scene = directory / arguments[-1]
+        command = [program, *arguments[:-1], arguments[-1] if scene.exists() else ROOT / arguments[-1]]
+        if arguments[0] == "-np":
+            command = ["mpirun", "--oversubscribe", "--bind-to", "none", *arguments[:2], program,
+                       *arguments[2:-1], command[-1]]
+        done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, cwd=directory,
+                              env={**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                                   "OMPI_MCA_mpi_yield_when_idle": "1"})
+        if done.returncode != int(match[1] or 0):
+            sys.exit(f"manual.py: {match[0]} ends with status {done.returncode}\n{done.stdout}")
+        words = done.stdout.replace(f"{ROOT}/", "")
+        return f"```\n$ ./run {match[2]}\n{words}```"
+
+    def rows(match):
+        names = match[2].split(", ")
+        with sorted((directory / "output" / match[1]).glob("contact-*.csv"))[-1].open() as file:
+            table = list(csv.DictReader(file))
+        chosen = [table[round(k * (len(table) - 1) / (int(match[3]) - 1))] for k in range(int(match[3]))]
+        lines = [names, ["---"] * len(names), *([short(row[name]) for name in names] for row in chosen)]
+        return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+    def member(match):
+        summary = json.loads((directory / "output" / match[1] / "summary.json").read_text())
+        return f"```{{.json}}\n{json.dumps(summary[match[2]], indent=2)}\n```"
+
+    directory.mkdir(exist_ok=True)
+    for name, scene in re.findall(r"`(\w+\.prm)`:\n\n```\n(.*?)```", text, re.S):
+        (directory / name).write_text(scene)
+    text = re.sub(r"^@RUN (?:(\d): )?(.*)@$", printed, doxygen_math(text), flags=re.M)
+    text = re.sub(r"^@ROWS (\w+): (.*); (\d+)@$", rows, text, flags=re.M)
+    return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
+
+
+def short(field):
+    """A number with five digits; what is none stays."""
+    try:
+        return f"{float(field):.5g}"
+    except ValueError:
+        return field
 
 
 def images_of(text, sources):
@@ -233,9 +271,9 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    pages["results"] = results_page(program, output)
-    for name in ("index", "introduction", "extensions", "columns", "contributing"):
-        pages[name] = doxygen_math((PAGES / f"{name}.md").read_text())
+    for name in ("index", "introduction", "unilateral", "coulomb", "space", "processes", "results",
+                 "extensions", "columns", "contributing"):
+        pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \
         commented_source(ROOT / "doc/tutorial/tresca_friction.cc")

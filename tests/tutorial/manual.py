@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the pages of doc/manual tell a user to write is what the program takes: their scenes are valid, the scenes and entries that
+they name exist, and each page is built, found from the others, and named by an anchor of its own.
+
+manual.py HPVI ROOT
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HPVI, ROOT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+PAGES = {path.stem: path.read_text() for path in sorted((ROOT / "doc/manual").glob("*.md"))}
+
+
+def entries():
+    """Section/Entry of all that the program knows, Boundary NAME for each boundary."""
+    section, found = "", set()
+    listing = subprocess.run([HPVI, "--print-parameters"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    for line in map(str.strip, listing.splitlines()):
+        if line.startswith("subsection "):
+            section = re.sub("Boundary .*", "Boundary NAME", line[len("subsection "):])
+        elif line.startswith("set "):
+            found.add(f"{section}/{line[4:].split('=')[0].strip()}")
+    return found
+
+
+def scene_problems(name, text):
+    """Scenes that a page says to write are valid."""
+    problems = []
+    with tempfile.TemporaryDirectory() as directory:
+        for scene, content in re.findall(r"`(\w+\.prm)`:\n\n```\n(.*?)```", text, re.S):
+            path = pathlib.Path(directory) / scene
+            path.write_text(content)
+            done = subprocess.run([HPVI, "--validate", path], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            if done.returncode != 0:
+                problems.append(f"{name}.md: {done.stdout.strip()}")
+    return problems
+
+
+def name_problems(name, text, known):
+    """Scenes of prm/ and entries that a page names are there."""
+    sections = "|".join(sorted({re.escape(entry.split("/")[0]) for entry in known} - {""}))
+    problems = [f"{name}.md names {scene}, which is not there" for scene in set(re.findall(r"\bprm/[\w-]+\.prm", text))
+                if not (ROOT / scene).exists()]
+    for entry in set(re.findall(rf"[`\"]((?:{sections})/[A-Z][\w' -]*?)\s*[=`\"]", re.sub("Boundary [a-z]+/", "Boundary NAME/", text))):
+        if entry not in known:
+            problems.append(f"{name}.md names the entry {entry}, which is unknown")
+    return problems
+
+
+def main():
+    known, problems = entries(), []
+    header, builder = (ROOT / "doc/manual/header.html").read_text(), (ROOT / "doc/manual.py").read_text()
+    if len(re.findall(r"`\w+\.prm`:\n\n```\n", "".join(PAGES.values()))) < 3:
+        problems.append("the manual's scenes are not found any more")
+    for name, text in PAGES.items():
+        problems += scene_problems(name, text) + name_problems(name, text, known)
+        if f"{name}.html" not in header or f'"{name}"' not in builder:
+            problems.append(f"{name}.md is not in header.html, or not built by doc/manual.py")
+        if name not in ("index", "tutorial") and f"{{#{name}}}" not in text:
+            problems.append(f"{name}.md has no anchor {{#{name}}}")
+    sys.exit("\n".join(problems) or 0)
+
+
+if __name__ == "__main__":
+    main()
