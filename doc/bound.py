@@ -188,7 +188,7 @@ def intervals(runs):
             axes.plot(N, values, marker + "-", color=COLOURS[0 if marker == "v" else 1],
                       markersize=4, label=label)
         axes.set_xscale("log")
-        axes.set_yscale("symlog", linthresh=1e-7, linscale=0.4)
+        axes.set_yscale("symlog", linthresh=1e-7, linscale=1)
         axes.set_yticks([sign * 10.0 ** k for sign in (-1, 1) for k in range(-7, -1)] + [0])
         axes.set(title=f"{PROBLEMS[problem][0]}: J(u) = {centre:.6f} ± {(upper - lower) / 2:.0e}",
                  xlabel=N_LABEL, ylabel="(end - J(u)) / |J(u)| [-], linear within 1e-7")
@@ -288,7 +288,7 @@ def main():
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
     parser.add_argument("--only", choices=["cost", "chart"],
-                        help="measure nothing else than the time, or than what the chart of effectivities shows")
+                        help="measure nothing else than the time, or than what the charts of effectivities and intervals show")
     parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
     arguments = parser.parse_args()
     if arguments.draw:
@@ -299,8 +299,10 @@ def main():
     lab = Laboratory(str(pathlib.Path(arguments.program).resolve()), arguments.output.resolve())
     lab.home.mkdir(parents=True, exist_ok=True)
     if arguments.only == "chart":
-        record_chart(measure(lab, {"hpa3": METHODS["hpa3"]}, ["bound"]))
+        runs = measure(lab, {"hpa3": METHODS["hpa3"]}, ["bound"])
+        record_chart(runs)
         draw_effectivity()
+        intervals(runs)
         return
     if not arguments.only:
         runs = measure(lab)

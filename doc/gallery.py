@@ -132,14 +132,16 @@ def on_paper(x):
     return x @ np.array(PAPER).T
 
 
-def name_edges(axes, box):
-    """Below, to the right and to the left of the body: where it begins and ends in each direction."""
+def name_edges(axes, box, drawn):
+    """Below and to the right of what is drawn of the body: where it begins and ends in each direction."""
     low, high = box.points.min(axis=(0, 1, 2, 3)), box.points.max(axis=(0, 1, 2, 3))
     middle = (low + high) / 2
-    for axis, place, offset, side in ((0, (middle[0], low[1], low[2]), (-4, -6), {"ha": "right", "va": "top"}),
-                                      (1, (high[0], middle[1], high[2]), (5, 0), {"ha": "left", "va": "center"}),
-                                      (2, (high[0], low[1], middle[2]), (5, -5), {"ha": "left", "va": "top"})):
-        axes.annotate(f"{'xyz'[axis]}: {low[axis]:g} to {high[axis]:g}", on_paper(np.array(place)), offset,
+    below, beside = (on_paper(np.array(place)) for place in ((middle[0], low[1], low[2]), (high[0], low[1], middle[2])))
+    right = drawn[:, 0].max(), on_paper(np.array((high[0], middle[1], high[2])))[1]
+    for axis, place, offset, side in ((0, below, (-4, -8), {"ha": "right", "va": "top"}),
+                                      (1, right, (5, 0), {"ha": "left", "va": "center"}),
+                                      (2, beside, (5, -5), {"ha": "left", "va": "top"})):
+        axes.annotate(f"{'xyz'[axis]}: {low[axis]:g} to {high[axis]:g}", place, offset,
                       textcoords="offset points", fontsize=9, **side)
 
 
@@ -150,11 +152,12 @@ def draw_box(figure, axes, run):
     scale = deformation_scale(box)
     stresses = np.concatenate([stress.ravel() for _, _, stress in patches])
     limit = np.quantile(stresses, 0.995)
-    for points, displacement, stress in patches:
-        for cell, values in zip(on_paper(points + scale * displacement), stress[..., 0]):
+    drawn = [on_paper(points + scale * displacement) for points, displacement, _ in patches]
+    for cells, (_, _, stress) in zip(drawn, patches):
+        for cell, values in zip(cells, stress[..., 0]):
             colours = axes.pcolormesh(cell[..., 0], cell[..., 1], values, cmap="viridis",
                                       shading="gouraud", vmin=0, vmax=limit, rasterized=True)
-    name_edges(axes, box)
+    name_edges(axes, box, np.concatenate([cells.reshape(-1, 2) for cells in drawn]))
     axes.set_aspect("equal")
     axes.set_axis_off()
     add_stress_bar(figure, axes, colours, run, stresses.max() > limit, location="bottom", shrink=0.8)
@@ -170,7 +173,7 @@ def draw_foundation(axes, run, rows):
     some = np.flatnonzero(size > 0.02 * size.max())[::max(1, len(x) // 150)]
     axes.quiver(x[some], z[some], t_x[some], t_z[some], width=0.004, color="#333333", scale=20 * size.max())
     axes.margins(0.1)
-    axes.set_title(label(f"friction on the body,\nup to {size.max():.2g}", run.stress, "stress"), fontsize=9)
+    axes.set_title(f"friction on the body,\nup to {size.max():.2g} {run.stress or 'units of stress'}", fontsize=9)
     tidy(axes, "xz", run)
 
 
