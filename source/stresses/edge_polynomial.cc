@@ -165,7 +165,7 @@ std::vector<double> EdgePolynomial::zeros() const
   for (const double right : extremes()) // in between it is monotonic
   {
     const double at_right = (*this)(right);
-    if (at_left * at_right < 0.)
+    if ((at_left < 0. && at_right > 0.) || (at_left > 0. && at_right < 0.)) // products underflow
       result.push_back(zero_between(left, right, at_left, at_right));
     if (at_right != 0.)
     {

@@ -127,6 +127,9 @@ TEST(EdgePolynomial, FindsAllZerosAndExtremes)
     EXPECT_LE(polynomial(s), highest + 1e-16);
     EXPECT_GE(polynomial(s), lowest - 1e-16);
   }
+  for (double &value : values)
+    value *= 1e-200; // whose products are zero
+  EXPECT_EQ(EdgePolynomial::through(values, gauss).zeros().size(), zeros.size());
   EXPECT_TRUE(EdgePolynomial().zeros().empty());
   EXPECT_TRUE(EdgePolynomial::constant(1.).zeros().empty());
 }
@@ -530,7 +533,7 @@ TEST(ContactCorrection, TakesPenetrationAway)
       const Solution<2> solution = lab.solve();
       const ContactCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
                                       AdmissiblePressure<2>(solution), nullptr);
-      EXPECT_FALSE(slip.fails());
+      EXPECT_EQ(slip.penetration(), 0.);
       const auto penetration = [&](const Vector<double> &v)
       {
         double result = 0;
@@ -596,7 +599,7 @@ TEST(AdmissiblePressure, IsInBalanceAndPushes)
       const Laboratory lab(scene, mesh);
       const Solution<2> solution = lab.solve();
       const AdmissiblePressure<2> pressure(solution);
-      EXPECT_FALSE(pressure.fails());
+      EXPECT_EQ(pressure.tension(), 0.);
       std::map<unsigned int, std::array<double, 2>> missing; // force and moment by vertex
       double scale = 0;
       for (unsigned int k = 0; k < lab.contact_space.faces().size(); ++k)
