@@ -10,6 +10,7 @@
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/dense_work.h>
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
@@ -91,6 +92,7 @@ struct AdaptiveSolver<dim>::Stages
   const TrueError<dim> true_error;
   ErrorBounds error_bounds;
   std::string no_bound;                        ///< why the current step has none
+  double bound_imbalance = 0;                  ///< as StepReport has it
   std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as the next
   std::vector<MissedDisplacement<dim>> missed;
   std::unique_ptr<const Discretisation<dim>> discretisation;
@@ -333,9 +335,16 @@ template <int dim>
 std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim> &solution)
 {
   no_bound = scene.error_bound ? scene.no_error_bound() : "Error/Bound = false";
+  bound_imbalance = std::numeric_limits<double>::quiet_NaN();
   if (no_bound.empty() && !unresolved.empty())
-    no_bound = lower_case(unresolved[0].name.substr(0, 1)) + unresolved[0].name.substr(1) +
-               " is not resolved near (" + to_string(unresolved[0].where) + ")";
+  {
+    const UnresolvedLoad<dim> &worst =
+        *std::max_element(unresolved.begin(), unresolved.end(),
+                          [](const auto &a, const auto &b) { return a.deviation < b.deviation; });
+    no_bound = lower_case(worst.name.substr(0, 1)) + worst.name.substr(1) +
+               " is not resolved near " + to_string(worst.where) + ", by " +
+               text(worst.deviation / loads->sum().absolute, 2) + " of all loads";
+  }
   if (!no_bound.empty())
     return {};
   begin("bounding the error of " + std::to_string(degrees.size()) + " elements");
@@ -343,6 +352,7 @@ std::optional<ErrorBound> AdaptiveSolver<dim>::Stages::bound(const Solution<dim>
   const ErrorBound result = error_bounds.compute(solution, *discretisation, std::move(kept_factor),
                                                  history.empty() ? 0. : history.back().own_stress);
   no_bound = std::isfinite(result.total) ? result.flaw : "it is not finite";
+  bound_imbalance = result.imbalance;
   return no_bound.empty() ? std::optional<ErrorBound>(result) : std::nullopt;
 }
 
@@ -484,6 +494,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report(const Solution<dim> &solutio
           history.back().relative_estimate,
           bound,
           no_bound,
+          bound_imbalance,
           history.back().relative_bound,
           step_energies,
           contact,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace hpvi
 {
@@ -31,6 +32,7 @@ struct PressedFace
   std::array<Vector<double>, 2> wanted, t; ///< psi_a z_n; t_a
   std::array<unsigned int, 2> vertices;
   const void *boundary;
+  bool is_balanced = true; ///< has pi the moments of z_n, or its force alone?
 
   EdgePolynomial pressure() const
   {
@@ -148,17 +150,25 @@ PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solu
   return result;
 }
 
+/** What pressures of some faces have to have in common with z_n. */
+enum class Balance
+{
+  force_and_moment, ///< of each patch
+  force             ///< of all
+};
+
 /** The program that neighbouring faces share. */
 class NeighbourhoodProgram
 {
 public:
-  NeighbourhoodProgram(const std::vector<PressedFace *> &faces, double scale);
+  NeighbourhoodProgram(std::vector<PressedFace *> faces, double scale);
 
-  bool solve(); ///< set t of the faces; false: there are none
+  bool solve(Balance balance); ///< set t of the faces; false: there are none
 
 private:
   InequalityProgram start() const;
   bool add_balance(InequalityProgram &program) const;
+  bool add_force(InequalityProgram &program) const;
   bool add_rims(InequalityProgram &program) const;
   void add_bound(unsigned int face, double s, InequalityProgram &program) const;
   unsigned int unknown(const unsigned int face, const unsigned int end) const
@@ -166,14 +176,14 @@ private:
     return first[face] + end * faces[face]->n;
   }
 
-  const std::vector<PressedFace *> &faces;
+  const std::vector<PressedFace *> faces;
   const double scale;
   std::vector<unsigned int> first;
 };
 
-NeighbourhoodProgram::NeighbourhoodProgram(const std::vector<PressedFace *> &faces,
+NeighbourhoodProgram::NeighbourhoodProgram(std::vector<PressedFace *> some_faces,
                                            const double scale)
-    : faces(faces), scale(scale), first{0}
+    : faces(std::move(some_faces)), scale(scale), first{0}
 {
   for (const PressedFace *face : faces)
     first.push_back(first.back() + 2 * face->n);
@@ -227,6 +237,36 @@ bool NeighbourhoodProgram::add_balance(InequalityProgram &program) const
   return true;
 }
 
+/** The force of all faces, and `t_a = psi_a pi`: `s t_0 = (1 - s) t_1` at as many points as that has coefficients. */
+bool NeighbourhoodProgram::add_force(InequalityProgram &program) const
+{
+  Vector<double> force(first.back());
+  double of_force = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      force[unknown(k, end)] = mean * faces[k]->length / faces[0]->length;
+      of_force += faces[k]->force[end] / faces[0]->length;
+    }
+  if (!program.add_equality(force, std::max(0., of_force)))
+    return false;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    for (unsigned int i = 0, n = faces[k]->n; i <= n; ++i)
+    {
+      const double s = 0.5 - 0.5 * std::cos(numbers::PI * i / n);
+      const Vector<double> L = legendre_basis(n, s);
+      Vector<double> row(first.back());
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        row[unknown(k, 0) + j] = s * L[j];
+        row[unknown(k, 1) + j] = (s - 1.) * L[j];
+      }
+      if (!program.add_equality(row, 0.))
+        return false;
+    }
+  return true;
+}
+
 /** A skew face has no traction at the rim of a patch, where the shear would have to follow it. */
 bool NeighbourhoodProgram::add_rims(InequalityProgram &program) const
 {
@@ -253,11 +293,11 @@ void NeighbourhoodProgram::add_bound(const unsigned int face, const double s,
   program.add_inequality(row, 0.);
 }
 
-bool NeighbourhoodProgram::solve()
+bool NeighbourhoodProgram::solve(const Balance balance)
 try
 {
   InequalityProgram program = start();
-  if (!add_balance(program) || !add_rims(program))
+  if (balance == Balance::force ? !add_force(program) : !add_balance(program) || !add_rims(program))
     return false;
   for (unsigned int k = 0; k < faces.size(); ++k)
     for (unsigned int i = 0, n = 2 * faces[k]->n; i <= n; ++i)
@@ -304,11 +344,12 @@ class Neighbourhoods
 public:
   Neighbourhoods(std::map<unsigned int, PressedFace> &faces, double scale);
 
-  bool solve(); ///< false: one has no admissible pressure, however large
+  bool solve(); ///< false: a face has no admissible pressure
 
 private:
   bool are_neighbours(unsigned int k) const;
   bool solve(const Neighbourhood &neighbourhood);
+  bool redistribute(Neighbourhood &neighbourhood);
   bool grow(Neighbourhood &neighbourhood) const;
   void merge();
 
@@ -342,8 +383,35 @@ bool Neighbourhoods::solve(const Neighbourhood &neighbourhood)
 {
   std::vector<PressedFace *> members;
   for (unsigned int k = neighbourhood.first; k <= neighbourhood.last; ++k)
+  {
     members.push_back(&faces.at(k));
-  return NeighbourhoodProgram(members, scale).solve();
+    members.back()->is_balanced = true;
+  }
+  return NeighbourhoodProgram(members, scale).solve(Balance::force_and_moment);
+}
+
+/**
+ * No pressure has the moment of a force that stands in a corner. So each face on which z_n is negative
+ * keeps its force alone, and the neighbourhood shrinks to these.
+ */
+bool Neighbourhoods::redistribute(Neighbourhood &neighbourhood)
+{
+  Neighbourhood rest{neighbourhood.last, neighbourhood.first, true};
+  for (unsigned int k = neighbourhood.first; k <= neighbourhood.last; ++k)
+  {
+    PressedFace &face = faces.at(k);
+    for (unsigned int end = 0; end < 2; ++end)
+      face.t[end] = own_part(face, end);
+    if (face.least() >= -round_off * scale)
+      continue;
+    if (!NeighbourhoodProgram({&face}, scale).solve(Balance::force))
+      return false;
+    face.is_balanced = false;
+    rest.first = std::min(rest.first, k);
+    rest.last = k;
+  }
+  neighbourhood = rest;
+  return true;
 }
 
 bool Neighbourhoods::grow(Neighbourhood &neighbourhood) const
@@ -380,7 +448,7 @@ bool Neighbourhoods::solve()
       if (!one.is_solved)
       {
         one.is_solved = solve(one);
-        if (!one.is_solved && !grow(one))
+        if (!one.is_solved && !grow(one) && !redistribute(one))
           return false;
       }
     merge();
@@ -404,10 +472,16 @@ AdmissiblePressure<dim>::AdmissiblePressure(const Solution<dim> &solution)
       for (const unsigned int pressure : face.pressures)
         scale = std::max(scale, std::abs(solution.z[pressure]));
     }
-  has_failed = !Neighbourhoods(faces, scale).solve();
+  const bool is_admissible = Neighbourhoods(faces, scale).solve();
   for (const auto &[k, face] : faces)
+  {
     for (unsigned int end = 0; end < 2; ++end)
       parts[k][end] = EdgePolynomial({face.t[end].begin(), face.t[end].end()});
+    if (!face.is_balanced)
+      redistributed.push_back(k);
+    if (!is_admissible)
+      largest_tension = std::max(largest_tension, -face.least() / scale);
+  }
 }
 
 template <int dim>
@@ -424,9 +498,52 @@ EdgePolynomial AdmissiblePressure<dim>::value(const unsigned int face) const
 }
 
 template <int dim>
-bool AdmissiblePressure<dim>::fails() const
+double AdmissiblePressure<dim>::tension() const
 {
-  return has_failed;
+  return largest_tension;
+}
+
+template <int dim>
+bool AdmissiblePressure<dim>::is_balanced() const
+{
+  return redistributed.empty();
+}
+
+template <int dim>
+Vector<double> AdmissiblePressure<dim>::missing_forces(const Solution<dim> &solution) const
+{
+  Vector<double> result(solution.u.size());
+  for (const unsigned int k : redistributed)
+  {
+    const ContactFace<dim> &face = solution.contact_space.faces()[k];
+    const unsigned int n = face.degree + 1;
+    const Tensor<1, dim> normal = face.frame(0.5).normal;
+    const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+    const std::vector<unsigned int> &on_edge =
+        solution.tables.numbering(face.degree).edge[face.face_no];
+    const auto add = [&](const unsigned int node, const double force)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        result[dofs[on_edge[c * n + node]]] += force * normal[c];
+    };
+    // z_n at the nodes has their weights, as a multiplier it is integrated.
+    const EdgePolynomial pi = value(k), z = discrete_pressure(face, solution);
+    const QGaussLobatto<1> &nodes = solution.tables.gauss_lobatto(n);
+    for (unsigned int j = 0, i = 0; face.at_nodes && j < n && i < face.pressures.size(); ++j)
+      if (face.normal_points[i] == nodes.point(j)[0])
+        add(j, face.length * nodes.weight(j) * solution.z[face.pressures[i++]]);
+    const unsigned int n_gauss = pi.coefficients().size() + 1;
+    const QGauss<1> &gauss = solution.tables.gauss(n_gauss);
+    const FullMatrix<double> &shapes =
+        solution.tables.edge(face.degree, face.n_points, n_gauss).shapes;
+    for (unsigned int q = 0; q < n_gauss; ++q)
+    {
+      const double s = gauss.point(q)[0], rest = (face.at_nodes ? 0. : z(s)) - pi(s);
+      for (unsigned int j = 0; j < n; ++j)
+        add(j, face.length * gauss.weight(q) * rest * shapes(q, j));
+    }
+  }
+  return result;
 }
 
 template <int dim>

@@ -2,7 +2,6 @@
 #include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/admissibility/correction_search.h>
 
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -29,7 +28,7 @@ ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
   typename CorrectionSearch<dim>::Candidate best = search.nothing();
   uncorrected = best.gaps;
   best = search.best(std::move(best));
-  has_failed = !std::isfinite(best.total);
+  depth = best.penetration;
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   cell_energies = search.energies(w);
@@ -54,9 +53,9 @@ const std::vector<double> &ContactCorrection<dim>::energy() const
 }
 
 template <int dim>
-bool ContactCorrection<dim>::fails() const
+double ContactCorrection<dim>::penetration() const
 {
-  return has_failed;
+  return depth;
 }
 
 template <int dim>

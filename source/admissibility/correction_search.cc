@@ -33,6 +33,20 @@ double largest_value(const EdgePolynomial &polynomial, const double round_off)
   return result;
 }
 
+/** The polynomial over that of degree 1 or 2 which vanishes at some ends and is 1 at the other, or s (1 - s). */
+EdgePolynomial divided(const EdgePolynomial &polynomial, const std::array<bool, 2> &ends,
+                       const ShapeTables<2> &tables)
+{
+  const QGauss<1> &gauss = tables.gauss(polynomial.coefficients().size());
+  std::vector<double> values;
+  for (const Point<1> &point : gauss.get_points())
+  {
+    const double s = point[0];
+    values.push_back(polynomial(s) / ((ends[0] ? s : 1.) * (ends[1] ? 1. - s : 1.)));
+  }
+  return EdgePolynomial::through(values, gauss);
+}
+
 /**
  * How many degrees edge bubbles have beyond the cell's. Measured: with eight the bound is a twentieth lower near
  * incompressibility, where it is harder to move in one cell; elsewhere by up to a twentieth, not worth their matrices.
@@ -219,44 +233,75 @@ void CorrectionSearch<dim>::add_columns(const unsigned int cell,
   }
 }
 
-/** The largest of u_Nn - w_n - u_0, and at each vertex that of its faces. */
+/** Is the normal displacement at an end of a face prescribed, so that w_n vanishes there? */
 template <int dim>
-double CorrectionSearch<dim>::penetration(const Vector<double> &w,
-                                          std::map<unsigned int, double> &heights) const
+std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) const
+{
+  const unsigned int n = faces[face].degree + 1;
+  const Tensor<1, dim> normal = faces[face].frame(0.5).normal;
+  const auto dofs = solution.displacement_space.cell_dofs(faces[face].cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(faces[face].degree).edge[faces[face].face_no];
+  std::array<bool, 2> result{};
+  for (unsigned int end = 0; end < 2; ++end)
+    for (unsigned int c = 0; c < dim; ++c)
+      result[end] =
+          result[end] ||
+          (std::abs(normal[c]) > 1e-12 &&
+           discretisation.unknowns.terms(dofs[on_edge[c * n + (end == 0 ? 0 : n - 1)]]).size() ==
+               0);
+  return result;
+}
+
+/** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces. */
+template <int dim>
+double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heights) const
 {
   double result = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {
-      const double height = largest_value(openings[k]->penetration.rest(w), tolerance);
-      result = std::max(result, height);
+      const EdgePolynomial rest = openings[k]->penetration.rest(w);
+      const double depth = largest_value(rest, tolerance);
+      result = std::max(result, depth);
+      if (depth == 0.)
+        continue;
+      const std::array<bool, 2> held = held_ends(k);
+      const double height = held[0] || held[1]
+                                ? largest_value(divided(rest, held, solution.tables), tolerance)
+                                : depth;
+      if (held[0] && held[1])
+        heights.on_faces[k] = height;
       for (unsigned int end = 0; end < 2; ++end)
-      {
-        double &at_vertex = heights[faces[k].cell->face(faces[k].face_no)->vertex_index(end)];
-        at_vertex = std::max(at_vertex, height);
-      }
+        if (!held[end])
+        {
+          double &at_vertex =
+              heights.at_vertices[faces[k].cell->face(faces[k].face_no)->vertex_index(end)];
+          at_vertex = std::max(at_vertex, height);
+        }
     }
   return result;
 }
 
 /**
- * w_n += a piecewise linear function that takes away what penetrates; false: supports are in the way of more
- * than round-off.
+ * w_n += a function that takes away what penetrates, linear along each face, quadratic where both ends are held. Returns
+ * by how much it still does, because supports are in the way; 0 where that is round-off.
  */
 template <int dim>
-bool CorrectionSearch<dim>::lift(Vector<double> &w) const
+double CorrectionSearch<dim>::lift(Vector<double> &w) const
 {
-  std::map<unsigned int, double> heights;
+  Heights heights;
   if (penetration(w, heights) <= tolerance)
-    return true;
+    return 0.;
   Vector<double> u(solution.u.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {
       const unsigned int n = faces[k].degree + 1;
       const auto face = faces[k].cell->face(faces[k].face_no);
-      const double first = heights[face->vertex_index(0)], last = heights[face->vertex_index(1)];
-      if (first == 0. && last == 0.)
+      const double first = heights.at_vertices[face->vertex_index(0)],
+                   last = heights.at_vertices[face->vertex_index(1)], inside = heights.on_faces[k];
+      if (first == 0. && last == 0. && inside == 0.)
         continue;
       const Tensor<1, dim> normal = faces[k].frame(0.5).normal;
       const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
@@ -268,13 +313,15 @@ bool CorrectionSearch<dim>::lift(Vector<double> &w) const
           const double s = solution.tables.gauss_lobatto(n).point(j)[0];
           if (const auto dof = dofs[on_edge[c * n + j]];
               discretisation.unknowns.terms(dof).size() > 0)
-            u[dof] = normal[c] * (1. + 1e-10) * (first + s * (last - first));
+            u[dof] =
+                normal[c] * (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
         }
     }
   const Vector<double> lifted = discretisation.unknowns.coordinates(u);
   for (unsigned int i = 0; i < lifted.size(); ++i)
     w[i] += lifted[i];
-  return penetration(w, heights) <= std::max(tolerance, 1e-13 * solution.u.linfty_norm());
+  const double rest = penetration(w, heights);
+  return rest <= std::max(tolerance, 1e-13 * solution.u.linfty_norm()) ? 0. : rest;
 }
 
 template <int dim>
@@ -286,9 +333,10 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::nothing() const
 template <int dim>
 typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::of(const Vector<double> &w) const
 {
-  Candidate result{w, {}, 0.};
-  const bool is_admissible = lift(result.w);
-  result.total = is_admissible ? A.energy(result.w) : std::numeric_limits<double>::infinity();
+  Candidate result{w, {}, 0., 0.};
+  result.penetration = lift(result.w);
+  result.total =
+      result.penetration > 0. ? std::numeric_limits<double>::infinity() : A.energy(result.w);
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     const EdgePolynomial rest = traces[k].rest(result.w);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace hpvi
 {
@@ -128,8 +129,25 @@ std::function<double(double)> prescribed_value(const Solution<2> &solution, cons
 struct Missed
 {
   std::array<Vector<double>, 2> value; ///< Legendre coefficients
-  double unread = 0; ///< by how much the polynomial differs from the data between its nodes
+  std::array<double, 2>
+      unread{}; ///< by how much the polynomial differs from the data between its nodes
+  Point<2> unread_at;
+
+  /** A polynomial that vanishes at both ends and oscillates by `unread`, beyond the degrees of value. */
+  std::array<Vector<double>, 2> oscillation() const;
 };
+
+std::array<Vector<double>, 2> Missed::oscillation() const
+{
+  const unsigned int n = value[0].size();
+  std::array<Vector<double>, 2> result{{Vector<double>(n + 2), Vector<double>(n + 2)}};
+  for (unsigned int c = 0; c < 2; ++c) // P_{n+1} - P_{n-1}
+  {
+    result[c][n + 1] = unread[c] / legendre::at_end(n + 1, true);
+    result[c][n - 1] = -unread[c] / legendre::at_end(n - 1, true);
+  }
+  return result;
+}
 
 Missed missed_displacement(const Solution<2> &solution, const EquilibratedStress &stress,
                            const unsigned int index)
@@ -164,9 +182,16 @@ Missed missed_displacement(const Solution<2> &solution, const EquilibratedStress
       at_nodes[k] = data(nodes.point(k)[0]);
     tables.from_nodes(n - 1).vmult(result.value[c], at_nodes);
     const std::vector<double> fine(result.value[c].begin(), result.value[c].end());
+    const double round_off = 1e-13 * at_nodes.linfty_norm(),
+                 before = std::max(result.unread[0], result.unread[1]);
     for (const double s : between)
-      result.unread =
-          std::max(result.unread, std::abs(legendre::evaluate(fine, 2 * s - 1) - data(s)));
+      if (const double missed = std::abs(legendre::evaluate(fine, 2 * s - 1) - data(s));
+          missed > std::max(round_off, result.unread[c]))
+      {
+        result.unread[c] = missed;
+        if (missed > before)
+          result.unread_at = map.point(point_on_face<2>(face, Point<1>(s)));
+      }
     for (unsigned int i = 0; i <= p; ++i)
       result.value[c][i] -= coarse[i];
     if (result.value[c].linfty_norm() <= 1e-14 * at_nodes.linfty_norm())
@@ -192,6 +217,17 @@ double boundary_work(const EquilibratedStress &stress, const unsigned int index,
          sum;
 }
 
+/** No less than int |s n| over an edge. */
+double absolute_traction(const EquilibratedStress &stress, const unsigned int index)
+{
+  double square = 0;
+  for (const std::vector<double> &component : stress.tractions()[index])
+    square += std::inner_product(component.begin(), component.end(), component.begin(), 0.);
+  const StressEdge::Side &side = stress.patches().edges()[index].sides[0];
+  return stress.patches().cells()[side.cell].iterator->face(side.face)->diameter() *
+         std::sqrt(square / 2);
+}
+
 } // namespace
 
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
@@ -214,11 +250,18 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       const Missed missed = missed_displacement(solution, stress, e);
       // two edges of a cell: the triangle inequality
       const auto &iterator = patches.cells()[cell].iterator;
-      lifts[cell] += std::sqrt(std::max(
-          0., lift_energy(map_of<2>(iterator), face, missed.value,
-                          HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables)));
+      for (const auto &part : {missed.value, missed.oscillation()})
+        lifts[cell] += std::sqrt(std::max(
+            0., lift_energy(map_of<2>(iterator), face, part,
+                            HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables)));
       lift_work += boundary_work(stress, e, missed);
-      unread = std::max(unread, missed.unread);
+      const double most = std::max(missed.unread[0], missed.unread[1]);
+      unread_work += most * absolute_traction(stress, e);
+      if (most > unread)
+      {
+        unread = most;
+        unread_at = missed.unread_at;
+      }
     }
   }
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)

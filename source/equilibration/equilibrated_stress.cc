@@ -654,7 +654,13 @@ void EquilibratedStress::solve_patches()
               {e, &edge, edge.at_boundary() ? &known[e][first ? 0 : 1] : nullptr, &sums[e]});
       }
     }
-    defect = std::max(defect, solve_patch(patch, edges, cache));
+    const PatchDefect missed = solve_patch(patch, edges, cache);
+    if (const double most = std::max(missed.equilibrium, missed.corners); !(most <= defect))
+    {
+      defect = most;
+      worst_vertex = vertex;
+      is_worst_in_corners = missed.corners > missed.equilibrium;
+    }
   }
   double largest = 0;
   for (const auto &edge : sums)

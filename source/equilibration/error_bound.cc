@@ -16,7 +16,9 @@
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
 #include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/admissibility/contact_correction.h>
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
 
@@ -125,7 +127,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
-               unknown = (result.stress + w + result.oscillation) * data.lift;
+               unknown = (result.stress + w + result.oscillation) * data.lift + data.unread_work;
   const bool is_admissible = !is_moved && data.lift == 0.; // u_N itself
   result.energy_above = is_admissible ? 0. : centre + unknown;
   result.energy_below = result.energy + unknown - centre;
@@ -134,35 +136,76 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
 // @sect3{When there is none}
 //
 // Each assumption of the theorem is checked on the way. If one fails there is no bound, and a
-// sentence that says why: a number that is nearly guaranteed is not guaranteed.
-std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
-                 const EquilibratedStress &stress, const ContactCorrection<2> &correction,
-                 const DataError &data)
+// sentence that says why, with the number: a bound that is nearly guaranteed is not guaranteed.
+/** Why the patch of cells about a vertex is out of balance. @p is_moved: contact is not that of the discrete solution. */
+std::string cause_of_imbalance(const EquilibratedStress &stress, const bool is_moved,
+                               const Point<2> &vertex, const double size)
 {
-  if (pressure.fails())
-    return "pressure is negative between the nodes of contact, and cannot be made admissible";
-  if (correction.fails())
-    return "the displacement penetrates the foundation between nodes, and supports keep it there";
-  if (!(data.unread <= 1e-8 * solution.u.linfty_norm()))
-    return "prescribed displacement or gap is not smooth along an edge";
-  if (!(stress.defect <= tolerable))
-    return "loads and contact are not in balance on some patch of cells";
-  return {};
+  if (stress.is_worst_in_corners)
+    return "two edges that meet there ask for different shears";
+  if (is_moved && stress.defect > 1e-6)
+    return "friction and pressure that keep their bounds everywhere do not balance the loads, and "
+           "no support carries the rest";
+  double smallest = size, longest = 1;
+  for (const VertexPatches::Cell &cell : stress.patches().cells())
+    for (const unsigned int v : cell.iterator->vertex_indices())
+      if (cell.iterator->vertex(v) == vertex)
+      {
+        const CellMap<2> map = map_of<2>(cell.iterator);
+        smallest = std::min(smallest, map.longest_edge());
+        longest = std::max(longest, map.longest_edge() / map.shortest_edge());
+      }
+  return "round-off, in cells of " + text(smallest / size, 2) + " of the body" +
+         (longest > 20 ? ", " + text(longest, 2) + " times as long as wide" : "");
 }
 
-// @sect3{A friction bound that varies}
+std::string flaw_of_balance(const Solution<2> &solution, const EquilibratedStress &stress,
+                            const bool is_moved)
+{
+  if (stress.defect <= tolerable)
+    return {};
+  const Point<2> &vertex = solution.spaces->mesh->get_vertices()[stress.worst_vertex];
+  const auto &corners = solution.scene.geometry.corners;
+  return "patches of cells are out of balance by up to " + text(stress.defect, 2) +
+         " of their stresses, at " + to_string(vertex) + ": " +
+         cause_of_imbalance(stress, is_moved, vertex, corners[0].distance(corners[3]));
+}
+
+std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
+                 const ContactCorrection<2> &correction, const DataError &data)
+{
+  const double largest = solution.u.linfty_norm();
+  if (pressure.tension() > 0.)
+    return "pressure is negative between the nodes of contact, by " + text(pressure.tension(), 2) +
+           " of the largest, and cannot be made admissible";
+  if (correction.penetration() > 0.)
+    return "the displacement penetrates the foundation between nodes, by " +
+           text(correction.penetration() / largest, 2) +
+           " of the largest, and supports keep it there";
+  const std::string &unit = solution.scene.length_unit;
+  if (!(data.unread <= 1e-8 * largest))
+    return "a prescribed displacement or gap is not smooth along the edge at " +
+           to_string(data.unread_at) + ", where polynomials miss it by " + text(data.unread, 2) +
+           (unit.empty() || unit == "1" ? "" : " " + unit);
+  return {};
+}
+// @sect3{A friction bound that varies, a force in a corner}
 //
 // Where $g$ varies between the points of the multiplier, friction within its bound may not do the
-// work of $z_N$, and no stress near $\sigma(u_N)$ is in balance with it. Forces that make up for the
+// work of $z_N$, and no pressure has the moment of a force that stands in a corner node. No stress near
+// $\sigma(u_N)$ is in balance with them then. Forces that make up for the
 // difference move $u_N$; near the stress of what they make of it there is one.
 std::optional<Solution<2>> moved(const Solution<2> &solution,
                                  const Discretisation<2> &discretisation,
                                  const AdmissibleFriction<2> &friction,
+                                 const AdmissiblePressure<2> &pressure,
                                  const LinearSolver *const factor)
 {
-  if (friction.imbalance() <= tolerable)
+  if (friction.imbalance() <= tolerable && pressure.is_balanced())
     return std::nullopt;
-  const Vector<double> forces = discretisation.unknowns.collect(friction.missing_forces(solution));
+  Vector<double> missing = friction.missing_forces(solution);
+  missing += pressure.missing_forces(solution);
+  const Vector<double> forces = discretisation.unknowns.collect(missing);
   Vector<double> u = discretisation.unknowns.expand(factor ? factor->solve(forces)
                                                            : discretisation.factor().solve(forces));
   discretisation.condensation.extend(u);
@@ -189,7 +232,7 @@ struct ErrorBounds::AdmissibleStress
                    const Discretisation<2> &discretisation, const LinearSolver *const factor,
                    EquilibrationCache &cache)
       : mixed(std::move(of_mixed_problem)), start(mixed ? *mixed : measured), friction(start),
-        pressure(start), balanced(moved(start, discretisation, friction, factor)),
+        pressure(start), balanced(moved(start, discretisation, friction, pressure, factor)),
         stress(
             balanced ? *balanced : start,
             [&](const unsigned int face, const unsigned int end)
@@ -289,12 +332,15 @@ try
   else
     set_energy(result, solution, discretisation, stress, correction, data);
   result.imbalance = stress.defect;
-  result.flaw = flaw(solution, made->pressure, stress, correction, data);
+  result.flaw = flaw(solution, made->pressure, correction, data);
+  if (result.flaw.empty())
+    result.flaw = flaw_of_balance(solution, stress, bool(made->balanced));
   return result;
 }
 catch (const NumericalFailure &failure)
 {
   ErrorBound result;
+  result.imbalance = std::numeric_limits<double>::quiet_NaN();
   result.flaw = std::string("a problem that the bound needs is not solved: ") + failure.what();
   return result;
 }

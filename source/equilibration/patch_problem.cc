@@ -68,7 +68,7 @@ public:
       blocks.push_back(blocks_of(cell));
   }
 
-  double solve();
+  PatchDefect solve();
 
 private:
   unsigned int place(unsigned int edge) const;
@@ -342,7 +342,7 @@ std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vecto
   return x;
 }
 
-double PatchProblem::solve()
+PatchDefect PatchProblem::solve()
 {
   const auto [found, is_new] = cache.patches.try_emplace(signature());
   found->second.is_used = true;
@@ -363,10 +363,15 @@ double PatchProblem::solve()
       for (unsigned int i = 0; i < sum.size(); ++i)
         sum[i] += found[i];
     }
-  double largest = 0;
-  for (const double value : right)
-    largest = std::max(largest, std::abs(value));
-  return largest;
+  PatchDefect result;
+  auto value = right.begin();
+  for (const PatchCell &cell : cells)
+    for (unsigned int k = 0; k < cell.element.n_conditions; ++k, ++value)
+    {
+      double &largest = k < 3 ? result.equilibrium : result.corners; // three motions come first
+      largest = std::max(largest, std::abs(*value));
+    }
+  return result;
 }
 } // namespace
 
@@ -403,8 +408,8 @@ TractionEnergy traction_energy(const MacroStressElement &element)
           {element.conditions().data(), element.n_edges}};
 }
 
-double solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
-                   EquilibrationCache &cache)
+PatchDefect solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
+                        EquilibrationCache &cache)
 {
   return PatchProblem(cells, edges, cache).solve();
 }

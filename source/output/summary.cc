@@ -46,7 +46,8 @@ std::string bound_json(const StepReport<dim> &step)
   if (!step.bound)
     return "null";
   const double energy = step.energies.energy; // J(u_N)
-  return "{\n    \"guaranteed\": true,\n    \"energy_norm\": " + json_number(step.bound->total) +
+  return "{\n    \"step\": " + text(step.number) +
+         ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + json_number(step.bound->total) +
          ",\n    \"relative\": " + json_number(step.relative_bound) +
          ",\n    \"imbalance\": " + json_number(step.bound->imbalance) + ",\n    \"energy\": [" +
          json_number(energy - step.bound->energy_below) + ", " +
@@ -58,6 +59,9 @@ template <int dim>
 void Summary::add(const StepReport<dim> &step, const Record &row)
 {
   ++steps;
+  if (step.bound || step.load.number != load_step)
+    last_error_bound = bound_json(step);
+  load_step = step.load.number;
   last_row = row;
   times += step.times;
   stopped_by = step.stopped_by;
@@ -101,6 +105,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
                     {"loading", loading_json(load, scene.loading.steps)},
                     {"error_bound", ending.error_bound},
                     {"no_error_bound", ending.no_error_bound},
+                    {"last_error_bound", last_error_bound},
                     {"forces", ending.forces},
                     {"balance", ending.balance},
                     {"contact", ending.contact},

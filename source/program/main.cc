@@ -132,6 +132,16 @@ std::string work_in_words(const LoadStep &load)
          text(load.released, 2) + ", unbalanced " + text(load.unbalanced, 2) + "\n";
 }
 
+/** Why the last step has no bound of its error, where steps may have one; nothing else. */
+std::string missing_bound_in_words(const StepReport<dim> &step, const std::string &last_bound)
+{
+  const Scene<dim> &scene = step.solution.scene;
+  if (step.bound || !scene.error_bound || !scene.no_error_bound().empty())
+    return {};
+  return "\nno bound of the error in step " + text(step.number) + ": " + step.no_bound +
+         (last_bound.empty() ? "" : "; " + last_bound) + "\n";
+}
+
 // ---------------------------------------------------------------- what the program does
 
 /** What the first step may still reject comes before anything is written; where it fails, the run will say so. */
@@ -162,6 +172,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   StageTimes times;
   std::vector<std::string> warnings;
   std::string closing_words, reason; ///< of the last step
+  std::string last_bound;            ///< of the last one that has one
   std::cout << version_line() << '\n'
             << legible(scene.title) << '\n'
             << replacement_in_words(output.replaced_scene(), directory) << '\n'
@@ -177,12 +188,16 @@ void run(const Scene<dim> &scene, const std::string &directory)
           times += step.times;
           reason = last_word(step.stopped_by, scene.adaptivity, bool(step.bound));
           warnings = step.warnings;
+          if (step.bound)
+            last_bound = "that of step " + text(step.number) + " is " +
+                         text(step.relative_bound, 2) + " of the solution";
           if (!step.stopped_by.empty())
             closing_words =
                 contact_in_words(scene, step.contact, step.equilibrium, step.unbounded) +
                 "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) +
                 ", moments to " + text(step.equilibrium.moment_imbalance, 2) +
-                " of their absolute sums\n" + work_in_words(step.load);
+                " of their absolute sums\n" + missing_bound_in_words(step, last_bound) +
+                work_in_words(step.load);
           output.write_step(step);
         },
         announce);

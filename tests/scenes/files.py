@@ -210,16 +210,32 @@ class Summaries(RunTest):
         self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
         self.run_scene("Loading/Steps=2", "Error/Bound=false", "Adaptivity/Maximum steps=1",
                        scene=self.bar())
-        self.check_members("done", "message", "normal_contact", "error_bound")
+        self.check_members("done", "message", "normal_contact", "error_bound", "last_error_bound")
 
     def test_a_displacement_of_zero(self):
         for _ in range(2):  # the second run knows the files of the first
             self.run_scene("Adaptivity/Start degree=1", "Adaptivity/Maximum steps=1",
                            scene=self.still("1; 0"))
-            self.check_members("done", "message", "normal_contact", "loading", "error_bound")
+            self.check_members("done", "message", "normal_contact", "loading", "error_bound", "last_error_bound")
             self.assertIsNone(self.summary()["final"]["estimate_relative"])
         self.run_scene(scene=self.still("0; 0"))
         self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
+
+    def test_a_missing_bound_is_explained(self):
+        """Far from its support a beam hardly strains: what it does is lost in cells that are small."""
+        scene = self.home / "beam.prm"
+        scene.write_text("subsection Geometry\n  set Upper corner = 20, 1\n  set Subdivisions = 20, 1\n"
+                         "  set Graded towards = 20, 0\nend\n"
+                         "subsection Boundary left\n  set Displacement = 0; 0\nend\n"
+                         "subsection Boundary top\n  set Traction = 0; -1\nend\n")
+        printed = self.run_scene("Adaptivity/Maximum steps=1", "Geometry/Grading levels=25", scene=scene)
+        summary, row = self.summary(), self.rows()[0]
+        self.assertIsNone(summary["error_bound"])
+        self.assertGreater(float(row["bound_imbalance"]), 1e-9)
+        self.assertEqual(summary["final"]["bound_imbalance"], float(row["bound_imbalance"]))
+        self.assertIn(f"{float(row['bound_imbalance']):.2g} of their stresses", summary["no_error_bound"])
+        self.assertIn(f"no bound of the error in step 1: {summary['no_error_bound']}", printed.splitlines())
+        self.assertIsNone(summary["last_error_bound"])
 
     def test_words_are_no_numbers(self):
         self.run_scene("Boundary bottom/Friction bound=", "Boundary bottom/Friction coefficient=0.3",
@@ -230,8 +246,8 @@ class Summaries(RunTest):
     def test_failed(self):
         self.run_scene(status=2, preexec_fn=size_limit(6000))
         self.check_members("failed", "stopped_by", "normal_contact", "loads", "final", "loading",
-                           "error_bound", "no_error_bound", "forces", "balance", "contact",
-                 "von_mises")
+                           "error_bound", "no_error_bound", "last_error_bound", "forces", "balance",
+                           "contact", "von_mises")
 
     def test_running_and_interrupted(self):
         run = self.stopped("Adaptivity/Maximum steps=99", rows=2)

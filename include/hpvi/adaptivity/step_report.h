@@ -51,7 +51,8 @@ struct StepReport
   double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
   const std::optional<ErrorBound> &bound; ///< none: not asked for, or Scene::no_error_bound()
   std::string no_bound;                   ///< why there is none
-  double relative_bound;                  ///< bound->total / |u_N|_a, NaN without it
+  double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
+  double relative_bound;  ///< bound->total / |u_N|_a, NaN without it
   Energies energies;
   std::vector<ContactState<dim>> contact; ///< of each contact boundary, by id
   TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with

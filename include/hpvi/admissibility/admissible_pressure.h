@@ -26,6 +26,9 @@ namespace hpvi
  * the faces of a neighbourhood, which grows until it is possible, share a quadratic program: least
  *
  *     h/(2 mu p) sum_a |t_a - psi_a z_n|^2 + 2 int pi (u_0 - u_Nn).
+ *
+ * Where no neighbourhood has one, as beside a force in a corner of the body, whose moment no pressure has, the faces with a
+ * negative z_n take the least of the same over all `t_a = psi_a pi` with their force alone: forces are missing then.
  */
 template <int dim>
 class AdmissiblePressure
@@ -38,12 +41,19 @@ public:
 
   EdgePolynomial value(unsigned int face) const; ///< pi
 
-  /** Is there no admissible pressure that the method finds? Then pi is negative somewhere. */
-  bool fails() const;
+  /** How far below zero pi is somewhere, over the largest pressure, because no admissible one is found; else 0. */
+  double tension() const;
+
+  /** Has pi the force and moment of z_n on each patch? If not, no stress near sigma(u_N) is in balance with it. */
+  bool is_balanced() const;
+
+  /** Forces on the displacement unknowns that do the work which pi leaves undone, `<z_n, v_n>_N - int pi v_n`. */
+  dealii::Vector<double> missing_forces(const Solution<dim> &solution) const;
 
 private:
   std::vector<std::array<EdgePolynomial, 2>> parts; ///< by face and end
-  bool has_failed = false;
+  std::vector<unsigned int> redistributed;          ///< faces whose pi has the force of z_n alone
+  double largest_tension = 0;
 };
 
 /** u_0 at s in [0,1] of a contact face; at an end where it jumps that of the face's own side [length]. */

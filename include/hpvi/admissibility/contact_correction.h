@@ -48,14 +48,15 @@ public:
   /** w, as Unknowns counts them; behind those the coefficients of edge bubbles. */
   const dealii::Vector<double> &unknowns() const;
 
-  bool fails() const; ///< Do supports keep u_N - w from being admissible?
+  /** How far u_N - w passes through the foundation because supports keep it there [length]; else 0. */
+  double penetration() const;
 
   double total() const; ///< `2 gap(u_N - w) + |w|_a^2`
 
 private:
   std::vector<double> face_gaps, uncorrected, cell_energies;
   dealii::Vector<double> w;
-  bool has_failed = false;
+  double depth = 0;
 };
 
 /**

@@ -8,6 +8,7 @@
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/stresses/edge_bubbles.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -31,7 +32,8 @@ public:
   {
     dealii::Vector<double> w;
     std::vector<double> gaps; ///< by face
-    double total = 0;         ///< `2 gap(u_N - w) + |w|_a^2`
+    double total = 0;         ///< `2 gap(u_N - w) + |w|_a^2`; infinite where u_N - w penetrates,
+    double penetration = 0;   ///< by so much [length]
   };
 
   CorrectionSearch(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
@@ -69,9 +71,15 @@ private:
   void add_normal_roles(std::vector<Role> &roles) const;
   dealii::Vector<double> fixed_displacement() const;
   bool find_near_pressure(unsigned int face) const;
-  double penetration(const dealii::Vector<double> &w,
-                     std::map<unsigned int, double> &heights) const;
-  bool lift(dealii::Vector<double> &w) const;
+  /** How far a w_n is to go that is linear along each face: at vertices; and inside faces that are held at both ends. */
+  struct Heights
+  {
+    std::map<unsigned int, double> at_vertices, on_faces;
+  };
+
+  std::array<bool, 2> held_ends(unsigned int face) const;
+  double penetration(const dealii::Vector<double> &w, Heights &heights) const;
+  double lift(dealii::Vector<double> &w) const;
   void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
                     const dealii::Vector<double> &fixed, dealii::Vector<double> &h,
                     std::vector<Condition> &conditions) const;

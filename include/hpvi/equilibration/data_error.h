@@ -30,7 +30,8 @@ namespace hpvi
  *
  * Prescribed displacements u_D outside V_N: d = u_D - u_N on the edge, lifted into its cell by lift_energy(); likewise what the
  * interpolation I at the nodes of V_N misses of a gap, `u_0 - I u_0` along the normal. Both are read at the Gauss-Lobatto points of a
- * polynomial of degree p + 12 on each edge.
+ * polynomial of degree p + 12 on each edge. By how much they differ from it in between is counted as an oscillation of the next degrees: that
+ * is an estimate, and small.
  */
 class DataError
 {
@@ -41,9 +42,11 @@ public:
   std::vector<double> lifts;       ///< |d|_K of the energy, by active cell index
   double unresolved; ///< what quadrature leaves open of all loads: to be added to the oscillation
   double lift = 0;   ///< |d|_a
-  double lift_work = 0; ///< int s n . d over the boundary [stress length^dim]
+  double lift_work = 0;   ///< int s n . d over the boundary [stress length^dim]
+  double unread_work = 0; ///< what that may miss, because of
   double unread =
       0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
+  dealii::Point<2> unread_at;
 };
 } // namespace hpvi
 

@@ -34,6 +34,8 @@ public:
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
   double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
+  unsigned int worst_vertex = 0;    ///< of the patch with it
+  bool is_worst_in_corners = false; ///< as PatchDefect tells it from equilibrium
 
   const VertexPatches &patches() const;
 

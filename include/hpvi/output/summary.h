@@ -25,6 +25,9 @@ struct Summary
   Record last_row;        ///< of the last of them in convergence.csv
   StageTimes times;       ///< sums over them
   std::vector<std::string> warnings;
+  /** As JSON, of the last step of this load step that has one, whatever ends the run. */
+  std::string last_error_bound = "null";
+  unsigned int load_step = 0;   ///< that of the last step
   LoadStep load;                ///< the last one that is done, of a history
   std::optional<LoadSum> loads; ///< of the last step, in the plane
 

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Steps that have no bound of their error, and why; and steps that once had none.
+#include "discretisation.h"
+
+#include <hpvi/base/formatting.h>
+#include <hpvi/output/summary.h>
+
+#include <limits>
+
+namespace
+{
+using namespace verification;
+
+Overrides with(Overrides entries, const Overrides &more)
+{
+  for (const auto &entry : more)
+  {
+    const auto same = std::find_if(entries.begin(), entries.end(),
+                                   [&](const auto &known) { return known.first == entry.first; });
+    if (same == entries.end())
+      entries.push_back(entry);
+    else
+      same->second = entry.second;
+  }
+  return entries;
+}
+
+Overrides body(const std::string &corners, const std::string &subdivisions)
+{
+  return {{"Geometry/Shape", "quadrilateral"},     {"Geometry/Corners", corners},
+          {"Geometry/Subdivisions", subdivisions}, {"Material/Young's modulus", "100"},
+          {"Material/Poisson's ratio", "0.3"},     {"Units/Length", "mm"},
+          {"Adaptivity/Tolerance", "0"},           {"Adaptivity/Method", "hpa3"}};
+}
+
+/** What steps say of the least energy, and the relative bound of the last one that has one. */
+struct Bounds
+{
+  double low = -std::numeric_limits<double>::infinity(),
+         high = std::numeric_limits<double>::infinity(), last = -1;
+};
+
+// ---------------------------------------------------------------- a force in a corner
+
+struct Tip
+{
+  std::string name;
+  Overrides scene;
+  unsigned int n_steps; ///< in the last of which no pressure has the moment of the discrete one
+};
+
+/** A beam that is held at its left end and bends until its tip touches. */
+Overrides beam(const Overrides &more)
+{
+  return with(body("0, 0; 8, 0; 8, 1; 0, 1", "8, 1"),
+              with({{"Boundary left/Displacement", "0; 0"},
+                    {"Boundary top/Traction", "0; -0.01"},
+                    {"Boundary bottom/Contact", "unilateral"},
+                    {"Boundary bottom/Gap", "0.1"}},
+                   more));
+}
+
+const std::vector<Tip> tips = {
+    {"cells_of_one_degree", beam({{"Adaptivity/Method", "hup2"}}), 2},
+    {"degree_four", beam({{"Adaptivity/Method", "hap4"}}), 1},
+    {"both_h_and_p", beam({}), 2},
+    {"friction", beam({{"Boundary bottom/Friction bound", "0.01"}}), 2},
+    {"load_at_the_end",
+     with(beam({{"Boundary top/Traction", ""}, {"Boundary right/Traction", "0; -0.05"}}),
+          body("0, 0; 5, 0; 5, 1; 0, 1", "5, 1")),
+     4},
+    {"weight",
+     with(beam({{"Boundary top/Traction", ""},
+                {"Body force/Expression", "0; -0.02"},
+                {"Boundary bottom/Gap", "0.02*x"}}),
+          body("0, 0; 6, 0; 6, 1; 0, 1", "6, 2")),
+     7},
+    {"parallelogram", beam({{"Geometry/Corners", "0, 0; 8, 0; 8.4, 1; 0.4, 1"}}), 3},
+    {"nearly_incompressible",
+     beam({{"Material/Plane", "strain"}, {"Material/Poisson's ratio", "0.4999"}}), 4},
+    {"upright",
+     with(body("0, 0; 1, 0; 1, 8; 0, 8", "1, 8"), {{"Boundary bottom/Displacement", "0; 0"},
+                                                   {"Boundary left/Traction", "0.01; 0"},
+                                                   {"Boundary right/Contact", "unilateral"},
+                                                   {"Boundary right/Gap", "0.1"}}),
+     2},
+    {"bent_foundation", beam({{"Boundary bottom/Gap", "0.1 + 0.001*cos(2*x)"}}), 2}};
+
+class TipContact : public ::testing::TestWithParam<Tip>
+{
+};
+
+Bounds run(const Overrides &entries, const unsigned int n_steps)
+{
+  Bounds result;
+  const Scene<2> scene =
+      scene_of(with(entries, {{"Adaptivity/Maximum steps", std::to_string(n_steps)}}));
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_TRUE(step.bound) << "step " << step.number << ": " << step.no_bound;
+        if (!step.bound)
+          return;
+        result.low = std::max(result.low, step.energies.energy - step.bound->energy_below);
+        result.high = std::min(result.high, step.energies.energy + step.bound->energy_above);
+        result.last = step.relative_bound;
+      });
+  return result;
+}
+
+/** Its intervals of energy hold that of many more steps. */
+TEST_P(TipContact, HasABoundInEachStep)
+{
+  const Tip &tip = GetParam();
+  const Bounds coarse = run(tip.scene, tip.n_steps),
+               fine = run(with(tip.scene, {{"Adaptivity/Method", "hpa3"}}), 8);
+  EXPECT_LE(coarse.low, fine.high);
+  EXPECT_LE(fine.low, coarse.high);
+  EXPECT_LT(coarse.last, 0.3);
+  EXPECT_LT(fine.high - fine.low, 1e-3 * std::abs(fine.low));
+}
+
+INSTANTIATE_TEST_SUITE_P(, TipContact, ::testing::ValuesIn(tips),
+                         [](const auto &info) { return info.param.name; });
+
+// ---------------------------------------------------------------- the reason
+
+struct Reason
+{
+  std::string name;
+  Overrides scene;
+  std::string words,
+      number; ///< that its last step says, and of what the number between them is a part
+};
+
+/** Far from its support a beam hardly strains; cells there that are small lose what little it does. */
+const Overrides graded =
+    with(body("0, 0; 20, 0; 20, 1; 0, 1", "20, 1"), {{"Geometry/Graded towards", "20, 0"},
+                                                     {"Geometry/Grading levels", "25"},
+                                                     {"Boundary left/Displacement", "0; 0"},
+                                                     {"Boundary top/Traction", "0; -1"},
+                                                     {"Adaptivity/Maximum steps", "1"}});
+
+const Overrides held =
+    with(body("0, 0; 1, 0; 1, 1; 0, 1", "2, 2"),
+         {{"Boundary bottom/Displacement", "0; 0"}, {"Adaptivity/Maximum steps", "1"}});
+
+const std::vector<Reason> reasons = {
+    {"round_off", graded, "patches of cells are out of balance by up to ", " of their stresses"},
+    {"displacement",
+     with(held, {{"Boundary top/Displacement", "0; -0.01*exp(-((x - 0.37)/0.001)^2)"}}),
+     "a prescribed displacement or gap is not smooth along the edge at (0.3", " mm"},
+    {"load", with(held, {{"Boundary top/Traction", "0; sin(1e5*x*x)"}}),
+     "traction on top is not resolved near (", " of all loads"}};
+
+class AnyReason : public ::testing::TestWithParam<Reason>
+{
+};
+
+TEST_P(AnyReason, IsSaidWithTheNumber)
+{
+  const Reason &reason = GetParam();
+  AdaptiveSolver<2>(scene_of(reason.scene))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_FALSE(step.bound);
+            EXPECT_EQ(step.no_bound.find(reason.words), 0U) << step.no_bound;
+            const std::size_t end = step.no_bound.find(reason.number);
+            ASSERT_NE(end, std::string::npos) << step.no_bound;
+            const std::size_t begin = step.no_bound.rfind(' ', end - 1) + 1;
+            const double number = std::stod(step.no_bound.substr(begin, end - begin));
+            EXPECT_GT(number, 1e-9);
+            EXPECT_LT(number, 1.);
+          });
+}
+
+TEST(MissingBound, KeepsItsImbalance)
+{
+  AdaptiveSolver<2>(scene_of(graded))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_GT(step.bound_imbalance, 1e-9);
+            EXPECT_NE(
+                step.no_bound.find(
+                    hpvi::text(step.bound_imbalance, 2) +
+                    " of their stresses, at (20, 0): round-off, in cells of 1.5e-09 of the body"),
+                std::string::npos)
+                << step.no_bound;
+          });
+}
+
+/** A step without a bound after one that has it. */
+TEST(MissingBound, LeavesTheLastOneInTheSummary)
+{
+  Summary summary;
+  const auto add = [&](const Overrides &entries)
+  {
+    const Scene<2> scene = scene_of(entries);
+    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { summary.add(step, {}); });
+    return summary.json(scene, {});
+  };
+  const std::string before = add(with(graded, {{"Geometry/Grading levels", "0"}}));
+  EXPECT_NE(before.find("\"no_error_bound\": null"), std::string::npos);
+  const std::string known = summary.last_error_bound;
+  EXPECT_NE(known.find("\"step\": 1,"), std::string::npos) << known;
+  EXPECT_NE(before.find("\"error_bound\": " + known), std::string::npos);
+  const std::string after = add(graded);
+  EXPECT_NE(after.find("\"error_bound\": null"), std::string::npos);
+  EXPECT_NE(after.find("\"no_error_bound\": \"patches of cells"), std::string::npos);
+  EXPECT_NE(after.find("\"last_error_bound\": " + known), std::string::npos) << after;
+}
+
+INSTANTIATE_TEST_SUITE_P(, AnyReason, ::testing::ValuesIn(reasons),
+                         [](const auto &info) { return info.param.name; });
+} // namespace
