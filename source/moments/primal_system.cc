@@ -160,11 +160,16 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 template <int dim>
 double PrimalSystem<dim>::work(const DistributedVector &u) const
 {
-  double sum = 0;
-  for (const Cell &cell : space.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && (space.scene.has_body_force() || cell->at_boundary()))
-      sum += product(load(cell), space.field(cell, u));
-  return Utilities::MPI::sum(sum, space.communicator());
+  return sum_together(space.communicator(),
+                      [&]()
+                      {
+                        double sum = 0;
+                        for (const Cell &cell : space.dof_handler.active_cell_iterators())
+                          if (cell->is_locally_owned() &&
+                              (space.scene.has_body_force() || cell->at_boundary()))
+                            sum += product(load(cell), space.field(cell, u));
+                        return sum;
+                      });
 }
 
 template <int dim>
@@ -172,6 +177,19 @@ typename PrimalSystem<dim>::NodalForces
 PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
 {
   NodalForces forces{space.ghosted_vector(), space.ghosted_vector()};
+  together(space.communicator(), [&]() { add_nodal_forces(u, forces); });
+  for (DistributedVector *const vector : {&forces.internal, &forces.loads})
+  {
+    vector->compress(VectorOperation::add);
+    vector->update_ghost_values();
+  }
+  return forces;
+}
+
+/** Of the cells of this process. */
+template <int dim>
+void PrimalSystem<dim>::add_nodal_forces(const DistributedVector &u, NodalForces &forces) const
+{
   const FESystem<dim> &fe = space.tables.fe;
   const std::vector<bool> none(dim * GeometryInfo<dim>::faces_per_cell, false);
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
@@ -190,12 +208,6 @@ PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
         forces.loads(dofs[i]) += loads[shape][component];
       }
     }
-  for (DistributedVector *const vector : {&forces.internal, &forces.loads})
-  {
-    vector->compress(VectorOperation::add);
-    vector->update_ghost_values();
-  }
-  return forces;
 }
 
 template class PrimalSystem<2>;

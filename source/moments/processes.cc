@@ -68,4 +68,11 @@ void together(MPI_Comm communicator, const std::function<void()> &work)
     throw NumericalFailure(message);
   throw std::runtime_error(message);
 }
+
+double sum_together(MPI_Comm communicator, const std::function<double()> &work)
+{
+  double sum = 0;
+  together(communicator, [&]() { sum = work(); });
+  return Utilities::MPI::sum(sum, communicator);
+}
 } // namespace hpvi

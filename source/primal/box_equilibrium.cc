@@ -190,7 +190,9 @@ Equilibrium<dim> equilibrium(const MomentSpace<dim> &space, const PrimalSystem<d
   NodalReactions<dim>(space, system, u, lambda).add_to(resultants);
   resultants.replace([&space](const double mine)
                      { return Utilities::MPI::sum(mine, space.communicator()); });
-  return resultants.finish();
+  Equilibrium<dim> result;
+  together(space.communicator(), [&]() { result = resultants.finish(); });
+  return result;
 }
 
 template Equilibrium<2> equilibrium(const MomentSpace<2> &, const PrimalSystem<2> &,

@@ -79,9 +79,9 @@ double negligible_pressure(const MomentSpace<dim> &space,
 
 template <int dim>
 std::vector<MomentPoint<dim>> own_points(const MomentSpace<dim> &space, const DistributedVector &u,
-                                         const std::vector<ContactVector<dim>> &lambda)
+                                         const std::vector<ContactVector<dim>> &lambda,
+                                         const double negligible)
 {
-  const double negligible = negligible_pressure(space, lambda);
   std::vector<MomentPoint<dim>> points;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
   {
@@ -103,23 +103,10 @@ std::vector<MomentPoint<dim>> own_points(const MomentSpace<dim> &space, const Di
   }
   return points;
 }
-} // namespace
 
+/** `sum w g |u_t|` over the faces of this process. */
 template <int dim>
-std::vector<MomentPoint<dim>> contact_points(const MomentSpace<dim> &space,
-                                             const DistributedVector &u,
-                                             const std::vector<ContactVector<dim>> &lambda)
-{
-  std::vector<MomentPoint<dim>> points;
-  for (const auto &part :
-       Utilities::MPI::gather(space.communicator(), own_points(space, u, lambda)))
-    points.insert(points.end(), part.begin(), part.end());
-  std::sort(points.begin(), points.end(), before<dim>);
-  return points;
-}
-
-template <int dim>
-double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
+double own_friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
 {
   double sum = 0;
   for (const MomentFace<dim> &face : space.faces)
@@ -137,12 +124,13 @@ double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
              g->value(MomentSpace<dim>::point_of(face.cell, table.points[q])) * slip.norm();
     }
   }
-  return Utilities::MPI::sum(sum, space.communicator());
+  return sum;
 }
 
+/** The deepest of this process, by boundary. */
 template <int dim>
-std::vector<Penetration<dim>> penetrations(const MomentSpace<dim> &space,
-                                           const DistributedVector &u)
+std::vector<Penetration<dim>> own_penetrations(const MomentSpace<dim> &space,
+                                               const DistributedVector &u)
 {
   std::vector<Penetration<dim>> own(space.scene.boundaries.size());
   for (const MomentFace<dim> &face : space.faces)
@@ -162,6 +150,36 @@ std::vector<Penetration<dim>> penetrations(const MomentSpace<dim> &space,
         own[condition.id] = {depth, x};
     }
   }
+  return own;
+}
+} // namespace
+
+template <int dim>
+std::vector<MomentPoint<dim>> contact_points(const MomentSpace<dim> &space,
+                                             const DistributedVector &u,
+                                             const std::vector<ContactVector<dim>> &lambda)
+{
+  const double negligible = negligible_pressure(space, lambda);
+  std::vector<MomentPoint<dim>> own, points;
+  together(space.communicator(), [&]() { own = own_points(space, u, lambda, negligible); });
+  for (const auto &part : Utilities::MPI::gather(space.communicator(), own))
+    points.insert(points.end(), part.begin(), part.end());
+  std::sort(points.begin(), points.end(), before<dim>);
+  return points;
+}
+
+template <int dim>
+double friction_work(const MomentSpace<dim> &space, const DistributedVector &u)
+{
+  return sum_together(space.communicator(), [&]() { return own_friction_work(space, u); });
+}
+
+template <int dim>
+std::vector<Penetration<dim>> penetrations(const MomentSpace<dim> &space,
+                                           const DistributedVector &u)
+{
+  std::vector<Penetration<dim>> own;
+  together(space.communicator(), [&]() { own = own_penetrations(space, u); });
   std::vector<Penetration<dim>> result(own.size());
   for (const auto &part : Utilities::MPI::all_gather(space.communicator(), own))
     for (unsigned int b = 0; b < result.size(); ++b)

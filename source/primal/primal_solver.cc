@@ -64,9 +64,13 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
   if (adaptivity.tolerance > 0 && adaptivity.tolerance_on == Indicator::bound)
     result.push_back("the primal path has no guaranteed bound of the error: Adaptivity/Tolerance "
                      "was held against the indicator, which is a measure and no bound");
-  if (const std::string line = LoadCheck<dim>(step.space.scene).warning(step.equilibrium.loads);
-      !line.empty())
-    result.push_back(line);
+  const auto add = [&](const std::string &warning)
+  {
+    if (!warning.empty())
+      result.push_back(warning);
+  };
+  together(step.space.communicator(),
+           [&]() { add(LoadCheck<dim>(step.space.scene).warning(step.equilibrium.loads)); });
   if (step.newton.is_cut_off)
     result.push_back("Newton's method did not find stick and slip in " +
                      to_string(step.newton.steps) +
@@ -87,11 +91,6 @@ std::vector<std::string> warnings(const PrimalReport<dim> &step)
     result.push_back("bilateral contact pulls with a force of " + to_string(pull) +
                      " where it presses with " + to_string(press) +
                      ": a body free to lift off needs unilateral contact");
-  const auto add = [&](const std::string &warning)
-  {
-    if (!warning.empty())
-      result.push_back(warning);
-  };
   add(friction_without_contact(open, friction));
   const auto deepest =
       std::max_element(step.penetrations.begin(), step.penetrations.end(),
@@ -390,8 +389,12 @@ void PrimalSolver<dim>::Stages::refine(const std::vector<bool> &marked)
 template <int dim>
 PrimalSolver<dim>::PrimalSolver(const Scene<dim> &scene, MPI_Comm communicator)
 {
-  scene.check();
-  check_primal_path(scene);
+  together(communicator,
+           [&]()
+           {
+             scene.check();
+             check_primal_path(scene);
+           });
   stages = std::make_unique<Stages>(scene, communicator);
 }
 

@@ -29,6 +29,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <sstream>
 
 // Present where OpenBLAS is the BLAS in use.
@@ -313,7 +314,9 @@ Scene<dimension> read_scene(const CommandLine &command_line)
 template <int dimension>
 void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
-  const Scene<dimension> scene = read_scene<dimension>(command_line);
+  std::optional<Scene<dimension>> read;
+  agree([&]() { read.emplace(read_scene<dimension>(command_line)); });
+  const Scene<dimension> &scene = *read;
   const std::string directory = command_line.output_directory.empty()
                                     ? "output/" + scene.name
                                     : command_line.output_directory;
@@ -330,6 +333,13 @@ void obey_scene(const CommandLine &command_line, const std::function<void()> &st
     command_line.inf_sup ? print_inf_sup(scene) : run(scene, directory);
 }
 
+bool is_in_space(const CommandLine &command_line)
+{
+  int dimension = 0;
+  agree([&]() { dimension = scene_dimension(command_line.scene_file, command_line.overrides); });
+  return dimension == 3;
+}
+
 void obey(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
   if (command_line.help)
@@ -338,7 +348,7 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
     std::cout << version_line() << std::endl;
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();
-  else if (scene_dimension(command_line.scene_file, command_line.overrides) == 3)
+  else if (is_in_space(command_line))
     obey_scene<3>(command_line, start_mpi);
   else
     obey_scene<2>(command_line, start_mpi);

@@ -160,6 +160,11 @@ bool is_first_process()
   return !is_mpi_running() || Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 }
 
+void agree(const std::function<void()> &work)
+{
+  is_mpi_running() ? together(MPI_COMM_WORLD, work) : work();
+}
+
 template <int dim>
 bool takes_primal_path(const Scene<dim> &scene)
 {
@@ -177,6 +182,7 @@ template <int dim>
 void run_primal(const Scene<dim> &scene, const std::string &directory)
 {
   PrimalSolver<dim> solver(scene, MPI_COMM_WORLD); // first: it may still reject the mesh
+  const LoadCheck<dim> loads(scene);               // and this a load
   note_interruptions();
   PrimalOutput<dim> output(scene, directory, MPI_COMM_WORLD);
   Ending ending;
@@ -184,7 +190,7 @@ void run_primal(const Scene<dim> &scene, const std::string &directory)
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
             << legible(scene.title) << '\n'
             << replacement_in_words(output.replaced_scene(), directory) << '\n'
-            << LoadCheck<dim>(scene).in_words() << std::endl;
+            << loads.in_words() << std::endl;
   print_table_head();
   try
   {

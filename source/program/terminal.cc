@@ -10,6 +10,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
@@ -81,8 +82,21 @@ ProgressLine::~ProgressLine()
   erase();
 }
 
+/**
+ * A stage whose numbers alone change is shown ten times a second. As long as mpirun waits for the end of its
+ * processes it reads nothing: one that wrote more than a terminal holds would never come to its end.
+ */
 void ProgressLine::show(const Progress &progress)
 {
+  const auto now = std::chrono::steady_clock::now();
+  std::string next = progress.stage;
+  next.erase(
+      std::remove_if(next.begin(), next.end(), [](const char c) { return '0' <= c && c <= '9'; }),
+      next.end());
+  if (shown && next == words && now - since < std::chrono::milliseconds(100))
+    return;
+  words = next;
+  since = now;
   erase();
   if (!progress.note.empty() && !noted)
     std::cout << "note: " << progress.note << std::endl;

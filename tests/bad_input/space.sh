@@ -102,12 +102,31 @@ check 1 "Normal contact = nodes" "the primal path" "multiplier" -- "$hpvi" --out
 
 # --- several processes
 parallel() {
-  "$mpirun" --oversubscribe --bind-to none "$@"
+  timeout 60 "$mpirun" --oversubscribe --bind-to none "$@" # none waits for one that has failed
 }
 check 1 "fewer cells" "start fewer of them" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/slab.prm --set "Geometry/Subdivisions=1, 1, 1"
 check 1 "Path = reduced" "start one" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm --set Solver/Path=reduced
 check 1 "Normal contact = nodes" "the primal path" "multiplier" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12-unilateral.prm --set Adaptivity/Method=hap2
 check 1 "Method = hpa2" "does not offer" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm
 check 1 "Yung" "unknown entry" -- parallel -np 2 "$hpvi" prm/slab.prm --set "Material/Yung=1"
+
+# --- what the process of one point alone finds out, in whichever stage of a step it does
+hidden() { # PROCESSES DEGREE ENTRY VALUE MORE...
+  local processes=$1 degree=$2 entry=$3 value=$4
+  shift 4
+  check 1 "$entry" "is not finite" "give an expression that is finite" -- \
+    parallel -np "$processes" "$hpvi" --output "$scratch/hidden" prm/slab.prm --set "Adaptivity/Method=hup$degree" \
+    --set "Adaptivity/Maximum steps=2" --set Output/VTU=false --set "$entry=$value" "$@"
+  grep -q '"status": "failed"' "$scratch/hidden/summary.json" || { echo "summary.json does not say failed: $entry"; failures=1; }
+}
+hidden 3 2 "Boundary bottom/Friction bound" "if((x-0.8873)^2 + (z-1.8873)^2 < 1e-6, 0/0, 0.1)"
+hidden 2 2 "Boundary bottom/Gap" "if((x-0.8873)^2 + (z-1.8873)^2 < 1e-6, 0/0, 0.1)" --set "Boundary bottom/Contact=unilateral"
+hidden 2 2 "Boundary left/Traction" "if((y-0.05635)^2 + (z-1.94365)^2 < 1e-6, 0/0, 1.5); 0; 0"
+hidden 3 3 "Boundary right/Displacement" "if((y-0.2764)^2 + (z-1.2764)^2 < 1e-6, 0/0, 0); 0; 0"
+
+# --- a load that cannot be summed is refused before anything is written
+check 1 "Boundary left/Traction" "is not finite" -- "$hpvi" --output "$scratch/unwritten" prm/slab.prm \
+  --set "Boundary left/Traction=if((y-0.1127)^2 + (z-1.8873)^2 < 1e-6, 0/0, 1.5); 0; 0"
+[ ! -e "$scratch/unwritten" ] || { echo "results of a load that cannot be summed"; failures=1; }
 
 exit $failures

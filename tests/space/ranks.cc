@@ -4,9 +4,13 @@
 
 #include <hpvi/base/input_error.h>
 
+#include <set>
+
 namespace
 {
 using namespace space;
+
+unsigned int n_reductions = 0; ///< that this process has taken part in
 
 template <int dim>
 void expect_same_run(
@@ -122,6 +126,73 @@ TEST(Ranks, AnErrorOnOneIsOneOnAll)
   }
 }
 
+/** A value that the last process cannot find between two reductions of a run. */
+struct Fuse
+{
+  const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const bool is_last = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) + 1 == n;
+  std::set<unsigned int> asked;                       ///< behind which reductions
+  unsigned int fatal = numbers::invalid_unsigned_int; ///< behind which it throws
+
+  Expression<3> operator()(const double value)
+  {
+    return expression<3>(std::function<double(const Point<3> &)>(
+        [this, value](const Point<3> &)
+        {
+          asked.insert(n_reductions);
+          if (n_reductions == fatal && is_last)
+            throw InputError("found by one");
+          return value;
+        }));
+  }
+};
+
+/** Whether the run of @p scene ends on all processes with what the last one says. */
+bool ends_together(const Scene<3> &scene)
+{
+  n_reductions = 0;
+  try
+  {
+    steps_of<3>(
+        scene, [](const PrimalReport<3> &) {}, MPI_COMM_WORLD);
+  }
+  catch (const InputError &error)
+  {
+    return error.what() == std::string("found by one");
+  }
+  return false;
+}
+
+/** Wherever a run asks for loads, supports, gap and friction, one process alone may fail. */
+TEST(Ranks, AnErrorInAnyStageIsOneOnAll)
+{
+  const Overrides settings{{"Geometry/Subdivisions", "2, 1, 2"},
+                           {"Boundary bottom/Contact", "unilateral"},
+                           {"Adaptivity/Maximum steps", "1"}};
+  Fuse fuse;
+  std::vector<Scene<3>> scenes(5, slab(settings)); // each with one function that may fail
+  scenes[0].body_force[1] = fuse(-0.1);
+  scenes[1].boundary("bottom").contact = Contact::tangential;
+  scenes[1].boundary("bottom").traction[1] = fuse(1);
+  scenes[2].boundary("right").displacement[1] = fuse(0);
+  scenes[3].boundary("bottom").gap = fuse(0);
+  scenes[4].boundary("bottom").friction.bound = fuse(4.5);
+  for (const Scene<3> &scene : scenes)
+  {
+    fuse.asked.clear();
+    fuse.fatal = numbers::invalid_unsigned_int;
+    EXPECT_FALSE(ends_together(scene));
+    const std::vector<unsigned int> mine(fuse.asked.begin(), fuse.asked.end());
+    const auto stages = Utilities::MPI::broadcast(MPI_COMM_WORLD, mine, fuse.n - 1);
+    EXPECT_GE(stages.size(), 2);
+    for (const unsigned int stage : stages)
+    {
+      fuse.fatal = stage;
+      EXPECT_TRUE(ends_together(scene)) << stage;
+    }
+  }
+}
+
 TEST(Ranks, MoreThanCells)
 {
   const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
@@ -131,6 +202,14 @@ TEST(Ranks, MoreThanCells)
   EXPECT_THROW(PrimalSolver<3>(scene, MPI_COMM_WORLD), InputError);
 }
 } // namespace
+
+/** MPI's own is PMPI_Allreduce. */
+extern "C" int MPI_Allreduce(const void *send, void *receive, int count, MPI_Datatype type,
+                             MPI_Op operation, MPI_Comm communicator)
+{
+  ++n_reductions;
+  return PMPI_Allreduce(send, receive, count, type, operation, communicator);
+}
 
 int main(int argc, char *argv[])
 {

@@ -44,6 +44,7 @@ private:
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;
   void assemble();
+  void add_nodal_forces(const DistributedVector &u, NodalForces &forces) const;
 
   const MomentSpace<dim> &space;
   mutable std::map<std::tuple<int, unsigned int, std::vector<bool>>, Matrix> matrices;

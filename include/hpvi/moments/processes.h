@@ -19,6 +19,9 @@ using DistributedVector = dealii::LinearAlgebra::distributed::Vector<double>;
  * line. So none waits for another that has given up.
  */
 void together(MPI_Comm communicator, const std::function<void()> &work);
+
+/** The sum over all processes of what @p work, done together(), returns on each. */
+double sum_together(MPI_Comm communicator, const std::function<double()> &work);
 } // namespace hpvi
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <hpvi/scene/scene.h>
 
+#include <functional>
 #include <string>
 
 namespace hpvi
@@ -16,6 +17,9 @@ unsigned int n_started_processes();
 
 /** Is this the one of them that speaks for all? */
 bool is_first_process();
+
+/** Does @p work together() with the other processes, where there are any: what one cannot read fails on all. */
+void agree(const std::function<void()> &work);
 
 /**
  * Does @p scene take the primal path: in space, on several processes, because it says so, or because its first mesh has

@@ -6,6 +6,7 @@
 #include <hpvi/adaptivity/stage_times.h>
 #include <hpvi/scene/scene.h>
 
+#include <chrono>
 #include <string>
 
 namespace hpvi
@@ -38,7 +39,9 @@ public:
 private:
   const bool is_terminal;
   bool shown = false;
-  bool noted = false; ///< a note is worth saying once, not with every step
+  bool noted = false;                          ///< a note is worth saying once, not with every step
+  std::string words;                           ///< of the stage that is shown, without its numbers
+  std::chrono::steady_clock::time_point since; ///< when it was
 };
 } // namespace hpvi
 

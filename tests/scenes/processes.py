@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""processes.py HPVI MPIRUN: signals end a run of several processes as they end one, no process is left, and
+none waits for another that cannot read its scene."""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import unittest
+
+from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest, command
+
+MPIRUN = [sys.argv.pop(1), "--oversubscribe", "--bind-to", "none"]
+REFINED = ("Adaptivity/Maximum unknowns=1000000", "Output/VTU=false")
+# A body that hardly changes its volume takes thousands of short steps of conjugate gradients.
+STIFF = ("Geometry/Subdivisions=6, 6, 3", "Material/Poisson's ratio=0.499", "Solver/Primal tolerance=1e-12")
+SOLVING = rb"finding stick and slip: .*[1-9] steps of conjugate gradients"
+
+
+def processes(directory):
+    """Those of the run in that directory, mpirun aside."""
+    found = []
+    for path in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (path / "cmdline").read_bytes().split(b"\0")
+        except OSError:  # it has just ended
+            continue
+        if words[0] == PROGRAM.encode() and str(directory).encode() in words:
+            found.append(int(path.name))
+    return found
+
+
+class Processes(RunTest):
+    scene = SCENES / "slab.prm"
+
+    def start_two(self, stage, *settings):
+        """A run that has come to a stage; its first process shows them as on a terminal."""
+        run = subprocess.Popen([*MPIRUN, "-np", "2", *command(self.scene, self.out, *settings)], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env={**ENVIRONMENT, "HPVI_TERMINAL": "1"})
+        self.addCleanup(self.end, run)
+        shown = b""
+        while not re.search(stage, shown):
+            part = os.read(run.stdout.fileno(), 4096)
+            self.assertTrue(part, shown)
+            shown += part
+        return run
+
+    def check_ended(self, run, number, safe):
+        """One line, a summary that says the same, nobody left."""
+        errors = run.communicate(timeout=60)[1].decode()
+        own = [line for line in errors.splitlines() if line.startswith("hpvi")]
+        self.assertEqual(own, [f"hpvi: interrupted by {number.name}; {safe} in {self.out}"], errors)
+        self.assertEqual(self.summary()["status"], "interrupted")
+        self.assertEqual(self.files(), self.names())
+        self.assertEqual(processes(self.out), [])
+
+    def test_mpirun_passes_a_signal_on(self):
+        """Either as SIGTERM, a second before it would kill, and its status is its own."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = self.start_two(SOLVING, *STIFF)
+            run.send_signal(number)
+            self.check_ended(run, signal.SIGTERM, "no step is finished")
+            self.assertEqual(run.returncode, 1)
+
+    def test_a_signal_to_one_process_ends_all(self):
+        for number, stage, settings, safe in (
+                (signal.SIGINT, rb"step 3: assembling \d+ elements", REFINED, "steps 1 to 2 are safe"),
+                (signal.SIGTERM, SOLVING, STIFF, "no step is finished")):
+            run = self.start_two(stage, *settings)
+            os.kill(max(processes(self.out)), number)
+            self.check_ended(run, number, safe)
+            self.assertEqual(run.returncode, 128 + number)
+
+    def test_what_one_process_cannot_read_ends_all(self):
+        for second in (command(self.home / "missing.prm", self.out), command(self.scene, self.out, "Material/Yung=1")):
+            done = subprocess.run([*MPIRUN, "-np", "1", *command(self.scene, self.out), ":", "-np", "1", *second],
+                                  capture_output=True, text=True, env=ENVIRONMENT, timeout=60, check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(len(re.findall(r"missing\.prm|Yung", done.stderr)), 1, done.stderr)
+            self.assertFalse(self.out.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
