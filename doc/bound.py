@@ -47,6 +47,21 @@ OTHER_METHODS = {"hup3": 6, "hup4": 5, "hap2": 12, "hap3": 12, "hpa1": 16, "pu":
 OTHER_PROBLEMS = ("stick-slip", "nearly-incompressible", "varying")
 STIFF = ["Material/Plane=strain", "Material/Poisson's ratio=0.4999"]
 STIFF_PROBLEMS = ("han-6-13", "opening", "varying", "weight", "turned")
+ANGLES = (90, 80, 60, 45, 30)
+BOTTOM, RIGHT = "Boundary bottom/", "Boundary right/"
+SLIDES = ["Contact=bilateral", "Friction bound=0.02"]
+SKEW_SUPPORTS = {
+    "bilateral, held": [BOTTOM + s for s in SLIDES] + [RIGHT + "Displacement=0; 0"],
+    "unilateral, held": [BOTTOM + "Contact=unilateral", BOTTOM + SLIDES[1], RIGHT + "Displacement=0; 0"],
+    "tangential, held": [BOTTOM + "Contact=tangential", BOTTOM + SLIDES[1], RIGHT + "Displacement=0; 0"],
+    "u_y = 0, held": [BOTTOM + "Displacement=free; 0", RIGHT + "Displacement=0; 0"],
+    "u_x = 0, held": [BOTTOM + "Displacement=0; free", RIGHT + "Displacement=0; 0"],
+    "u_y = 0, u_x = 0": [BOTTOM + "Displacement=free; 0", RIGHT + "Displacement=0; free"],
+    "held, u_y = 0": [BOTTOM + "Displacement=0; 0", RIGHT + "Displacement=free; 0"],
+    "u_y = 0, bilateral": [BOTTOM + "Displacement=free; 0"] + [RIGHT + s for s in SLIDES],
+    "held, free": [BOTTOM + "Displacement=0; 0", RIGHT + "Displacement="]}
+SKEW_LOADS = {"polynomial": "0; -0.1*(1 + x)", "cosine": "0.05*sin(4*x); -0.1*cos(3*x)",
+              "partial": "0; if(x < 1.1, -0.1, 0)"}
 FLOOR = 1e-9  # relative error below which round-off shows
 
 
@@ -270,6 +285,32 @@ def stiff(lab):
     put_table("stiff", rows, page=PAGE)
 
 
+def skew(lab):
+    """Effectivity on parallelograms of 2 x 1 with a load on top, 4 x 2 cells, and once bisected."""
+    rows = []
+    for angle in ANGLES:
+        c, s = (plain(f(np.radians(angle)), 12) for f in (np.cos, np.sin))
+        shape = ["Geometry/Shape=quadrilateral", "Geometry/Subdivisions=4, 2", "Boundary left/Traction=",
+                 f"Geometry/Corners=0, 0; 2, 0; {2 + float(c)}, {s}; {c}, {s}",
+                 "Boundary bottom/Contact=none", "Boundary bottom/Friction bound="]
+        for support, settings in SKEW_SUPPORTS.items():
+            row = {"angle": angle, "bottom, right": support}
+            for load, traction in SKEW_LOADS.items():
+                progress(f"  {angle} degrees, {support}, {load}")
+                entries = [*shape, f"Boundary top/Traction={traction}", *settings]
+                name = f"skew-{angle}-{support}-{load}".replace(" ", "")
+                reference = lab.reference("han-6-12", name, *entries, unknowns=8000)[0]
+                ratios = []
+                for p in range(2, 6):
+                    run = lab.run("han-6-12", f"{name}-{p}", *entries, reference, "Adaptivity/Method=hup2",
+                                  f"Adaptivity/Start degree={p}", "Adaptivity/Maximum steps=2")
+                    ratios += list(run.column("error_bound") / run.column("error_energy"))
+                # nan where a step has no bound
+                row[f"bound/error, {load}"] = f"{plain(np.min(ratios), 2)} to {plain(np.max(ratios), 2)}"
+            rows.append(row)
+    put_table("skew", rows, page=PAGE)
+
+
 def others(lab):
     """Effectivity and cost with the methods that the charts leave out."""
     rows = []
@@ -287,8 +328,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
-    parser.add_argument("--only", choices=["cost", "chart"],
-                        help="measure nothing else than the time, or than what the charts of effectivities and intervals show")
+    parser.add_argument("--only", choices=["cost", "chart", "skew"],
+                        help="measure nothing else than the time, than what the charts of effectivities and intervals show, or "
+                             "than skew parallelograms")
     parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
     arguments = parser.parse_args()
     if arguments.draw:
@@ -313,8 +355,11 @@ def main():
         intervals(runs)
         shares(runs)
         stiff(lab)
-    cost(lab)
-    others(lab)
+    if arguments.only != "cost":
+        skew(lab)
+    if arguments.only != "skew":
+        cost(lab)
+        others(lab)
     progress(f"charts and tables: {GALLERY}")
 
 

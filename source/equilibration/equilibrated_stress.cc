@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -308,76 +307,79 @@ const LegendreTables &EquilibratedStress::legendre_tables() const
 }
 
 /**
- * The shear at the ends of an edge is that of the neighbouring edges, whatever its projection is; the
- * two highest modes make it so.
+ * The shear at the ends of an edge is that of the neighbouring edges, whatever projections are; the two highest modes
+ * of a component that is known, of the tangential one if it is, make it so.
  */
 void EquilibratedStress::meet_ends(const StressEdge &edge, const unsigned int end,
                                    const Tensor<1, 2> &at_end)
 {
-  if (edge.components[1].n != edge.degree)
-    return;
-  std::vector<double> &t = known[&edge - vertex_patches.edges().data()][end][1];
-  std::array<double, 2> missing{{0., 0.}};
-  missing[end] = at_end * edge.tangent;
-  const unsigned int n = t.size();
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int side = 0; side < 2; ++side)
-      missing[side] -= t[i] * legendre::at_end(i, side);
-  for (const unsigned int i : {n - 2, n - 1})
-    for (unsigned int side = 0; side < 2; ++side)
-      t[i] += missing[side] * legendre::at_end(i, side) / (2 * i + 1);
-}
-
-/** S_xy at one end of a boundary edge, as what is prescribed there says; NaN where an unknown has a say. */
-double EquilibratedStress::known_shear(const unsigned int index, const unsigned int end) const
-{
-  const StressEdge &edge = vertex_patches.edges()[index];
-  const Tensor<2, 2> B = frame(edge.sides[0].cell);
-  const bool along_xi = edge.sides[0].face >= 2;
-  Tensor<1, 2> across, along;
-  for (unsigned int c = 0; c < 2; ++c)
-  {
-    across[c] = B[c][along_xi];
-    along[c] = B[c][1 - along_xi];
-  }
-  // T_n = (b.n/|a|) S_nn, T_t = (b.t/|a|) S_nn + S_xy with a along the edge and b across it
-  const double skew = (across * edge.tangent) / (across * edge.normal);
-  Tensor<1, 2> traction;
+  auto &parts = known[&edge - vertex_patches.edges().data()][end];
+  std::array<double, 2> weights, missing{{0., 0.}};
   for (unsigned int c = 0; c < 2; ++c)
   {
     const StressEdge::Component &component = edge.components[c];
-    const double matters =
-        component.direction * edge.tangent - skew * (component.direction * edge.normal);
-    if (component.is_unknown && std::abs(matters) > 1e-12)
-      return std::numeric_limits<double>::quiet_NaN();
+    weights[c] = component.is_unknown ? 0. : edge.weight_in_shear(component);
+    missing[end] += weights[c] * (at_end * component.direction);
+    for (unsigned int i = 0; i < component.n; ++i)
+      for (unsigned int side = 0; side < 2; ++side)
+        missing[side] -= weights[c] * parts[c][i] * legendre::at_end(i, side);
+  }
+  const unsigned int by = weights[1] != 0., n = edge.components[by].n;
+  for (const unsigned int i : {n - 2, n - 1})
+    for (unsigned int side = 0; weights[by] != 0. && side < 2; ++side)
+      parts[by][i] += missing[side] / weights[by] * legendre::at_end(i, side) / (2 * i + 1);
+}
+
+/** S_xy at one end of a boundary edge, as far as it is known. */
+EquilibratedStress::EndShear EquilibratedStress::end_shear(const unsigned int index,
+                                                           const unsigned int end) const
+{
+  const StressEdge &edge = vertex_patches.edges()[index];
+  EndShear result;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    const StressEdge::Component &component = edge.components[c];
+    const double weight = edge.weight_in_shear(component);
+    if (component.is_unknown)
+    {
+      result.is_free |= std::abs(component.direction * edge.tangent) > 1. - 1e-12;
+      result.leans |= weight != 0.;
+      continue;
+    }
     double value = 0;
     for (unsigned int i = 0; i < component.n; ++i)
       value += known[index][end][c][i] * legendre::at_end(i, end);
-    traction += value * component.direction;
+    result.known += weight * value;
+    result.scale += std::abs(value);
   }
-  return traction * edge.tangent - skew * (traction * edge.normal);
+  return result;
 }
 
 /**
  * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. One
- * cell takes the difference; where frames are skew between two cells, normal tractions can.
+ * cell takes the difference. So it does where other boundaries meet and the shear of one leans on an unknown traction that is not along it: 
+ * that alone could pay for the difference, but by the more the less it leans.
  */
 std::vector<unsigned int> EquilibratedStress::marked_corners() const
 {
   std::vector<unsigned int> result(vertex_patches.cells().size());
   std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> ends;
-  for (unsigned int e = 0; e < vertex_patches.edges().size(); ++e)
-    if (vertex_patches.edges()[e].at_boundary())
+  const std::vector<StressEdge> &all = vertex_patches.edges();
+  for (unsigned int e = 0; e < all.size(); ++e)
+    if (all[e].at_boundary())
       for (unsigned int end = 0; end < 2; ++end)
-        ends[vertex_patches.edges()[e].vertices[end]].emplace_back(e, end);
+        ends[all[e].vertices[end]].emplace_back(e, end);
   for (const auto &[vertex, edges] : ends)
   {
-    const double one = known_shear(edges[0].first, edges[0].second),
-                 other = known_shear(edges[1].first, edges[1].second);
-    const double scale = std::max(std::abs(one), std::abs(other));
-    if (!(std::abs(one - other) > 1e-12 * scale)) // NaN too
+    const StressEdge &first = all[edges[0].first], &second = all[edges[1].first];
+    const EndShear one = end_shear(edges[0].first, edges[0].second),
+                   other = end_shear(edges[1].first, edges[1].second);
+    const bool differs =
+                   std::abs(one.known - other.known) > 1e-12 * std::max(one.scale, other.scale),
+               leans = first.boundary != second.boundary && (one.leans || other.leans);
+    if (one.is_free || other.is_free || !(differs || leans))
       continue;
-    const StressEdge::Side &side = vertex_patches.edges()[edges[0].first].sides[0];
+    const StressEdge::Side &side = first.sides[0];
     result[side.cell] |= 1u << vertex_of_face[side.face][edges[0].second];
   }
   return result;

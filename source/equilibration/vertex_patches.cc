@@ -71,6 +71,10 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
       const double turn = f < 2 ? 1. : -1.;
       edge.normal[0] = turn * edge.tangent[1];
       edge.normal[1] = -turn * edge.tangent[0];
+      const Tensor<1, 2> across = cell->vertex(f < 2 ? 1 : 2) - cell->vertex(0);
+      if (!has_macro_cells &&
+          std::abs(across * edge.tangent) > 1e-12 * across.norm()) // or round-off
+        edge.skew = (across * edge.tangent) / (across * edge.normal);
       for (const StressEdge::Side &side : edge.sides)
       {
         edge.degree = std::max(edge.degree, degrees[side.cell] + 2);
@@ -82,28 +86,46 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
 }
 
 /** Along normal and tangent, but along x and y where one of these displacements alone is prescribed. */
-void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
+void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) const
 {
-  const unsigned int n_normal = has_macro_cells ? edge.degree : edge.degree - 1;
-  edge.components = {{{edge.normal, n_normal, true}, {edge.tangent, edge.degree, true}}};
+  auto &[one, other] = edge.components;
+  one = {edge.normal, 0, true};
+  other = {edge.tangent, 0, true};
   if (!edge.at_boundary())
     return;
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
   if (condition.has_contact())
   {
-    edge.components[0].is_unknown = condition.contact == Contact::bilateral;
-    edge.components[1].is_unknown = false;
+    one.is_unknown = condition.contact == Contact::bilateral;
+    other.is_unknown = false;
     return;
   }
   const std::array<bool, 2> held{
       {bool(condition.displacement[0]), bool(condition.displacement[1])}};
   const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;
   if (held[0] != held[1] && !axis_parallel)
-    for (unsigned int c = 0; c < 2; ++c)
-      edge.components[c] = {Tensor<1, 2>({double(c == 0), double(c == 1)}), n_normal, held[c]};
-  else
-    for (auto &component : edge.components)
-      component.is_unknown = held[std::abs(component.direction[1]) > 0.5] && (held[0] || held[1]);
+  {
+    one = {Tensor<1, 2>({1., 0.}), 0, held[0]};
+    other = {Tensor<1, 2>({0., 1.}), 0, held[1]};
+    return;
+  }
+  for (auto &component : edge.components)
+    component.is_unknown = held[std::abs(component.direction[1]) > 0.5];
+}
+
+/**
+ * A component of degree 2 has three coefficients. Where one is unknown and the other is not, and shears depend on more than
+ * the tangential one, four are needed: force, moment and both ends.
+ */
+void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
+{
+  set_directions(scene, edge);
+  auto &[one, other] = edge.components;
+  const bool along_edge = one.direction == edge.normal;
+  if (!has_macro_cells && one.is_unknown != other.is_unknown && (edge.skew != 0. || !along_edge))
+    edge.degree = std::max(edge.degree, 5U);
+  one.n = has_macro_cells ? edge.degree : edge.degree - 1;
+  other.n = along_edge ? edge.degree : one.n;
 }
 
 const std::map<unsigned int, double> &VertexPatches::expand(const unsigned int vertex)

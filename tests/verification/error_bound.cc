@@ -260,7 +260,8 @@ TEST(Equilibration, EnergyIsThatOfTheStresses)
   }
 }
 
-const std::string rotated = "1, 0; 3, 1; 2.5, 2; 0.5, 1"; // a parallelogram
+const std::string rotated = "1, 0; 3, 1; 2.5, 2; 0.5, 1", // a rectangle
+    skew = "0, 0; 4, 0; 6, 2; 2, 2";                      // at 45 degrees
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, Admissible,
@@ -284,6 +285,27 @@ INSTANTIATE_TEST_SUITE_P(
         Body{"parallelogram",
              "han-6-12",
              {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", rotated}}},
+        Body{"skew", "han-6-12", {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", skew}}},
+        Body{"skewRoller",
+             "han-6-12",
+             {{"Geometry/Shape", "quadrilateral"},
+              {"Geometry/Corners", skew},
+              {"Boundary top/Displacement", "free; 0"},
+              {"Boundary left/Displacement", "0; free"},
+              {"Boundary left/Traction", "0; 1"}}},
+        Body{"skewSides",
+             "han-6-12",
+             {{"Geometry/Shape", "quadrilateral"},
+              {"Geometry/Corners", skew},
+              {"Boundary right/Displacement", ""},
+              {"Boundary right/Contact", "bilateral"},
+              {"Boundary right/Friction bound", "1"},
+              {"Boundary top/Displacement", "0; free"}}},
+        Body{"skewOpens",
+             "han-6-12-unilateral",
+             {{"Geometry/Shape", "quadrilateral"},
+              {"Geometry/Corners", skew},
+              {"Boundary top/Traction", "0; -2"}}},
         Body{"opens", "han-6-12-unilateral", {}},
         Body{"opensByMoments", "han-6-12-unilateral", {{"Solver/Normal contact", "multiplier"}}},
         Body{"opensOnAParallelogram",

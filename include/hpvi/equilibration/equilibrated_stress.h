@@ -94,6 +94,14 @@ private:
     std::vector<double> gradients, defects; ///< G r and N' r by hat function
   };
 
+  /** S_xy of a cell at one end of a boundary edge. */
+  struct EndShear
+  {
+    double known = 0, scale = 0; ///< what is prescribed of it, and of tractions
+    bool is_free = false;        ///< the tangential traction is unknown
+    bool leans = false;          ///< an unknown component has a weight in it
+  };
+
   LoadRule<1> load_rule(const StressEdge &edge) const;
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
@@ -103,7 +111,7 @@ private:
                 const dealii::Tensor<1, 2> &traction);
   void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
   std::vector<unsigned int> marked_corners() const;
-  double known_shear(unsigned int edge, unsigned int end) const;
+  EndShear end_shear(unsigned int edge, unsigned int end) const;
   void set_cells();
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);

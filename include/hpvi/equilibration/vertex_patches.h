@@ -36,6 +36,8 @@ struct StressEdge
   unsigned int degree = 0;              ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
   dealii::Tensor<1, 2> normal;          ///< of the traction: towards growing xi or eta
   dealii::Tensor<1, 2> tangent;
+  double skew =
+      0; ///< of a parallelogram's sides: the shear in its frame is `S_xy = T_t - skew T_n`
   dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
   unsigned int contact_face = dealii::numbers::invalid_unsigned_int; ///< of ContactSpace::faces()
   std::array<Component, 2> components;                               ///< orthogonal directions
@@ -43,6 +45,12 @@ struct StressEdge
   bool at_boundary() const
   {
     return boundary != dealii::numbers::invalid_boundary_id;
+  }
+
+  /** Weight of a component in S_xy, which corners have from both of their edges. */
+  double weight_in_shear(const Component &component) const
+  {
+    return component.direction * tangent - skew * (component.direction * normal);
   }
 };
 
@@ -54,7 +62,7 @@ struct StressEdge
 class VertexPatches
 {
 public:
-  /** For macro cells normal parts are in P_{m-1} too. */
+  /** For macro cells normal parts are in P_{m-1} too, and corners ask for nothing. */
   VertexPatches(const Solution<2> &solution, bool has_macro_cells);
 
   const bool has_macro_cells;
@@ -81,6 +89,7 @@ public:
 
 private:
   void collect_edges(const Solution<2> &solution);
+  void set_directions(const Scene<2> &scene, StressEdge &edge) const;
   void set_components(const Scene<2> &scene, StressEdge &edge) const;
   void set_hats(const Solution<2> &solution);
   const std::map<unsigned int, double> &expand(unsigned int vertex);

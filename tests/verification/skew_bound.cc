@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The guaranteed bound on skew parallelograms: there is one, in balance and above the error, whatever holds, loads or
+// touches the edges that meet at a corner.
+#include "discretisation.h"
+
+#include <hpvi/equilibration/error_bound.h>
+
+namespace
+{
+using namespace verification;
+
+/** With edges of length 2 and 1 and an angle at the lower left corner. */
+Overrides parallelogram(const double angle, const std::string &subdivisions)
+{
+  const double c = std::cos(angle * numbers::PI / 180), s = std::sin(angle * numbers::PI / 180);
+  return {{"Geometry/Shape", "quadrilateral"},
+          {"Geometry/Corners",
+           "0, 0; 2, 0; " + text(2 + c) + ", " + text(s) + "; " + text(c) + ", " + text(s)},
+          {"Geometry/Subdivisions", subdivisions},
+          {"Material/Young's modulus", "10"},
+          {"Material/Poisson's ratio", "0.3"},
+          {"Adaptivity/Method", "hup2"},
+          {"Adaptivity/Maximum steps", "1"}};
+}
+
+Overrides operator+(Overrides entries, const Overrides &more)
+{
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+const Overrides held_right = {{"Boundary right/Displacement", "0; 0"}};
+
+/** Each way of holding an edge beside a slanted one, and slanted edges themselves. */
+const std::vector<Overrides> supports = {
+    held_right + Overrides{{"Boundary bottom/Contact", "bilateral"},
+                           {"Boundary bottom/Friction bound", "0.02"}},
+    held_right + Overrides{{"Boundary bottom/Contact", "unilateral"},
+                           {"Boundary bottom/Friction bound", "0.02"}},
+    held_right + Overrides{{"Boundary bottom/Contact", "tangential"},
+                           {"Boundary bottom/Friction bound", "0.02"}},
+    held_right + Overrides{{"Boundary bottom/Displacement", "free; 0"}},
+    held_right + Overrides{{"Boundary bottom/Displacement", "0; free"}},
+    {{"Boundary bottom/Displacement", "free; 0"}, {"Boundary right/Displacement", "0; free"}},
+    {{"Boundary bottom/Displacement", "0; 0"}, {"Boundary right/Displacement", "free; 0"}},
+    {{"Boundary bottom/Displacement", "0; 0"}, {"Boundary right/Displacement", "0; free"}},
+    {{"Boundary bottom/Displacement", "free; 0"},
+     {"Boundary right/Contact", "bilateral"},
+     {"Boundary right/Friction bound", "0.02"}},
+    {{"Boundary bottom/Displacement", "0; 0"}}};
+
+/** Tractions of a polynomial, of none, and of one that jumps inside a cell. */
+const std::vector<std::string> loads = {"0; -0.1*(1 + x)", "0.05*sin(4*x); -0.1*cos(3*x)",
+                                        "0; if(x < 1.1, -0.1, 0)"};
+
+const std::vector<double> angles = {90., 89.9, 80., 60., 45., 30.};
+
+/** On the smallest meshes both ends of an edge may be corners of the body. */
+TEST(SkewBound, HasAStressInBalanceOnTheSmallestMeshes)
+{
+  for (const double angle : angles)
+    for (unsigned int support = 0; support < supports.size(); ++support)
+      for (const std::string &load : {loads[1], loads[2]})
+        for (const auto &[subdivisions, p] :
+             {std::pair("1, 1", 2), std::pair("1, 1", 3), std::pair("2, 1", 2)})
+        {
+          SCOPED_TRACE(text(angle) + ", support " + std::to_string(support) + ", " + load + ", " +
+                       subdivisions + ", p = " + std::to_string(p));
+          const Scene<2> scene = scene_of(parallelogram(angle, subdivisions) + supports[support] +
+                                          Overrides{{"Boundary top/Traction", load},
+                                                    {"Boundary left/Traction", "0.01*y^3; 0"}});
+          const RandomMesh mesh(scene, 1, 0, p, p);
+          const Laboratory lab(scene, mesh);
+          const ErrorBound bound = ErrorBounds().compute(lab.solve(), lab.discretisation);
+          EXPECT_GT(bound.stress, 0.);
+          EXPECT_LE(bound.imbalance, 1e-12);
+        }
+}
+
+/** Supports take turns, so that each angle has all loads and each degree all supports. */
+TEST(SkewBound, IsAboveTheErrorAndNear)
+{
+  unsigned int turn = 0;
+  for (const double angle : angles)
+    for (unsigned int load = 0; load < loads.size(); ++load, ++turn)
+    {
+      const Overrides entries = parallelogram(angle, "4, 2") + supports[turn % supports.size()] +
+                                Overrides{{"Boundary top/Traction", loads[load]}};
+      const ReferenceFile reference(
+          scene_of(entries + Overrides{{"Adaptivity/Method", "hpa2"},
+                                       {"Adaptivity/Maximum steps", "40"},
+                                       {"Adaptivity/Maximum unknowns", "2000"}}));
+      for (unsigned int p = 2; p <= 5; ++p)
+        AdaptiveSolver<2>(
+            scene_of(entries + Overrides{{"Adaptivity/Start degree", std::to_string(p)},
+                                         {"Error/Reference solution", reference.path}}))
+            .run(
+                [&](const StepReport<2> &step)
+                {
+                  SCOPED_TRACE(text(angle) + ", support " + std::to_string(turn % supports.size()) +
+                               ", " + loads[load] + ", p = " + std::to_string(p));
+                  ASSERT_TRUE(step.bound) << step.no_bound;
+                  EXPECT_GE(step.bound->total, step.errors.energy);
+                  EXPECT_LE(step.bound->total,
+                            3 * step.errors.energy + 2 * step.bound->oscillation);
+                });
+    }
+}
+} // namespace
