@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A random attack on the guaranteed bound: scenes with rough data, long and skew cells and any method, each beside a finer
+// run. The distance of both solutions is at most the sum of their bounds; and all steps of both have an interval for the
+// least energy, of which any two meet. A scene in which they do not is kept, to be repeated.
+//
+//     attack SECONDS SEED DIRECTORY       as many scenes as fit
+//     attack --scenes N SEED DIRECTORY    that many
+//     attack --scene K SEED DIRECTORY     one of them again
+#include "rough_scene.h"
+
+#include <deal.II/base/mpi.h>
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/scene/scene_reader.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace
+{
+using namespace hpvi;
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/** Of a relative error, and of energies beside the square of the norm: round-off. */
+constexpr double floor_of_errors = 1e-9, floor_of_energies = 1e-10;
+
+/** What a step with a bound says. */
+struct Step
+{
+  unsigned int number;
+  double norm, bound, low, high;
+  double error; ///< distance from the reference; NaN where there is none
+};
+
+/** A run of a scene, and how it ended where it was not done. */
+struct Run
+{
+  std::vector<Step> steps;
+  std::vector<std::string> reasons; ///< of steps without a bound
+  std::string refusal, surprise;
+};
+
+/** @p finished is called with each step that has a bound. */
+Run solve(const std::string &file, const Overrides &overrides,
+          const std::function<void(const StepReport<2> &)> &finished = {})
+{
+  Run run;
+  try
+  {
+    const Scene<2> scene = read_scene<2>(file, overrides);
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          if (!step.bound)
+          {
+            run.reasons.push_back(step.no_bound);
+            return;
+          }
+          const double energy = step.energies.energy;
+          run.steps.push_back({step.number, step.energies.norm, step.bound->total,
+                               energy - step.bound->energy_below, energy + step.bound->energy_above,
+                               step.errors.energy});
+          if (finished)
+            finished(step);
+        });
+  }
+  catch (const InputError &error)
+  {
+    run.refusal = error.what();
+  }
+  catch (const NumericalFailure &failure)
+  {
+    run.refusal = failure.what();
+  }
+  catch (const std::exception &error)
+  {
+    run.surprise = error.what();
+  }
+  return run;
+}
+
+/** What all scenes together came to. */
+struct Score
+{
+  unsigned int n_scenes = 0, n_bounds = 0, n_compared = 0, n_violations = 0;
+  std::map<std::string, unsigned int> refusals, reasons;  ///< how often, by their first words
+  double least = std::numeric_limits<double>::infinity(); ///< of bound/error
+  std::string where;                                      ///< the step with it
+};
+
+/** What is the same in all scenes: a message up to its first number. */
+std::string first_words(const std::string &message)
+{
+  return message.substr(0, std::min<std::size_t>(message.find_first_of("(0123456789"), 70));
+}
+
+class Attack
+{
+public:
+  Attack(const unsigned int seed, const std::filesystem::path &directory)
+      : seed(seed), directory(directory),
+        stem((directory / ("running-" + std::to_string(getpid()))).string())
+  {
+    std::filesystem::create_directories(directory);
+  }
+
+  ~Attack()
+  {
+    for (const char *const ending : {".prm", ".reference"})
+      std::filesystem::remove(stem + ending);
+  }
+
+  Attack(const Attack &) = delete;
+  Attack &operator=(const Attack &) = delete;
+
+  void try_scene(unsigned int number);
+  Score score;
+
+private:
+  Run solve_reference(double &bound) const;
+  std::vector<std::string> flaws(const Run &run, const Run &reference, double of_reference,
+                                 unsigned int number);
+  void keep(unsigned int number, const std::vector<std::string> &flaws) const;
+
+  const unsigned int seed;
+  const std::filesystem::path directory;
+  const std::string stem; ///< of the files of the scene that is tried
+};
+
+/** Many steps of a method of its own; stored is the one with the least bound. */
+Run Attack::solve_reference(double &bound) const
+{
+  bound = std::numeric_limits<double>::infinity();
+  return solve(stem + ".prm",
+               {{"Adaptivity/Method", "hpa3"},
+                {"Adaptivity/Start degree", "0"},
+                {"Adaptivity/Indicator", "bound"},
+                {"Adaptivity/Maximum steps", "12"},
+                {"Adaptivity/Maximum unknowns", "2500"}},
+               [&](const StepReport<2> &step)
+               {
+                 if (!(step.bound->total < bound))
+                   return;
+                 bound = step.bound->total;
+                 std::ofstream file(stem + ".reference");
+                 StoredSolution<2>(step.solution, step.energies.energy).write(file);
+               });
+}
+
+/** What contradicts the theorems; the score takes in how near the bounds are. */
+std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
+                                       const double of_reference, const unsigned int number)
+{
+  std::vector<std::string> result;
+  for (const Step &step : run.steps)
+  {
+    const std::string place = "step " + std::to_string(step.number);
+    const double round_off = floor_of_errors * step.norm;
+    if (step.bound + of_reference + round_off < step.error)
+      result.push_back(place + ": bound " + std::to_string(step.bound / step.error) +
+                       " times the distance from the reference, whose bound is " +
+                       std::to_string(of_reference / step.error) + " of it");
+    if (10 * of_reference < step.error && step.error > round_off)
+    {
+      ++score.n_compared;
+      if (step.bound / step.error < score.least)
+      {
+        score.least = step.bound / step.error;
+        score.where = "scene " + std::to_string(number) + ", " + place;
+      }
+    }
+  }
+  std::vector<Step> all(run.steps);
+  all.insert(all.end(), reference.steps.begin(), reference.steps.end());
+  for (const Step &one : all)
+    for (const Step &other : all)
+      if (one.low >
+          other.high + floor_of_energies * (std::pow(one.norm, 2) + std::pow(other.norm, 2)))
+      {
+        std::ostringstream line;
+        line.precision(12);
+        line << "intervals of energy do not meet: [" << one.low << ", " << one.high << "] in step "
+             << one.number << " and [" << other.low << ", " << other.high << "] in step "
+             << other.number
+             << (&one >= &all[0] + run.steps.size() ? ", of the reference and"
+                                                    : ", of the scene and")
+             << (&other >= &all[0] + run.steps.size() ? " of the reference" : " of the scene");
+        result.push_back(line.str());
+      }
+  return result;
+}
+
+/** The scene, with what it contradicts. */
+void Attack::keep(const unsigned int number, const std::vector<std::string> &flaws) const
+{
+  const auto file =
+      directory / ("scene-" + std::to_string(seed) + "-" + std::to_string(number) + ".prm");
+  std::ofstream out(file);
+  std::cout << file.string() << ":\n";
+  for (const std::string &flaw : flaws)
+  {
+    out << "# " << flaw << '\n';
+    std::cout << "  " << flaw << std::endl;
+  }
+  out << std::ifstream(stem + ".prm").rdbuf();
+}
+
+void Attack::try_scene(const unsigned int number)
+{
+  std::mt19937 random(seed + 1000003 * number);
+  std::ofstream(stem + ".prm") << attack::rough_scene(random);
+  ++score.n_scenes;
+  double of_reference;
+  const Run reference = solve_reference(of_reference);
+  Overrides against;
+  if (std::isfinite(of_reference))
+    against.emplace_back("Error/Reference solution", stem + ".reference");
+  const Run run = solve(stem + ".prm", against);
+  std::vector<std::string> found = flaws(run, reference, of_reference, number);
+  for (const std::string &surprise : {run.surprise, reference.surprise})
+    if (!surprise.empty())
+      found.push_back("no error that the program knows: " + surprise);
+  if (!run.refusal.empty())
+    ++score.refusals[first_words(run.refusal.substr(run.refusal.find(": ") + 2))];
+  for (const std::string &reason : run.reasons)
+    ++score.reasons[first_words(reason)];
+  score.n_bounds += run.steps.size();
+  score.n_violations += !found.empty();
+  if (!found.empty())
+    keep(number, found);
+}
+} // namespace
+
+int main(int argc, char *argv[])
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const std::string word = argc > 1 ? argv[1] : "";
+  const bool counts = word == "--scenes", one = word == "--scene";
+  if (argc != (counts || one ? 5 : 4))
+  {
+    std::cerr << "attack: wants SECONDS SEED DIRECTORY, or --scenes N SEED DIRECTORY, or --scene K "
+                 "SEED DIRECTORY\n";
+    return 1;
+  }
+  const double limit = std::atof(argv[argc - 3]);
+  Attack attack(std::atoi(argv[argc - 2]), argv[argc - 1]);
+  const auto begin = std::chrono::steady_clock::now();
+  unsigned int number = one ? limit : 0;
+  const auto goes_on = [&]
+  {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    return one ? number == limit : counts ? number < limit : passed.count() < limit;
+  };
+  for (; goes_on(); ++number)
+    attack.try_scene(number);
+  const Score &score = attack.score;
+  for (const auto &[words, n] : score.refusals)
+    std::cout << n << " scenes given up: " << words << "...\n";
+  for (const auto &[words, n] : score.reasons)
+    std::cout << n << " steps without a bound: " << words << "...\n";
+  std::cout << score.n_scenes << " scenes, " << score.n_bounds << " steps with a bound\n"
+            << "least bound/error of " << score.n_compared << " steps: " << score.least
+            << (score.where.empty() ? "" : " (" + score.where + ")") << "; " << score.n_violations
+            << " scenes contradict" << std::endl;
+  return score.n_violations > 0 || score.n_compared == 0 ? 1 : 0;
+}
