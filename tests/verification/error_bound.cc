@@ -364,6 +364,47 @@ TEST(ErrorBoundOfUnilateralContact, SeesTheGapBetweenNodes)
           });
 }
 
+/** A body that lies on waves between the nodes: the bound holds beside a finer run, both by their distance and their energies. */
+TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
+{
+  const Overrides scene = {
+      {"Material/Poisson's ratio", "0.3"},        {"Geometry/Subdivisions", "2, 1"},
+      {"Boundary top/Displacement", "0; -0.02"},  {"Boundary bottom/Contact", "unilateral"},
+      {"Boundary bottom/Gap", "0.002*cos(11*x)"}, {"Adaptivity/Tolerance", "0"}};
+  const auto with = [&](Overrides more)
+  {
+    more.insert(more.end(), scene.begin(), scene.end());
+    return scene_of(more);
+  };
+  const std::string file = ::testing::TempDir() + "waves-" + std::to_string(std::random_device()());
+  double low = 0, high = 0, of_reference = 0;
+  AdaptiveSolver<2>(with({{"Adaptivity/Method", "hpa3"}, {"Adaptivity/Maximum steps", "9"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            std::ofstream out(file);
+            StoredSolution<2>(step.solution, step.energies.energy).write(out);
+            of_reference = step.bound->total;
+            low = step.energies.energy - step.bound->energy_below;
+            high = step.energies.energy + step.bound->energy_above;
+          });
+  AdaptiveSolver<2>(with({{"Adaptivity/Method", "hup2"},
+                          {"Adaptivity/Maximum steps", "3"},
+                          {"Error/Reference solution", file}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            EXPECT_LT(of_reference, 0.05 * step.errors.energy);
+            EXPECT_GE(step.bound->total, step.errors.energy - of_reference);
+            EXPECT_LE(step.bound->total, 3 * step.errors.energy);
+            EXPECT_LE(step.energies.energy - step.bound->energy_below, high);
+            EXPECT_GE(step.energies.energy + step.bound->energy_above, low);
+          });
+  std::filesystem::remove(file);
+}
+
 /** Both directions share unknowns at the vertices there; w still is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {

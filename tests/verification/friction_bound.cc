@@ -3,6 +3,7 @@
 #include "discretisation.h"
 
 #include <hpvi/admissibility/contact_correction.h>
+#include <hpvi/admissibility/correction_search.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 
 #include <algorithm>
@@ -197,6 +198,28 @@ TEST(AdmissibleFriction, StaysWithinItsBoundAtEveryPoint)
           }
       });
   EXPECT_GT(deviation, 0.9); // zero would stay within any bound
+}
+
+/** High degrees, slip that ends inside edges: where l* has to be held at its bound between the first points. */
+TEST(AdmissibleFriction, StaysWithinItsBoundWhereSlipEnds)
+{
+  double largest = 0;
+  for (const std::string method : {"hap4", "hpa3", "pu"})
+    AdaptiveSolver<2>(shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"},
+                                                   {"Adaptivity/Method", method},
+                                                   {"Error/Bound", "false"},
+                                                   {"Adaptivity/Maximum steps", "7"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              const AdmissibleFriction<2> friction(step.solution);
+              for (unsigned int k = 0; k < step.solution.contact_space.faces().size(); ++k)
+                for (const unsigned int end : {0, 1})
+                  for (const double s : friction.part(k, end).extremes())
+                    largest = std::max(largest, std::abs(friction.part(k, end)(s)));
+            });
+  EXPECT_LE(largest, 1. + 1e-13);
+  EXPECT_GE(largest, 1.);
 }
 
 /** An end of a contact face: the vertex there and the boundary, of which two may meet in a corner. */
@@ -396,11 +419,16 @@ TEST(AdmissibleFriction, VanishesWithoutFriction)
 }
 
 /** w with all displacement unknowns. */
-Vector<double> correction(const ContactCorrection<2> &slip, const Laboratory &lab)
+Vector<double> expanded(const Vector<double> &unknowns, const Laboratory &lab)
 {
-  Vector<double> w = lab.discretisation.unknowns.expand(slip.unknowns());
+  Vector<double> w = lab.discretisation.unknowns.expand(unknowns);
   lab.discretisation.condensation.extend(w);
   return w;
+}
+
+Vector<double> correction(const ContactCorrection<2> &slip, const Laboratory &lab)
+{
+  return expanded(slip.unknowns(), lab);
 }
 
 double energy_product(const Vector<double> &u, const Laboratory &lab)
@@ -520,7 +548,7 @@ TEST(ContactCorrection, IsATestFunction)
       });
 }
 
-/** u_N - w is below the gap at every point, though u_N is not. */
+/** u_N - w is below the gap at every point, though u_N is not; also where nothing else is asked of w. */
 TEST(ContactCorrection, TakesPenetrationAway)
 {
   for (const std::string contact : {"nodes", "multiplier"})
@@ -531,9 +559,14 @@ TEST(ContactCorrection, TakesPenetrationAway)
       const RandomMesh mesh(scene, 3, seed, 2, 6);
       const Laboratory lab(scene, mesh);
       const Solution<2> solution = lab.solve();
-      const ContactCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
-                                      AdmissiblePressure<2>(solution), nullptr);
+      const AdmissibleFriction<2> friction(solution);
+      const AdmissiblePressure<2> pressure(solution);
+      const ContactCorrection<2> slip(solution, lab.discretisation, friction, pressure, nullptr);
       EXPECT_EQ(slip.penetration(), 0.);
+      const auto nothing =
+          CorrectionSearch<2>(solution, lab.discretisation, friction, pressure, nullptr).nothing();
+      EXPECT_EQ(nothing.penetration, 0.);
+      EXPECT_TRUE(std::isfinite(nothing.total));
       const auto penetration = [&](const Vector<double> &v)
       {
         double result = 0;
@@ -549,6 +582,9 @@ TEST(ContactCorrection, TakesPenetrationAway)
       Vector<double> rest(solution.u);
       EXPECT_GT(penetration(rest), 1e-6);
       rest -= correction(slip, lab);
+      EXPECT_LE(penetration(rest), 1e-13);
+      rest = solution.u;
+      rest -= expanded(nothing.w, lab);
       EXPECT_LE(penetration(rest), 1e-13);
     }
 }
