@@ -177,15 +177,13 @@ void MomentNewton<dim>::hold(DistributedVector &v,
       space.set_moment(v, k, space.contact[k].gap);
 }
 
-/** With P(z) = z/|z| where a disc slips, and 0 where contact is open. */
+/** With P(z) = z/|z| where a disc slips, and 0 where contact is open; what is held has no equation. */
 template <int dim>
-DistributedVector
-MomentNewton<dim>::right_hand_side(const std::vector<MomentState<dim>> &states) const
+DistributedVector MomentNewton<dim>::right_hand_side() const
 {
   DistributedVector b = system.f;
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (acts(k) && !states[k].is_held)
-      space.add_moment(b, k, -space.contact[k].weight * space.contact[k].projected(z[k]));
+    space.add_moment(b, k, -space.contact[k].weight * space.contact[k].projected(z[k]));
   return b;
 }
 
@@ -328,7 +326,7 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
     matrix.linearise(moment_states);
     const DistributedVector old = v;
     hold(v, moment_states);
-    matrix.solve(v, right_hand_side(moment_states), linear_tolerance(settings, now, report.steps));
+    matrix.solve(v, right_hand_side(), linear_tolerance(settings, now, report.steps));
     if (report.steps > 0 && shorten(v, old, now.load))
       ++report.line_searches;
     previous = now.norm;

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from runs import PROGRAM as HPVI, expanded
+from runs import PROGRAM as HPVI, expanded, read_vtu
 
 MPIRUN = sys.argv[1]  # runs.py has taken the program
 SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver/Primal tolerance=1e-11"]
@@ -128,6 +128,26 @@ with tempfile.TemporaryDirectory() as scratch:
     assert 0 < bottom["largest_penetration"] < 0.01 and len(bottom["largest_penetration_at"]) == 3
     assert abs(summary["forces"]["bottom"]["force"][1] + bottom["normal_resultant"]) < 1e-9
     assert summary["balance"]["force"] < 1e-9 and summary["balance"]["moment"] < 1e-9
+
+    # Constant strain: each component of the stress, von Mises' and the displacement have their closed form.
+    gradient = ((0.01, 0.002, -0.03), (0.005, -0.02, 0.007), (0.011, 0.013, 0.017))
+    exact = "; ".join(" + ".join(f"{b}*{x}" for b, x in zip(row, "xyz")) for row in gradient)
+    words = [word for side in ("left", "right", "bottom", "top", "front", "back")
+             for word in ("--set", f"Boundary {side}/Displacement={exact}")]
+    subprocess.run([HPVI, "--output", str(scratch / "strain"), "prm/slab.prm", "--set", "Boundary left/Traction=", "--set",
+                    "Boundary bottom/Contact=none", "--set", "Boundary bottom/Friction bound=", *words, "--set",
+                    "Adaptivity/Maximum steps=1", "--set", "Geometry/Subdivisions=1, 1, 1"], check=True, capture_output=True)
+    grid = read_vtu(scratch / "strain/solution-01.0.vtu")
+    shear = 15 / (2 * 1.4)
+    sigma = [[shear * (gradient[a][b] + gradient[b][a]) + (15 * 0.4 / (1.4 * 0.2) * sum(gradient[c][c] for c in range(3))
+                                                           if a == b else 0) for b in range(3)] for a in range(3)]
+    pressure = sum(sigma[c][c] for c in range(3)) / 3
+    mises = sum(1.5 * (sigma[a][b] - (pressure if a == b else 0)) ** 2 for a in range(3) for b in range(3)) ** 0.5
+    fields = {"sigma_" + "xyz"[a] + "xyz"[b]: sigma[a][b] for a in range(3) for b in range(a, 3)}
+    for name, value in {**fields, "von_mises": mises}.items():
+        assert len(grid[name]) >= 27 and all(abs(v - value) < 1e-6 for v in grid[name]), (name, value, grid[name][:3])
+    for x, u in zip(grid["points"], grid["displacement"]):
+        assert all(abs(u[a] - sum(gradient[a][c] * x[c] for c in range(3))) < 1e-6 for a in range(3)), (x, u)
 
     # In the plane the path follows the multipliers of the first mesh, but not where it lacks what a scene asks for.
     opens = ["Boundary bottom/Contact=unilateral", "Solver/Normal contact=multiplier"]

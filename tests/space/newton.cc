@@ -111,6 +111,32 @@ TEST(Newton, ForcesAreThoseOfTheReducedPath)
   }
 }
 
+/** A fiftieth of the moments may change its state before multigrid is set up anew, and no more. */
+TEST(Newton, SetsMultigridUpWhereMoreThanAFiftiethHasChanged)
+{
+  const Scene<3> scene = slab({{"Geometry/Subdivisions", "10, 1, 10"},
+                               {"Adaptivity/Method", "hup2"},
+                               {"Adaptivity/Maximum steps", "1"}});
+  steps_of<3>(scene,
+              [](const PrimalReport<3> &step)
+              {
+                ASSERT_EQ(step.space.n_discs, 100u);
+                PrimalSystem<3> system(step.space);
+                MomentMatrix<3> matrix(step.space, system);
+                std::vector<MomentState<3>> states(step.space.contact.size());
+                const auto setups = [&](const unsigned int begin, const unsigned int end)
+                {
+                  for (unsigned int k = begin; k < end; ++k)
+                    states[k].is_held = true;
+                  matrix.linearise(states);
+                  return matrix.n_setups;
+                };
+                EXPECT_EQ(setups(0, 1), 1u); // the first
+                EXPECT_EQ(setups(1, 3), 1u);
+                EXPECT_EQ(setups(3, 6), 2u);
+              });
+}
+
 /** Multigrid does not see what hardly any change of volume asks for: a factorisation does, and the run says so. */
 TEST(Newton, MultigridThatBreaksDownGivesWayToAFactorisation)
 {

@@ -66,6 +66,34 @@ TEST(Plane, BothPathsAgreeWhereTheBoundVaries)
   expect_equal(steps_of<2>(scene), reduced_steps(scene));
 }
 
+/** h_K is the longest edge. */
+TEST(Plane, BothPathsAgreeOnRectangles)
+{
+  const Scene<2> scene = example("han-6-12", {{"Adaptivity/Method", "hap2"},
+                                              {"Geometry/Subdivisions", "2, 6"},
+                                              {"Adaptivity/Maximum steps", "2"}});
+  expect_equal(steps_of<2>(scene), reduced_steps(scene));
+}
+
+/** Where the bound vanishes contact slips, in counts as in states. */
+TEST(Plane, DiscsWithoutFrictionSlip)
+{
+  const Scene<2> scene =
+      example("han-6-12", {{"Adaptivity/Method", "hup3"},
+                           {"Boundary bottom/Friction bound", "if(x < 2, 0, 45)"},
+                           {"Adaptivity/Maximum steps", "1"}});
+  steps_of<2>(scene,
+              [](const PrimalReport<2> &step)
+              {
+                const auto slips = [](const MomentPoint<2> &point)
+                { return point.mode() == ContactMode::slip; };
+                EXPECT_EQ(step.newton.n_slipping,
+                          std::count_if(step.contact.begin(), step.contact.end(), slips));
+                EXPECT_GE(step.newton.n_slipping, 4u);
+                EXPECT_LT(step.newton.n_slipping, step.contact.size());
+              });
+}
+
 /** Plane strain: u_z = 0 on both sides of a slab of one layer, whose solution does not depend on z. */
 TEST(Plane, SlabIsPlaneStrain)
 {

@@ -90,7 +90,7 @@ private:
   std::vector<MomentState<dim>> states(bool all_held) const;
   void hold(DistributedVector &v, const std::vector<MomentState<dim>> &states) const;
   bool penetrates(const DistributedVector &v, double force) const;
-  DistributedVector right_hand_side(const std::vector<MomentState<dim>> &states) const;
+  DistributedVector right_hand_side() const;
   double friction(const DistributedVector &v, const DistributedVector &step, double length) const;
   bool shorten(DistributedVector &v, const DistributedVector &old, double load) const;
   double error(double gap);
