@@ -200,28 +200,6 @@ TEST(AdmissibleFriction, StaysWithinItsBoundAtEveryPoint)
   EXPECT_GT(deviation, 0.9); // zero would stay within any bound
 }
 
-/** High degrees, slip that ends inside edges: where l* has to be held at its bound between the first points. */
-TEST(AdmissibleFriction, StaysWithinItsBoundWhereSlipEnds)
-{
-  double largest = 0;
-  for (const std::string method : {"hap4", "hpa3", "pu"})
-    AdaptiveSolver<2>(shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"},
-                                                   {"Adaptivity/Method", method},
-                                                   {"Error/Bound", "false"},
-                                                   {"Adaptivity/Maximum steps", "7"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              const AdmissibleFriction<2> friction(step.solution);
-              for (unsigned int k = 0; k < step.solution.contact_space.faces().size(); ++k)
-                for (const unsigned int end : {0, 1})
-                  for (const double s : friction.part(k, end).extremes())
-                    largest = std::max(largest, std::abs(friction.part(k, end)(s)));
-            });
-  EXPECT_LE(largest, 1. + 1e-13);
-  EXPECT_GE(largest, 1.);
-}
-
 /** An end of a contact face: the vertex there and the boundary, of which two may meet in a corner. */
 using End = std::pair<unsigned int, types::boundary_id>;
 

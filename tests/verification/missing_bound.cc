@@ -214,4 +214,27 @@ TEST(MissingBound, LeavesTheLastOneInTheSummary)
 
 INSTANTIATE_TEST_SUITE_P(, AnyReason, ::testing::ValuesIn(reasons),
                          [](const auto &info) { return info.param.name; });
+
+/** The body is linear: a bump between all nodes, too small to leave no bound, is the error, and in proportion to a large one. */
+TEST(SmallBump, BetweenTheNodesCounts)
+{
+  const auto scene = [](const std::string &displacement, const Overrides &more)
+  {
+    return scene_of(with(with(held, {{"Boundary top/Displacement", displacement},
+                                     {"Geometry/Subdivisions", "1, 1"}}),
+                         more));
+  };
+  const std::string bump = "exp(-((x - 0.37)/0.02)^2)";
+  double norm = 0;
+  AdaptiveSolver<2>(scene("0; 1e-3*" + bump, {{"Adaptivity/Maximum steps", "9"}}))
+      .run([&](const StepReport<2> &step) { norm = step.energies.norm; });
+  AdaptiveSolver<2>(scene("0; -0.01 + 5e-11*" + bump, {}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            EXPECT_GT(step.bound->data, 5e-8 * norm);
+            EXPECT_LT(step.bound->data, 50 * 5e-8 * norm);
+          });
+}
 } // namespace
