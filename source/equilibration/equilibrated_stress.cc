@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/equilibration/traction_system.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
@@ -128,7 +129,7 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
     set_cells();
     set_data();
   }
-  solve_patches();
+  set_tractions();
   if (measured)
     measure_from(*measured);
   measure();
@@ -621,11 +622,26 @@ PatchCell EquilibratedStress::patch_cell(const unsigned int index, const unsigne
           &batch.defects[column * cell.element->n_conditions()], &vertex_patches.cells()[index]};
 }
 
-void EquilibratedStress::solve_patches()
+/** By patches, or all at once where cells are so long that hat functions would cost too much. */
+void EquilibratedStress::set_tractions()
 {
   for (const StressEdge &edge : vertex_patches.edges())
     sums.push_back(
         {{std::vector<double>(edge.components[0].n), std::vector<double>(edge.components[1].n)}});
+  if (has_long_cells(solution))
+    solve_all_cells();
+  else
+    solve_patches();
+  double largest = 0;
+  for (const auto &edge : sums)
+    for (const auto &component : edge)
+      for (const double coefficient : component)
+        largest = std::max(largest, std::abs(coefficient));
+  defect = defect == 0 ? 0. : defect / largest;
+}
+
+void EquilibratedStress::solve_patches()
+{
   std::vector<PatchCell> patch;
   std::vector<PatchEdge> edges;
   for (const auto &[vertex, hats] : vertex_patches.patches())
@@ -664,12 +680,46 @@ void EquilibratedStress::solve_patches()
       is_worst_in_corners = missed.corners > missed.equilibrium;
     }
   }
-  double largest = 0;
-  for (const auto &edge : sums)
-    for (const auto &component : edge)
-      for (const double coefficient : component)
-        largest = std::max(largest, std::abs(coefficient));
-  defect = defect == 0 ? 0. : defect / largest;
+}
+
+/** Hat functions sum to 1, and so do their data. */
+void EquilibratedStress::solve_all_cells()
+{
+  std::vector<PatchCell> all_cells;
+  std::vector<PatchEdge> all_edges;
+  std::vector<std::vector<double>> data; // gradient and defect of each cell
+  for (unsigned int index = 0; index < vertex_patches.cells().size(); ++index)
+  {
+    PatchCell cell = patch_cell(index, 0);
+    const unsigned int n_edges = cell.element.n_edges(), n_conditions = cell.element.n_conditions;
+    std::vector<double> sum(n_edges + n_conditions);
+    for (unsigned int hat = 0; hat < vertex_patches.cells()[index].hats.size(); ++hat)
+    {
+      const PatchCell part = patch_cell(index, hat);
+      for (unsigned int i = 0; i < n_edges; ++i)
+        sum[i] += part.gradient[i];
+      for (unsigned int i = 0; i < n_conditions; ++i)
+        sum[n_edges + i] += part.defect[i];
+    }
+    data.push_back(std::move(sum));
+    cell.gradient = data.back().data();
+    cell.defect = cell.gradient + n_edges;
+    all_cells.push_back(cell);
+  }
+  std::vector<std::array<std::vector<double>, 2>> given(vertex_patches.edges().size());
+  for (unsigned int e = 0; e < given.size(); ++e)
+  {
+    const StressEdge &edge = vertex_patches.edges()[e];
+    for (unsigned int c = 0; edge.at_boundary() && c < 2; ++c)
+      for (unsigned int i = 0; i < edge.components[c].n; ++i)
+        given[e][c].push_back(known[e][0][c][i] + known[e][1][c][i]);
+    all_edges.push_back({e, &edge, edge.at_boundary() ? &given[e] : nullptr, &sums[e]});
+  }
+  const WorstCondition worst = solve_all(all_cells, all_edges, cache.legendre);
+  defect = worst.missed;
+  is_worst_in_corners = worst.corner != numbers::invalid_unsigned_int;
+  worst_vertex = vertex_patches.cells()[worst.cell].iterator->vertex_index(
+      is_worst_in_corners ? worst.corner : 0);
 }
 
 void EquilibratedStress::add_tractions(const unsigned int index, const TractionEnergy &element,

@@ -17,6 +17,19 @@ bool has_distorted_cells(const Solution<2> &solution)
   return false;
 }
 
+bool has_long_cells(const Solution<2> &solution)
+{
+  constexpr double longest = 4 * (1 + 1e-6); // the same for 4 : 1 in all frames
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const Tensor<2, 2> J = map_of<2>(cell).jacobian({0.5, 0.5});
+    // With singular values a and b: (a^2 + b^2)/(a b)
+    if (J.norm_square() > (longest + 1 / longest) * std::abs(determinant(J)))
+      return true;
+  }
+  return false;
+}
+
 VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_macro_cells)
     : has_macro_cells(has_macro_cells)
 {

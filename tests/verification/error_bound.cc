@@ -312,7 +312,13 @@ INSTANTIATE_TEST_SUITE_P(
              "han-6-12-unilateral",
              {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", rotated}}},
         Body{"cylinder", "hertz", {}}, Body{"punch", "punch", {}},
-        Body{"longCells", "han-6-12", {{"Geometry/Subdivisions", "16, 1"}}}),
+        Body{"longCells", "han-6-12", {{"Geometry/Subdivisions", "16, 1"}}},
+        Body{"longSlantedCells",
+             "han-6-12",
+             {{"Geometry/Shape", "quadrilateral"},
+              {"Geometry/Corners", rotated},
+              {"Geometry/Subdivisions", "1, 8"},
+              {"Boundary top/Displacement", "free; 0"}}}),
     [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
 
 /** Largest and smallest quotient of bound and error over the steps of a run. */

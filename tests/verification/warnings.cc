@@ -225,6 +225,8 @@ TEST(Warnings, ElongatedElements)
         "han-6-13", {{"Geometry/Subdivisions", subdivisions}, {"Adaptivity/Maximum steps", "1"}});
   };
   EXPECT_TRUE(warns(bar("1, 16"), "80 times as long as wide"));
+  EXPECT_TRUE(warns(bar("1, 4"), "20 times as long as wide"));
+  EXPECT_FALSE(warns(bar("1, 3"), "as long as wide"));
   EXPECT_FALSE(warns(bar("16, 1"), "as long as wide"));
 }
 

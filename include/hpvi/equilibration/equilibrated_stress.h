@@ -14,7 +14,8 @@ namespace hpvi
  * given, with continuous tractions, and `s_t = -Pi (g lam*)` along the contact, and a given s_n <= 0 where that is unilateral: the sum over all
  * vertices a of stresses near psi_a sigma(u_N), each the solution of a small problem on the patch of a
  * (DOI 10.1090/S0025-5718-07-02080-7 for the idea). These can be solved because u_N meets the discrete
- * equations for psi_a times any rigid motion, which takes p >= 2.
+ * equations for psi_a times any rigid motion, which takes p >= 2. Where there are long cells, it is the solution of one problem for
+ * all cells.
  */
 class EquilibratedStress
 {
@@ -121,7 +122,9 @@ private:
   void set_data(unsigned int cell, double *r) const;
   void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
                    const std::vector<double> &r, std::vector<double> &result) const;
+  void set_tractions();
   void solve_patches();
+  void solve_all_cells();
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
   void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;
   std::vector<double> data_of(unsigned int cell) const;

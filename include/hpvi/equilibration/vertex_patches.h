@@ -13,6 +13,12 @@ namespace hpvi
 /** Are there cells that are no parallelograms? */
 bool has_distorted_cells(const Solution<2> &solution);
 
+/**
+ * Is the largest stretch of the map of any cell more than four times the smallest? A hat function times a bent
+ * displacement has up to (L/t)^2 times its energy: doc/bound.md.
+ */
+bool has_long_cells(const Solution<2> &solution);
+
 /** One edge of the mesh with the traction `s n` of an equilibrated stress on it. */
 struct StressEdge
 {
