@@ -61,6 +61,16 @@ SKEW_SUPPORTS = {
                           [RIGHT + s for s in SLIDES]}
 SKEW_LOADS = {"polynomial": "0; -0.1*(1 + x)", "cosine": "0.05*sin(4*x); -0.1*cos(3*x)",
               "partial": "0; if(x < 1.1, -0.1, 0)"}
+ASPECTS = (1, 2, 4, 10, 20, 50, 100, 200)
+# Bodies of long cells: title, upper corner, coarse mesh, a mesh of squares, and settings; A is the aspect.
+FREE = ["Boundary left/Traction=", "Boundary right/Displacement=", "Boundary bottom/Contact=none",
+        "Boundary bottom/Friction bound="]
+LONG = {"beam": ("Cantilever", "{4*A}, 1", "4, 1", "{4*A}, 1",
+                 ["Boundary left/Displacement=0; 0", "Boundary top/Traction=0; -1"]),
+        "pressed": ("Block under pressure", "1, 1", "1, {A}", "4, 4",
+                    ["Boundary bottom/Displacement=0; 0", "Boundary top/Traction=0; -1 - x"]),
+        "sheared": ("Block under shear", "1, 1", "1, {A}", "4, 4",
+                    ["Boundary bottom/Displacement=0; 0", "Boundary top/Traction=0.5; -1 - x"])}
 FLOOR = 1e-9  # relative error below which round-off shows
 
 
@@ -321,13 +331,48 @@ def others(lab):
     put_table("others", rows, page=PAGE)
 
 
+def long_cells(lab):
+    """Bound over error by how long cells are, and by degree: the larger of two steps that bisect all cells."""
+    rows = []
+    figure, panels = chart(3, "Guaranteed bound over the true error by the aspect of cells", width=13, sharey=True)
+    for axes, (body, (title, corner, mesh, squares, loads)) in zip(panels, LONG.items()):
+        for A in ASPECTS:
+            progress(f"  {title}, cells of {A}:1")
+            rows.append({"body": title, "aspect": A,
+                         **aspect_row(lab, body, *(text.replace("{4*A}", str(4 * A)).replace("{A}", str(A))
+                                                   for text in (corner, mesh, squares)), FREE + loads)})
+        own = [row for row in rows if row["body"] == title]
+        for k, p in enumerate((2, 4, 6, 8)):
+            axes.semilogx(ASPECTS, [float(row[f"p = {p}"]) for row in own], "os^v"[k] + "-",
+                          color=COLOURS[k], markersize=5, label=f"p = {p}")
+        axes.set(title=title, xlabel="length over width of cells [-]")
+    panels[0].set_ylabel("bound / true error [-]")
+    panels[0].legend(fontsize=8)
+    save(figure, "aspect.png", PAGE)
+    put_table("aspect", rows, page=PAGE)
+
+
+def aspect_row(lab, body, corner, mesh, squares, settings):
+    """By degree. The least energy of a mesh of squares tells the error, by Galerkin's orthogonality."""
+    settings = [*settings, f"Geometry/Upper corner={corner}"]
+    finest = lab.run("han-6-12", f"squares-{body}", *settings, f"Geometry/Subdivisions={squares}",
+                     *method_settings("hpa3", 14, "bound"), "Adaptivity/Start degree=4")
+    result = {}
+    for p in range(2, 9):
+        run = lab.run("han-6-12", f"long-{body}", *settings, f"Geometry/Subdivisions={mesh}",
+                      *method_settings("hup2", 2, "bound"), f"Adaptivity/Start degree={p}")
+        error = np.sqrt(2 * (run.column("energy") - finest.column("energy").min()))
+        result[f"p = {p}"] = plain((run.column("error_bound") / error).max(), 2)
+    return result
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
-    parser.add_argument("--only", choices=["cost", "chart", "skew"],
-                        help="measure nothing else than the time, than what the charts of effectivities and intervals show, or "
-                             "than skew parallelograms")
+    parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect"],
+                        help="measure nothing else than the time, than what the charts of effectivities and intervals show, "
+                             "than skew parallelograms, or than long cells")
     parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
     arguments = parser.parse_args()
     if arguments.draw:
@@ -337,6 +382,9 @@ def main():
     GALLERY.mkdir(exist_ok=True)
     lab = Laboratory(str(pathlib.Path(arguments.program).resolve()), arguments.output.resolve())
     lab.home.mkdir(parents=True, exist_ok=True)
+    if arguments.only == "aspect":
+        long_cells(lab)
+        return
     if arguments.only == "chart":
         runs = measure(lab, {"hpa3": METHODS["hpa3"]}, ["bound"])
         record_chart(runs)
@@ -352,6 +400,7 @@ def main():
         intervals(runs)
         shares(runs)
         stiff(lab)
+        long_cells(lab)
     if arguments.only != "cost":
         skew(lab)
     if arguments.only != "skew":
