@@ -170,6 +170,8 @@ TEST(Ranks, AnErrorInAnyStageIsOneOnAll)
                            {"Boundary bottom/Contact", "unilateral"},
                            {"Adaptivity/Maximum steps", "1"}};
   Fuse fuse;
+  if (fuse.n != 2)
+    GTEST_SKIP() << "one that fails and one that would wait for it are enough";
   std::vector<Scene<3>> scenes(5, slab(settings)); // each with one function that may fail
   scenes[0].body_force[1] = fuse(-0.1);
   scenes[1].boundary("bottom").contact = Contact::tangential;
