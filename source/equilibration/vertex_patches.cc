@@ -128,7 +128,7 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
 
 /**
  * A component of degree 2 has three coefficients. Where one is unknown and the other is not, and shears depend on more than
- * the tangential one, four are needed: force, moment and both ends.
+ * the tangential one, four are needed: for force and moment, and for both ends.
  */
 void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) const
 {
