@@ -458,12 +458,13 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
 
 namespace
 {
-/** Of an edge or cell: of a coarse one its share of those of a side of the body. */
+/** Of an edge or cell its share of those of a side of the body: refined ones are looked at no less closely than coarse ones. */
 template <class Cell>
 unsigned int n_parts(const Cell &cell, const unsigned int of_side, const unsigned int n_cells,
                      const unsigned int least)
 {
-  return cell->level() > 0 ? least : std::max(least, (of_side + n_cells - 1) / n_cells);
+  const unsigned int per_cell = 1U << std::min(cell->level(), 30); // of a coarse one
+  return std::max(least, (of_side - 1) / n_cells / per_cell + 1);
 }
 
 CutRule cut_edge(const Function<2> &f, const CellMap<2> &map, const unsigned int face,

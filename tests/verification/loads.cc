@@ -199,6 +199,27 @@ TEST(LoadRules, SeeASpotOfBodyForceAndSayThatItIsNotResolved)
     }
 }
 
+/** A strip that the whole coarse cell shows must not be lost on its parts. */
+TEST(LoadRules, LoseNoStripOfBodyForceOnRefinedCells)
+{
+  const double width = 0.00526;
+  for (double at = 0.05; at < 0.95; at += 0.0317)
+  {
+    const Function load = [=](const Point<2> &x)
+    { return std::max(0., 1 - std::abs(x[0] - at) / width); };
+    Scene<2> scene = body({1., 1.}, {{1, 1}});
+    scene.body_force[0] = expression<2>(load);
+    Mesh mesh(scene);
+    if (mesh.rules.sum().force[0] == 0.)
+      continue; // narrower than a sixtieth: it may lie between all points
+    for (unsigned int level = 1; level <= 2; ++level)
+    {
+      mesh.mesh.refine_global(1);
+      EXPECT_NEAR(inside(scene, mesh, load), width, 0.05 * width) << at << " level " << level;
+    }
+  }
+}
+
 // ---------------------------------------------------------------- runs
 
 template <class Take>
