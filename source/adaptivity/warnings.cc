@@ -295,10 +295,11 @@ std::string elongated_elements(const Solution<dim> &solution)
   }
   if (worst < 20 * (1 - 1e-12))
     return {};
-  return line("elements up to ", worst, " times as long as wide, at (", where,
-              "): constants of the error indicator grow with that, and where shear jumps at a "
-              "corner so does the "
-              "bound of the error; take more cells along the body, Geometry/Subdivisions");
+  return line(
+      "elements up to ", worst, " times as long as wide, at (", where,
+      "): constants of the error indicator grow with that, and where loads jump, or shear at "
+      "a corner, so does the bound of the error; take more cells along the body, "
+      "Geometry/Subdivisions");
 }
 
 /**

@@ -32,20 +32,25 @@ std::vector<Step> steps_of(const Scene<2> &scene)
 
 struct Body
 {
-  std::string name, upper_corner, corners, held, loaded, traction;
+  std::string name, upper_corner, corners, held, loaded, value;
 };
 
-const Body cantilever{"cantilever", "200, 1", "", "left", "top", "0; -1"},
-    block{"block", "1, 1", "", "bottom", "top", "0; -1 - x"},
-    rhombus{"rhombus", "",    "0, 0; 1, 0; 1.984807753, 0.173648178; 0.984807753, 0.173648178",
-            "bottom",  "top", "0.3; -1"};
+const Body cantilever{"cantilever", "200, 1", "", "left", "top/Traction", "0; -1"},
+    block{"block", "1, 1", "", "bottom", "top/Traction", "0; -1 - x"},
+    drawn{"drawn", "1, 1", "", "bottom", "top/Displacement", "0.1; x"},
+    rhombus{"rhombus",
+            "",
+            "0, 0; 1, 0; 1.984807753, 0.173648178; 0.984807753, 0.173648178",
+            "bottom",
+            "top/Traction",
+            "0.3; -1"};
 
 Scene<2> problem(const Body &body, const std::string &subdivisions, const std::string &degree,
                  const std::string &steps, const Overrides &more = {})
 {
   Overrides entries = {{"Geometry/Subdivisions", subdivisions},
                        {"Boundary " + body.held + "/Displacement", "0; 0"},
-                       {"Boundary " + body.loaded + "/Traction", body.traction},
+                       {"Boundary " + body.loaded, body.value},
                        {"Adaptivity/Method", "hup2"},
                        {"Adaptivity/Start degree", degree},
                        {"Adaptivity/Maximum steps", steps},
@@ -120,17 +125,16 @@ TEST_P(LongCells, HaveABoundAboveTheErrorAndNear)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, LongCells,
-                         ::testing::Values(Loose{cantilever, "4, 1", "100, 1", 1.1},
-                                           Loose{block, "2, 100", "4, 4", 1.8},
-                                           Loose{rhombus, "2, 2", "4, 4", 1.5}),
-                         [](const ::testing::TestParamInfo<Loose> &info)
-                         { return info.param.body.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, LongCells,
+    ::testing::Values(Loose{cantilever, "4, 1", "100, 1", 1.1}, Loose{block, "2, 100", "4, 4", 1.8},
+                      Loose{drawn, "2, 100", "4, 4", 1.8}, Loose{rhombus, "2, 2", "4, 4", 1.5}),
+    [](const ::testing::TestParamInfo<Loose> &info) { return info.param.body.name; });
 
 /** Turned by 90 degrees, and mirrored. */
 TEST(LongCellsInAnotherFrame, HaveTheSameBound)
 {
-  const Body upright{"upright", "1, 200", "", "bottom", "left", "1; 0"};
+  const Body upright{"upright", "1, 200", "", "bottom", "left/Traction", "1; 0"};
   const auto expected = steps_of(problem(cantilever, "4, 1", "4", "2")),
              turned = steps_of(problem(upright, "1, 4", "4", "2"));
   Body mirrored = cantilever;
@@ -167,7 +171,8 @@ TEST(LongCellsAre, MoreThanFourTimesAsLongAsWide)
 /** Of cells of triangles, too. */
 TEST(LongCellsThatAreDistorted, HaveABoundAboveTheError)
 {
-  const Body trapezoid{"trapezoid", "", "0, 0; 40, 0; 40, 1; 0, 1.5", "left", "top", "0; -1"};
+  const Body trapezoid{"trapezoid",    "",     "0, 0; 40, 0; 40, 1; 0, 1.5", "left",
+                       "top/Traction", "0; -1"};
   double least = 0;
   const Scene<2> finer = problem(trapezoid, "40, 1", "6", "2", {{"Error/Bound", "false"}});
   AdaptiveSolver<2>(finer).run([&](const StepReport<2> &step) { least = step.energies.energy; });
