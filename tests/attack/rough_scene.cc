@@ -71,6 +71,12 @@ void choose_law(RandomScene &scene, Dice &dice)
       side.coefficient.clear();
       side.bound = dice.positive(0.02 * scene.young);
     }
+  const std::string in_time = "*sin(4*t)";
+  for (Side &side : scene.sides)
+    for (auto *components : {&side.displacement, &side.traction})
+      for (std::string &component : *components)
+        if (const std::size_t place = component.rfind(in_time); place != std::string::npos)
+          component.erase(place, in_time.size());
   for (Side &side : scene.sides)
     if (side.gap.find("if(") != std::string::npos || side.gap.find("max(") != std::string::npos)
       side.gap = dice.about(0.02);
