@@ -17,6 +17,9 @@ namespace
 /** Negative pressures that are taken for round-off, relative to the largest pressure. */
 constexpr double round_off = 1e-13;
 
+/** A cell far from the origin has rounded vertices: what one frame knows is no rectangle, all do. */
+constexpr double negligible_angle = 1e-10;
+
 /** `int_0^1 t` and `int_0^1 t s` of t with coefficients c are `mean c_0` and `(mean c_0 + slope c_1)/2`. */
 const double mean = std::sqrt(0.5), slope = std::sqrt(1. / 6.);
 
@@ -121,7 +124,8 @@ PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solu
   result.length = face.length;
   result.weight = face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree);
   const Tensor<2, dim> J = face.map.jacobian({0.5, 0.5});
-  result.is_skew = std::abs(J[0][0] * J[0][1] + J[1][0] * J[1][1]) > 1e-12 * J.norm_square();
+  result.is_skew =
+      std::abs(J[0][0] * J[0][1] + J[1][0] * J[1][1]) > negligible_angle * J.norm_square();
   result.origin = face.point(0.) * frame.tangent;
   result.step = face.point(1.) * frame.tangent - result.origin;
   result.boundary = face.condition;

@@ -57,7 +57,8 @@ Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
   legendre.vmult(of_u, u);
   result.u.assign(of_u.begin(), of_u.end());
   for (auto column = columns.begin(); column != columns.end();)
-    column = column->second.linfty_norm() < 1e-12 ? columns.erase(column) : std::next(column);
+    // Far from the origin the rounded edges of one side differ in direction, and share unknowns of their vertices.
+    column = column->second.linfty_norm() < 1e-10 ? columns.erase(column) : std::next(column);
   result.legendre.reinit(n, columns.size());
   for (const auto &[unknown, values] : columns)
   {

@@ -2,6 +2,7 @@
 #include <hpvi/body/cell_map.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace hpvi
 {
@@ -36,7 +37,12 @@ CellMap<dim>::CellMap(const Vertices &vertices) : corners(vertices), affine(fals
   for (unsigned int d = 0; d < dim; ++d)
     centre[d] = 0.5;
   constant_jacobian = jacobian(centre);
-  affine = hessian(centre).norm() <= 1e-12 * constant_jacobian.norm();
+  // Far from the origin vertices are rounded more coarsely.
+  double coordinates = 0;
+  for (const Point<dim> &corner : corners)
+    coordinates += corner.norm();
+  affine = hessian(centre).norm() <= 1e-12 * constant_jacobian.norm() +
+                                         2 * std::numeric_limits<double>::epsilon() * coordinates;
 }
 
 template <int dim>
@@ -60,6 +66,7 @@ Point<dim> CellMap<dim>::point(const Point<dim> &reference) const
   return x;
 }
 
+// Derivatives are those of differences, which keep their digits far from the origin: a rectangle has no shear there.
 template <int dim>
 Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
 {
@@ -72,7 +79,7 @@ Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
     order[j] = 1;
     for (unsigned int v = 0; v < corners.size(); ++v)
       for (unsigned int i = 0; i < dim; ++i)
-        J[i][j] += vertex_shape<dim>(v, reference, order) * corners[v][i];
+        J[i][j] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
   }
   return J;
 }
@@ -91,7 +98,7 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
       ++order[k];
       for (unsigned int v = 0; v < corners.size(); ++v)
         for (unsigned int i = 0; i < dim; ++i)
-          H[i][j][k] += vertex_shape<dim>(v, reference, order) * corners[v][i];
+          H[i][j][k] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
     }
   return H;
 }

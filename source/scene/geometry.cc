@@ -4,6 +4,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace hpvi
@@ -38,16 +39,24 @@ Geometry<dim>::Geometry()
 template <int dim>
 Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
 {
-  Point<dim> x;
-  for (unsigned int v = 0; v < corners.size(); ++v)
-    x += GeometryInfo<dim>::d_linear_shape_function(unit, v) * corners[v];
-  return x;
+  // One direction after the other, from the nearer end: a side along an axis stays there to the last bit.
+  Corners<dim> between = corners;
+  for (unsigned int d = dim, n = corners.size(); d-- > 0;)
+  {
+    n /= 2;
+    for (unsigned int v = 0; v < n; ++v)
+      if (const Tensor<1, dim> across = between[v + n] - between[v]; unit[d] < 0.5)
+        between[v] += unit[d] * across;
+      else
+        between[v] = between[v + n] - (1. - unit[d]) * across;
+  }
+  return between[0];
 }
 
 template <int dim>
 bool Geometry<dim>::has_affine_cells() const
 {
-  double size = 0, skew = 0;
+  double size = 0, skew = 0, coordinates = 0; // far from the origin these are rounded more coarsely
   for (unsigned int v = 0; v < corners.size(); ++v)
   {
     Tensor<1, dim> affine; // from corner 0
@@ -56,8 +65,9 @@ bool Geometry<dim>::has_affine_cells() const
         affine += corners[1u << d] - corners[0];
     size = std::max(size, affine.norm());
     skew = std::max(skew, (corners[v] - corners[0] - affine).norm());
+    coordinates += corners[v].norm();
   }
-  return skew <= 1e-12 * size;
+  return skew <= 1e-12 * size + 2 * std::numeric_limits<double>::epsilon() * coordinates;
 }
 
 std::vector<Point<2>> Edge::sample() const
