@@ -357,9 +357,10 @@ EquilibratedStress::EndShear EquilibratedStress::end_shear(const unsigned int in
 }
 
 /**
- * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. One
- * cell takes the difference. So it does where other boundaries meet and the shear of one leans on an unknown traction that is not along it: 
- * that alone could pay for the difference, but by the more the less it leans.
+ * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. The cells
+ * of both share the difference, that of one cell takes it. So they do where other boundaries meet and the shear of one leans on an unknown traction that is not along it: 
+ * that alone could pay for the difference, but by the more the less it leans. Equal shears differ by round-off of the largest
+ * one, more so where vertices far from the origin are rounded.
  */
 std::vector<unsigned int> EquilibratedStress::marked_corners() const
 {
@@ -370,18 +371,21 @@ std::vector<unsigned int> EquilibratedStress::marked_corners() const
     if (all[e].at_boundary())
       for (unsigned int end = 0; end < 2; ++end)
         ends[all[e].vertices[end]].emplace_back(e, end);
+  double largest = 0;
+  for (const auto &[vertex, edges] : ends)
+    for (const auto &[e, end] : edges)
+      largest = std::max(largest, end_shear(e, end).scale);
   for (const auto &[vertex, edges] : ends)
   {
     const StressEdge &first = all[edges[0].first], &second = all[edges[1].first];
     const EndShear one = end_shear(edges[0].first, edges[0].second),
                    other = end_shear(edges[1].first, edges[1].second);
-    const bool differs =
-                   std::abs(one.known - other.known) > 1e-12 * std::max(one.scale, other.scale),
+    const bool differs = std::abs(one.known - other.known) > 1e-10 * largest,
                leans = first.boundary != second.boundary && (one.leans || other.leans);
     if (one.is_free || other.is_free || !(differs || leans))
       continue;
-    const StressEdge::Side &side = first.sides[0];
-    result[side.cell] |= 1u << vertex_of_face[side.face][edges[0].second];
+    for (const auto &[e, end] : edges)
+      result[all[e].sides[0].cell] |= 1u << vertex_of_face[all[e].sides[0].face][end];
   }
   return result;
 }
