@@ -48,20 +48,35 @@ double hat(const unsigned int end, const double s)
   return end == 0 ? 1. - s : s;
 }
 
-/** 1 or -1 where all Gauss points of a face slip that way; else 0. */
+/** 1 or -1 where u_Nt has that sign wherever g acts on a face; else 0. */
+double common_motion(const EdgePolynomial &u_t, const FrictionRule &rule)
+{
+  double sum = 0, of_sizes = 0;
+  for (unsigned int q = 0; q < rule.points.size(); ++q)
+  {
+    const double work = rule.weights[q] * rule.values[q] * u_t(rule.points[q]);
+    sum += work;
+    of_sizes += std::abs(work);
+  }
+  return std::abs(sum) < (1. - 1e-10) * of_sizes ? 0. : sum < 0. ? -1. : sum > 0. ? 1. : 0.;
+}
+
+/** 1 or -1 where all Gauss points of a face slip that way, those that feel g; where none does, u_Nt says it; else 0. */
 template <int dim>
-double common_slip(const ContactFace<dim> &face, const Solution<dim> &solution)
+double common_slip(const ContactFace<dim> &face, const Solution<dim> &solution,
+                   const EdgePolynomial &u_t, const FrictionRule &rule)
 {
   double result = 0;
   for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
   {
-    const double bound = solution.contact_space.multipliers()[i].bound, z = solution.z[i];
-    const double slip = std::abs(z) < (1. - 1e-10) * bound ? 0. : z < 0. ? -1. : 1.;
+    if (solution.contact_space.multipliers()[i].bound == 0.)
+      continue;
+    const double slip = slip_at(i, solution.z, solution.contact_space);
     if (slip == 0. || slip * result < 0.)
       return 0.;
     result = slip;
   }
-  return result;
+  return result != 0. ? result : common_motion(u_t, rule);
 }
 
 /** z_N as a polynomial of degree p-2 along a face. */
@@ -102,13 +117,11 @@ public:
         weight(face.length / (2. * solution.scene.material_of(face.cell).mu() * face.degree)),
         leans(may_have_transition(number, solution.z, solution.contact_space)),
         gauss(solution.tables.gauss(face.n_multipliers + 1)), z(discrete_friction(face, solution)),
-        wanted(wanted_friction(face, solution))
+        wanted(wanted_friction(face, solution)),
+        u_t(edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
+                       solution.u)),
+        slip(leans ? 0. : common_slip(face, solution, u_t, rule))
   {
-    if (leans)
-      u_t = edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
-                       solution.u);
-    else
-      slip = common_slip(face, solution);
   }
 
   std::array<Side, 2> sides() const; ///< by end
@@ -121,9 +134,8 @@ private:
   const double weight;
   const bool leans;
   const QGauss<1> &gauss;
-  const EdgePolynomial z, wanted;
-  EdgePolynomial u_t;
-  double slip = 0; ///< of a Side
+  const EdgePolynomial z, wanted, u_t;
+  const double slip; ///< of a Side
 };
 
 template <int dim>

@@ -93,6 +93,59 @@ bool add_condition(const Trace &trace, const EdgePolynomial &rest, const double 
   return true;
 }
 
+/** A displacement that is put together node by node from its components along the sides of the body. */
+template <int dim>
+class NodalDisplacement
+{
+public:
+  NodalDisplacement(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
+      : u(solution.u.size()), solution(solution), unknowns(unknowns)
+  {
+  }
+
+  /** `direction u = wanted(s)` at the nodes of a face. Two sides that meet at a corner are both heeded. */
+  template <class Wanted>
+  void set(const ContactFace<dim> &face, const Tensor<1, dim> &direction, const Wanted &wanted);
+
+  /** From now on what has been set may be overruled. */
+  void release()
+  {
+    heeded.clear();
+  }
+
+  Vector<double> u;
+
+private:
+  const Solution<dim> &solution;
+  const Unknowns<dim> &unknowns;
+  std::map<types::global_dof_index, Tensor<1, dim>> heeded; ///< directions, by first component
+};
+
+template <int dim>
+template <class Wanted>
+void NodalDisplacement<dim>::set(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
+                                 const Wanted &wanted)
+{
+  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(face.degree).edge[face.face_no];
+  const unsigned int n = face.degree + 1;
+  for (unsigned int j = 0; j < n; ++j)
+  {
+    const auto [place, is_new] = heeded.try_emplace(dofs[on_edge[j]], direction);
+    const Tensor<1, dim> &other = place->second;
+    const Tensor<1, dim> step = is_new ? direction : direction - (direction * other) * other;
+    if (step.norm() < 1e-6) // the face before this one has set it
+      continue;
+    double missing = wanted(solution.tables.gauss_lobatto(n).point(j)[0]);
+    for (unsigned int c = 0; c < dim; ++c)
+      missing -= direction[c] * u[dofs[on_edge[c * n + j]]];
+    for (unsigned int c = 0; c < dim; ++c)
+      if (const auto dof = dofs[on_edge[c * n + j]]; unknowns.terms(dof).size() > 0)
+        u[dof] += missing / (direction * step) * step[c];
+  }
+}
+
 /** @p cells and those that share unknowns with them. */
 template <int dim>
 std::vector<bool> with_neighbours(const std::vector<bool> &cells,
@@ -163,8 +216,9 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
     is_near_pressure.push_back(find_near_pressure(k));
   if (!bubbles)
     return;
-  free_neighbours(slips);
-  free_neighbours(openings);
+  free_neighbours(slips, faces);
+  free_neighbours(openings, faces);
+  std::map<unsigned int, std::vector<BubbleFace>> by_cell;
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     const ContactFrame<dim> frame = faces[k].frame(0.5);
@@ -174,24 +228,40 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
     if (openings[k] && openings[k]->mode == Opening::partly)
       directions.emplace_back(frame.normal, &openings[k]->penetration);
     if (!directions.empty())
-      add_bubbles(faces[k], directions, *bubbles);
+      by_cell[faces[k].cell->active_cell_index()].emplace_back(&faces[k], directions);
   }
+  for (const auto &[cell, own_faces] : by_cell)
+    add_bubbles(cell, own_faces, *bubbles);
 }
 
-/**
- * Bubbles along the directions of some traces on a face, as unknowns of these. A cell at the boundary with two faces
- * has them on one.
- */
+/** Bubbles along the directions of some traces on the faces of a cell, as unknowns of these. */
 template <int dim>
-void CorrectionSearch<dim>::add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+void CorrectionSearch<dim>::add_bubbles(const unsigned int cell,
+                                        const std::vector<BubbleFace> &own_faces,
                                         EdgeBubbles<dim> &bubbles)
 {
-  const unsigned int cell = face.cell->active_cell_index(), first = A.n();
-  if (std::find(cell_of_bubble.begin(), cell_of_bubble.end(), cell) != cell_of_bubble.end())
-    return;
-  const unsigned int n_bubbles = bubbles_on(face, solution.scene);
-  const FullMatrix<double> coefficients = bubble_coefficients(face.degree, n_bubbles);
-  const unsigned int n_nodes = coefficients.m();
+  unsigned int first = A.n();
+  typename EdgeBubbles<dim>::Traces all;
+  for (const auto &[face, directions] : own_faces)
+  {
+    const FullMatrix<double> coefficients =
+        bubble_coefficients(face->degree, bubbles_on(*face, solution.scene));
+    all.emplace_back(face, bubbles_at_nodes(coefficients, directions));
+    for (const auto &[direction, trace] : directions)
+    {
+      trace->extend(coefficients, first);
+      first += coefficients.n();
+    }
+  }
+  add_columns(cell, bubbles.energies(all, solution.scene, solution.tables));
+}
+
+/** Bubbles with these coefficients, along each of the directions, at the nodes of their degree. */
+template <int dim>
+FullMatrix<double> CorrectionSearch<dim>::bubbles_at_nodes(const FullMatrix<double> &coefficients,
+                                                           const Directions &directions) const
+{
+  const unsigned int n_bubbles = coefficients.n(), n_nodes = coefficients.m();
   FullMatrix<double> at_nodes(dim * n_nodes, directions.size() * n_bubbles);
   for (unsigned int node = 0; node < n_nodes; ++node)
   {
@@ -204,9 +274,7 @@ void CorrectionSearch<dim>::add_bubbles(const ContactFace<dim> &face, const Dire
         for (unsigned int i = 0; i < n_bubbles; ++i)
           at_nodes(c * n_nodes + node, d * n_bubbles + i) = directions[d].first[c] * values[i];
   }
-  add_columns(cell, bubbles.energies(face, at_nodes, solution.scene, solution.tables));
-  for (unsigned int d = 0; d < directions.size(); ++d)
-    directions[d].second->extend(coefficients, first + d * n_bubbles);
+  return at_nodes;
 }
 
 template <int dim>
@@ -247,13 +315,13 @@ std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) co
     for (unsigned int c = 0; c < dim; ++c)
       result[end] =
           result[end] ||
-          (std::abs(normal[c]) > 1e-12 &&
+          (std::abs(normal[c]) > 1e-10 &&
            discretisation.unknowns.terms(dofs[on_edge[c * n + (end == 0 ? 0 : n - 1)]]).size() ==
                0);
   return result;
 }
 
-/** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces. */
+/** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces on either side. */
 template <int dim>
 double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heights) const
 {
@@ -275,8 +343,8 @@ double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heig
       for (unsigned int end = 0; end < 2; ++end)
         if (!held[end])
         {
-          double &at_vertex =
-              heights.at_vertices[faces[k].cell->face(faces[k].face_no)->vertex_index(end)];
+          double &at_vertex = heights.at_vertices[{
+              faces[k].condition->id, faces[k].cell->face(faces[k].face_no)->vertex_index(end)}];
           at_vertex = std::max(at_vertex, height);
         }
     }
@@ -293,31 +361,22 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
   Heights heights;
   if (penetration(w, heights) <= tolerance)
     return 0.;
-  Vector<double> u(solution.u.size());
+  NodalDisplacement<dim> lifting(solution, discretisation.unknowns);
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {
-      const unsigned int n = faces[k].degree + 1;
       const auto face = faces[k].cell->face(faces[k].face_no);
-      const double first = heights.at_vertices[face->vertex_index(0)],
-                   last = heights.at_vertices[face->vertex_index(1)], inside = heights.on_faces[k];
-      if (first == 0. && last == 0. && inside == 0.)
-        continue;
-      const Tensor<1, dim> normal = faces[k].frame(0.5).normal;
-      const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
-      const std::vector<unsigned int> &on_edge =
-          solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int c = 0; c < dim; ++c)
-        {
-          const double s = solution.tables.gauss_lobatto(n).point(j)[0];
-          if (const auto dof = dofs[on_edge[c * n + j]];
-              discretisation.unknowns.terms(dof).size() > 0)
-            u[dof] =
-                normal[c] * (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
-        }
+      const auto height = [&](const unsigned int end) {
+        return heights.at_vertices[{faces[k].condition->id, face->vertex_index(end)}];
+      };
+      const double first = height(0), last = height(1), inside = heights.on_faces[k];
+      if (first > 0. || last > 0. || inside > 0.)
+        lifting.set(faces[k], faces[k].frame(0.5).normal,
+                    [&](const double s) {
+                      return (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
+                    });
     }
-  const Vector<double> lifted = discretisation.unknowns.coordinates(u);
+  const Vector<double> lifted = discretisation.unknowns.coordinates(lifting.u);
   for (unsigned int i = 0; i < lifted.size(); ++i)
     w[i] += lifted[i];
   const double rest = penetration(w, heights);
@@ -396,7 +455,7 @@ CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
   return result;
 }
 
-/** Along a slanted boundary both components share unknowns: what one of them fixes is fixed. */
+/** At a corner of two sides both components share unknowns: what one of them fixes is fixed. */
 template <int dim>
 void CorrectionSearch<dim>::add_normal_roles(std::vector<Role> &roles) const
 {
@@ -418,9 +477,10 @@ bool CorrectionSearch<dim>::find_near_pressure(const unsigned int face) const
 {
   if (!openings[face])
     return false;
-  for (unsigned int other = face < 2 ? 0 : face - 2;
-       other < std::min<std::size_t>(face + 3, faces.size()); ++other)
-    if (openings[other] && openings[other]->mode != Opening::open)
+  if (openings[face]->mode != Opening::open)
+    return true;
+  for (const unsigned int other : faces_beside(face, 2, faces))
+    if (openings[other]->mode != Opening::open)
       return true;
   return largest_value(EdgePolynomial(openings[face]->penetration.u), tolerance) > tolerance;
 }
@@ -432,34 +492,15 @@ bool CorrectionSearch<dim>::find_near_pressure(const unsigned int face) const
 template <int dim>
 Vector<double> CorrectionSearch<dim>::fixed_displacement() const
 {
-  Vector<double> u(solution.u.size());
+  NodalDisplacement<dim> all(solution, discretisation.unknowns);
   for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    const ContactFrame<dim> frame = faces[k].frame(0.5);
-    const auto dofs = solution.displacement_space.cell_dofs(faces[k].cell->active_cell_index());
-    const std::vector<unsigned int> &on_edge =
-        solution.tables.numbering(faces[k].degree).edge[faces[k].face_no];
-    const unsigned int n = faces[k].degree + 1;
-    // A corner has had its part of another face.
-    const auto complete = [&](const Tensor<1, dim> &direction, const auto &wanted)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        double missing = wanted(solution.tables.gauss_lobatto(n).point(j)[0]);
-        for (unsigned int c = 0; c < dim; ++c)
-          missing -= direction[c] * u[dofs[on_edge[c * n + j]]];
-        for (unsigned int c = 0; c < dim; ++c)
-          if (const auto dof = dofs[on_edge[c * n + j]];
-              discretisation.unknowns.terms(dof).size() > 0)
-            u[dof] += missing * direction[c];
-      }
-    };
     if (slips[k].mode == Slip::nowhere)
-      complete(frame.tangent, EdgePolynomial(traces[k].u));
+      all.set(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
+  all.release(); // a tangent of one side may be the normal of another, which matters more
+  for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k] && openings[k]->mode == Opening::closed)
-      complete(frame.normal, EdgePolynomial(openings[k]->penetration.u));
-  }
-  Vector<double> result = discretisation.unknowns.coordinates(u);
+      all.set(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
+  Vector<double> result = discretisation.unknowns.coordinates(all.u);
   result.grow_or_shrink(A.n());
   return result;
 }
@@ -477,12 +518,11 @@ std::vector<bool> CorrectionSearch<dim>::nearby_faces(const std::vector<double> 
   std::vector<bool> result(faces.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (slips[k].mode == Slip::everywhere)
-      result[k] = gaps[k] > 0.01 * of_slip;
+      result[k] = gaps[k] > std::max(0.01 * of_slip, 1e-10 * sum(gaps)); // not by round-off
     else
     {
       result[k] = slips[k].mode == Slip::partly;
-      for (unsigned int other = k < 2 ? 0 : k - 2;
-           other < std::min<std::size_t>(k + 3, faces.size()); ++other)
+      for (const unsigned int other : faces_beside(k, 2, faces))
         if (slips[other].mode == Slip::everywhere)
           result[other] = true;
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace hpvi
 {
@@ -14,18 +13,19 @@ namespace
 template <int dim>
 Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
 {
-  unsigned int n_forward = 0, n_backward = 0;
+  unsigned int n_forward = 0, n_backward = 0, n_free = 0;
   for (unsigned int k = 0; k < face.n_multipliers; ++k)
   {
     const unsigned int i = face.first_multiplier + k;
-    const double wall = (1. - 1e-10) * solution.contact_space.multipliers()[i].bound;
-    n_forward += solution.z[i] >= wall;
-    n_backward += solution.z[i] <= -wall;
+    const double slip = slip_at(i, solution.z, solution.contact_space);
+    n_forward += slip > 0.;
+    n_backward += slip < 0.;
+    n_free += solution.contact_space.multipliers()[i].bound == 0.;
   }
   Slip result;
-  if (n_forward == 0 && n_backward == 0 && face.n_multipliers > 0)
+  if (n_forward + n_backward + n_free == 0 && face.n_multipliers > 0)
     result.mode = Slip::nowhere;
-  else if (n_forward < face.n_multipliers && n_backward < face.n_multipliers)
+  else if (std::max(n_forward, n_backward) + n_free < face.n_multipliers)
     result.mode = Slip::partly;
   if (n_forward == 0 || n_backward == 0)
     result.direction = n_forward > 0 ? 1. : n_backward > 0 ? -1. : 0.;
@@ -42,13 +42,29 @@ std::vector<Slip> slips_of(const Solution<dim> &solution)
   return result;
 }
 
-void free_neighbours(std::vector<Slip> &slips)
+template <int dim>
+std::vector<unsigned int> faces_beside(const unsigned int face, const unsigned int reach,
+                                       const std::vector<ContactFace<dim>> &faces)
+{
+  std::vector<unsigned int> result;
+  for (unsigned int other = face < reach ? 0 : face - reach;
+       other < std::min<std::size_t>(face + reach + 1, faces.size()); ++other)
+    if (other != face && faces[other].condition == faces[face].condition)
+      result.push_back(other);
+  return result;
+}
+
+template <int dim>
+void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<dim>> &faces)
 {
   const std::vector<Slip> discrete(slips);
-  for (unsigned int k = 0; k + 1 < slips.size(); ++k)
-    for (const auto &[one, other] : {std::pair(k, k + 1), std::pair(k + 1, k)})
-      if (discrete[one].mode == Slip::nowhere && discrete[other].is_directed_everywhere())
-        slips[one] = {Slip::partly, discrete[other].direction};
+  for (unsigned int k = 0; k < slips.size(); ++k)
+    for (const unsigned int other : faces_beside(k, 1, faces))
+      if (discrete[k].mode == Slip::nowhere && discrete[other].is_directed_everywhere())
+      {
+        const bool is_between = slips[k].direction * discrete[other].direction < 0.;
+        slips[k] = {Slip::partly, is_between ? 0. : discrete[other].direction};
+      }
 }
 
 double Opening::gap(const EdgePolynomial &rest) const
@@ -79,18 +95,25 @@ Opening opening_of(const unsigned int number, const Solution<dim> &solution,
   return result;
 }
 
-void free_neighbours(std::vector<std::optional<Opening>> &openings)
+template <int dim>
+void free_neighbours(std::vector<std::optional<Opening>> &openings,
+                     const std::vector<ContactFace<dim>> &faces)
 {
   std::vector<bool> is_open;
   for (const auto &opening : openings)
     is_open.push_back(opening && opening->mode == Opening::open);
   for (unsigned int k = 0; k < openings.size(); ++k)
-    if (openings[k] && openings[k]->mode == Opening::closed &&
-        ((k > 0 && is_open[k - 1]) || (k + 1 < is_open.size() && is_open[k + 1])))
-      openings[k]->mode = Opening::partly;
+    for (const unsigned int other : faces_beside(k, 1, faces))
+      if (is_open[other] && openings[k] && openings[k]->mode == Opening::closed)
+        openings[k]->mode = Opening::partly;
 }
 
 template std::vector<Slip> slips_of(const Solution<2> &);
+template std::vector<unsigned int> faces_beside(unsigned int, unsigned int,
+                                                const std::vector<ContactFace<2>> &);
+template void free_neighbours(std::vector<Slip> &, const std::vector<ContactFace<2>> &);
+template void free_neighbours(std::vector<std::optional<Opening>> &,
+                              const std::vector<ContactFace<2>> &);
 template Opening opening_of(unsigned int, const Solution<2> &, const Unknowns<2> &,
                             const AdmissiblePressure<2> &, const LegendreTables &);
 } // namespace hpvi

@@ -27,22 +27,31 @@ FullMatrix<double> embedding(const unsigned int p, const unsigned int q,
 } // namespace
 
 template <int dim>
-typename EdgeBubbles<dim>::Energies
-EdgeBubbles<dim>::energies(const ContactFace<dim> &face, const FullMatrix<double> &traces,
-                           const Scene<dim> &scene, const ShapeTables<dim> &tables)
+typename EdgeBubbles<dim>::Energies EdgeBubbles<dim>::energies(const Traces &traces,
+                                                               const Scene<dim> &scene,
+                                                               const ShapeTables<dim> &tables)
 {
-  const unsigned int q = traces.m() / dim - 1, n = traces.n();
+  const ContactFace<dim> &face = *traces[0].first;
+  const unsigned int q = traces[0].second.m() / dim - 1;
+  unsigned int n = 0;
+  for (const auto &[on_face, columns] : traces)
+    n += columns.n();
   const auto material = face.cell->material_id();
   auto &element =
       elements[ElementMatrices<dim>(scene, tables).congruence_class(face.map, q, material)];
   if (!element)
     element = CondensedElements<dim>(scene, tables).get(face.map, q, material);
   const FullMatrix<double> &K = element->condensed;
-  const std::vector<unsigned int> &on_edge = tables.numbering(q).edge[face.face_no];
   FullMatrix<double> b(K.m(), n), forces(K.m(), n);
-  for (unsigned int i = 0; i < on_edge.size(); ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      b(on_edge[i], j) = traces(i, j);
+  unsigned int first = 0;
+  for (const auto &[on_face, columns] : traces)
+  {
+    const std::vector<unsigned int> &on_edge = tables.numbering(q).edge[on_face->face_no];
+    for (unsigned int i = 0; i < on_edge.size(); ++i)
+      for (unsigned int j = 0; j < columns.n(); ++j)
+        b(on_edge[i], first + j) = columns(i, j);
+    first += columns.n();
+  }
   K.mmult(forces, b);
   Energies result;
   result.own.reinit(n, n);

@@ -190,6 +190,13 @@ bool varies(const FrictionRule &friction)
                      { return std::abs(value - g[0]) > 1e-10 * std::abs(g[0]); });
 }
 
+template <int dim>
+double slip_at(const unsigned int i, const Vector<double> &z, const ContactSpace<dim> &space)
+{
+  const double bound = space.multipliers()[i].bound;
+  return bound == 0. || std::abs(z[i]) < (1. - 1e-10) * bound ? 0. : z[i] < 0. ? -1. : 1.;
+}
+
 namespace
 {
 template <int dim>
@@ -198,7 +205,7 @@ unsigned int n_slipping(const ContactFace<dim> &face, const Vector<double> &z,
 {
   unsigned int result = 0;
   for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
-    result += std::abs(z[i]) >= (1. - 1e-10) * space.multipliers()[i].bound;
+    result += space.multipliers()[i].bound == 0. || slip_at(i, z, space) != 0.;
   return result;
 }
 } // namespace
@@ -219,8 +226,12 @@ bool may_have_transition(const unsigned int number, const Vector<double> &z,
   if (faces[number].n_multipliers != 1)
     return has_transition(faces[number], z, space);
   const auto slips = [&](const unsigned int k) { return n_slipping(faces[k], z, space) > 0; };
-  return (number > 0 && slips(number - 1) != slips(number)) ||
-         (number + 1 < faces.size() && slips(number + 1) != slips(number));
+  const auto differs = [&](const unsigned int k) // unsigned: there may be none before the first
+  {
+    return k < faces.size() && faces[k].condition == faces[number].condition &&
+           slips(k) != slips(number);
+  };
+  return differs(number - 1) || differs(number + 1);
 }
 
 template <int dim>
@@ -273,6 +284,7 @@ EdgePolynomial edge_trace(const ContactFace<dim> &face, const Tensor<1, dim> &di
   return EdgePolynomial::through(values, tables.gauss(n));
 }
 
+template double slip_at(unsigned int, const Vector<double> &, const ContactSpace<2> &);
 template bool has_transition(const ContactFace<2> &, const Vector<double> &,
                              const ContactSpace<2> &);
 template bool may_have_transition(unsigned int, const Vector<double> &, const ContactSpace<2> &);

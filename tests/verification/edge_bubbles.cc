@@ -67,7 +67,7 @@ TEST(EdgeBubbles, HaveTheLeastEnergy)
         on_edge(q + 1 + k, 0) = 2 * s * s * (1 - s);
         on_edge(q + 1 + k, 1) = s * (1 - s) * std::pow(s - 0.4, 3);
       }
-      const auto energies = bubbles.energies(face, on_edge, scene, lab.tables);
+      const auto energies = bubbles.energies({{&face, on_edge}}, scene, lab.tables);
       const FullMatrix<double> K =
           ElementMatrices<2>(scene, lab.tables).stiffness(face.map, q, face.cell->material_id());
       const LocalNumbering &numbering = lab.tables.numbering(q);

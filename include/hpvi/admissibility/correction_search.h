@@ -74,7 +74,8 @@ private:
   /** How far a w_n is to go that is linear along each face: at vertices; and inside faces that are held at both ends. */
   struct Heights
   {
-    std::map<unsigned int, double> at_vertices, on_faces;
+    std::map<std::pair<dealii::types::boundary_id, unsigned int>, double> at_vertices; ///< of sides
+    std::map<unsigned int, double> on_faces;
   };
 
   std::array<bool, 2> held_ends(unsigned int face) const;
@@ -94,8 +95,11 @@ private:
   void take_better(Candidate &best, const dealii::Vector<double> &w) const;
 
   using Directions = std::vector<std::pair<dealii::Tensor<1, dim>, Trace *>>;
-  void add_bubbles(const ContactFace<dim> &face, const Directions &directions,
+  using BubbleFace = std::pair<const ContactFace<dim> *, Directions>;
+  void add_bubbles(unsigned int cell, const std::vector<BubbleFace> &own_faces,
                    EdgeBubbles<dim> &bubbles);
+  dealii::FullMatrix<double> bubbles_at_nodes(const dealii::FullMatrix<double> &coefficients,
+                                              const Directions &directions) const;
   void add_columns(unsigned int cell, const typename EdgeBubbles<dim>::Energies &energies);
 
   const Solution<dim> &solution;

@@ -32,11 +32,18 @@ struct Slip
 template <int dim>
 std::vector<Slip> slips_of(const Solution<dim> &solution);
 
+/** Those that follow a face on either side along its side of the body, up to @p reach: around a corner they are others' business. */
+template <int dim>
+std::vector<unsigned int> faces_beside(unsigned int face, unsigned int reach,
+                                       const std::vector<ContactFace<dim>> &faces);
+
 /**
  * The end of slip may be on the first face that sticks as well as on the last that slips, with one Gauss point
- * on each always. That the former slips in part, with the direction of the latter, excludes neither.
+ * on each always. That the former slips in part, with the direction of the latter, excludes neither; between two
+ * that slip towards each other it has none.
  */
-void free_neighbours(std::vector<Slip> &slips);
+template <int dim>
+void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<dim>> &faces);
 
 /** What happens along the normal on a face with unilateral contact. */
 struct Opening
@@ -58,7 +65,9 @@ Opening opening_of(unsigned int face, const Solution<dim> &solution, const Unkno
                    const AdmissiblePressure<dim> &pressure, const LegendreTables &tables);
 
 /** The end of contact likewise may be on the first face that presses. */
-void free_neighbours(std::vector<std::optional<Opening>> &openings);
+template <int dim>
+void free_neighbours(std::vector<std::optional<Opening>> &openings,
+                     const std::vector<ContactFace<dim>> &faces);
 } // namespace hpvi
 
 #endif

@@ -7,11 +7,13 @@
 
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace hpvi
 {
 /**
- * Displacements beyond those of the space: in one cell at a contact face, of degree q > p, with given traces on that
+ * Displacements beyond those of the space: in one cell at a contact face, or at two, of degree q > p, with given traces on one
  * face, zero on the other edges of the cell, and with the least energy. Cells of one class share their matrices.
  */
 template <int dim>
@@ -26,11 +28,12 @@ public:
   };
 
   /**
-   * Column j of @p traces holds b_j at the q + 1 Gauss-Lobatto nodes along the face, component by component; it vanishes
-   * at the ends.
+   * Column j of a matrix holds b_j at the q + 1 Gauss-Lobatto nodes along its face, component by component; it vanishes
+   * at the ends. The faces are of one cell, and j counts through their columns.
    */
-  Energies energies(const ContactFace<dim> &face, const dealii::FullMatrix<double> &traces,
-                    const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  using Traces = std::vector<std::pair<const ContactFace<dim> *, dealii::FullMatrix<double>>>;
+
+  Energies energies(const Traces &traces, const Scene<dim> &scene, const ShapeTables<dim> &tables);
 
 private:
   std::map<typename ElementMatrices<dim>::Class, std::shared_ptr<const CondensedElement>> elements;

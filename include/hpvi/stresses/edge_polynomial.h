@@ -57,6 +57,10 @@ dealii::Vector<double> legendre_basis(unsigned int n, double s);
 /** Is g another number elsewhere on the face? */
 bool varies(const FrictionRule &friction);
 
+/** 1 or -1 where the multiplier @p i of friction is at its bound; 0: elsewhere, and where that is zero and says nothing. */
+template <int dim>
+double slip_at(unsigned int i, const dealii::Vector<double> &z, const ContactSpace<dim> &space);
+
 /** Are there both points that stick and points that slip? */
 template <int dim>
 bool has_transition(const ContactFace<dim> &face, const dealii::Vector<double> &z,
