@@ -411,7 +411,7 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
   std::filesystem::remove(file);
 }
 
-/** Both directions share unknowns at the vertices there; w still is small beside the error. */
+/** Tangent and normal are the unknowns at the vertices there; w is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {
   AdaptiveSolver<2>(shipped_scene("han-6-12-unilateral", {{"Geometry/Shape", "quadrilateral"},
@@ -682,6 +682,128 @@ TEST(ErrorBoundOfEnergy, IntervalsHoldTheLeastEnergy)
     EXPECT_TRUE(counts_loads_once || g != "if(x < 1.9, 2, 5)");
     EXPECT_LE(below, above + 1e-14 * std::abs(above)); // the smooth one is exact to round-off
     EXPECT_LT(above - below, 2e-3 * widest);
+  }
+}
+/** One scene, told in some frame: entries of its sides, from the one between the first two corners on. */
+struct ToldScene
+{
+  std::string name;
+  std::array<Point<2>, 4> corners;
+  std::array<unsigned int, 2> subdivisions;
+  std::array<Overrides, 4> sides; ///< X and Y: coordinates of the body
+  std::array<Tensor<1, 2>, 4> displacements;
+  Overrides others;
+  double
+      far; ///< how far away it is told: where g varies, its expression has no more than a few digits
+};
+
+/** `x = turn X + (shift, 0)`, sides named from another corner on. */
+Scene<2> told(const ToldScene &scene, const Tensor<2, 2> &turn, const double shift,
+              const unsigned int first)
+{
+  const std::array<std::string, 4> names = {{"bottom", "right", "top", "left"}};
+  const bool is_mirrored = determinant(turn) < 0;
+  Overrides entries = scene.others;
+  entries.emplace_back("Geometry/Shape", "quadrilateral");
+  std::string corners;
+  for (unsigned int k = 0; k < 4; ++k)
+  {
+    const unsigned int side = (is_mirrored ? first + 3 - k : first + k) % 4;
+    const Tensor<1, 2> corner = turn * scene.corners[(side + (is_mirrored ? 1 : 0)) % 4];
+    corners += (k == 0 ? "" : "; ") + text(corner[0] + shift) + ", " + text(corner[1]);
+    for (auto [entry, value] : scene.sides[side])
+    {
+      if (const auto X = value.find('X'); X != std::string::npos)
+        value.replace(X, 1,
+                      "(" + text(turn[0][0]) + "*(x - " + text(shift) + ") + " + text(turn[1][0]) +
+                          "*y)");
+      entries.emplace_back("Boundary " + names[k] + "/" + entry, value);
+    }
+    if (const Tensor<1, 2> u = turn * scene.displacements[side]; u.norm() > 0)
+      entries.emplace_back("Boundary " + names[k] + "/Displacement",
+                           text(u[0]) + "; " + text(u[1]));
+  }
+  const unsigned int along = first % 2 == (is_mirrored ? 0 : 1);
+  entries.emplace_back("Geometry/Corners", corners);
+  entries.emplace_back("Geometry/Subdivisions", std::to_string(scene.subdivisions[along]) + ", " +
+                                                    std::to_string(scene.subdivisions[1 - along]));
+  return scene_of(entries);
+}
+
+const Overrides three_steps = {{"Material/Young's modulus", "10"},
+                               {"Adaptivity/Method", "hpa3"},
+                               {"Adaptivity/Maximum steps", "3"}};
+const std::array<Point<2>, 4> leaning = {{{0, 0}, {1.5, 0}, {1.8, 1.2}, {0.3, 1.2}}},
+                              upright = {{{0, 0}, {1.5, 0}, {1.5, 1.2}, {0, 1.2}}};
+
+/** What round-off could decide is decided alike: whether cells are parallelograms, which one takes a corner's shear ... */
+TEST(ErrorBoundInAnotherFrame, IsTheSame)
+{
+  const Overrides unilateral = {{"Contact", "unilateral"}, {"Friction bound", "0.01"}},
+                  opens = {{"Contact", "unilateral"}, {"Gap", "0.01"}, {"Friction bound", "0.01"}},
+                  rubs_in_part = {{"Contact", "bilateral"},
+                                  {"Friction bound", "0.05*max(0, X - 0.61)"}},
+                  free;
+  const Tensor<1, 2> none, down({0.004, -0.02});
+  const std::vector<ToldScene> scenes = {{"leaning",
+                                          leaning,
+                                          {{4, 2}},
+                                          {{free, free, free, opens}},
+                                          {{none, none, down, none}},
+                                          three_steps,
+                                          12345},
+                                         {"pressed",
+                                          leaning,
+                                          {{3, 2}},
+                                          {{unilateral, free, free, free}},
+                                          {{none, none, down, none}},
+                                          three_steps,
+                                          12345},
+                                         {"two contacts",
+                                          upright,
+                                          {{1, 2}},
+                                          {{opens, free, free, opens}},
+                                          {{none, none, down, none}},
+                                          three_steps,
+                                          12345},
+                                         {"bound that vanishes in part",
+                                          upright,
+                                          {{2, 2}},
+                                          {{rubs_in_part, free, free, free}},
+                                          {{none, none, down, none}},
+                                          three_steps,
+                                          1}};
+  const Tensor<2, 2> as_it_is({{1, 0}, {0, 1}}), mirrored({{-1, 0}, {0, 1}}),
+      turned({{std::cos(0.6), -std::sin(0.6)}, {std::sin(0.6), std::cos(0.6)}});
+  const auto run = [](const Scene<2> &scene)
+  {
+    std::vector<std::array<double, 2>> result; // unknowns and bound of each step
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_TRUE(step.bound) << step.no_bound;
+          result.push_back({{double(step.solution.displacement_space.n_free_dofs()),
+                             step.bound ? step.bound->total : 0.}});
+        });
+    return result;
+  };
+  for (const ToldScene &scene : scenes)
+  {
+    const auto own = run(told(scene, as_it_is, 0, 0));
+    const std::vector<Scene<2>> others = {told(scene, as_it_is, scene.far, 0),
+                                          told(scene, mirrored, 0, 0), told(scene, turned, 0, 0),
+                                          told(scene, as_it_is, 0, 1)};
+    for (unsigned int k = 0; k < others.size(); ++k)
+    {
+      SCOPED_TRACE(scene.name + " in frame " + std::to_string(k));
+      const auto other = run(others[k]);
+      ASSERT_EQ(own.size(), other.size());
+      for (unsigned int step = 0; step < own.size(); ++step)
+      {
+        EXPECT_EQ(own[step][0], other[step][0]);
+        EXPECT_NEAR(other[step][1] / own[step][1], 1., 1e-6);
+      }
+    }
   }
 }
 } // namespace
