@@ -3,7 +3,11 @@
 #include <hpvi/evaluation/true_error.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
 
 namespace hpvi
 {
@@ -11,27 +15,49 @@ using namespace dealii;
 
 namespace
 {
-/** A sub-cube of the reference cell. */
+/** A part of the reference cell with sides along its axes. */
 template <int dim>
 struct Box
 {
   Point<dim> origin;
-  double size = 1.;
+  std::array<double, dim> sides = ones();
 
   Box child(const unsigned int c) const
   {
-    Box result{origin, size / 2};
+    Box result(*this);
     for (unsigned int d = 0; d < dim; ++d)
-      if ((c >> d) & 1)
-        result.origin[d] += result.size;
+      result = result.half(d, (c >> d) & 1);
+    return result;
+  }
+
+  Box half(const unsigned int d, const bool is_upper) const
+  {
+    Box result(*this);
+    result.sides[d] /= 2;
+    if (is_upper)
+      result.origin[d] += result.sides[d];
     return result;
   }
 
   Point<dim> point(const Point<dim> &reference) const
   {
     Point<dim> x(origin);
-    x += size * (reference - Point<dim>());
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] += sides[d] * reference[d];
     return x;
+  }
+
+  double volume() const
+  {
+    return std::accumulate(sides.begin(), sides.end(), 1., std::multiplies<>());
+  }
+
+private:
+  static std::array<double, dim> ones()
+  {
+    std::array<double, dim> result;
+    result.fill(1.);
+    return result;
   }
 };
 
@@ -147,7 +173,7 @@ private:
     // One point more than affine cells need, for those that are not.
     const QGauss<dim> gauss(std::max(field.degree, truth.degree) + 2);
     const auto field_values = field.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
-    const double share = std::pow(in_a.size, dim);
+    const double share = in_a.volume();
     const HookesLaw<dim> law(scene.material_of(a));
     for (unsigned int q = 0; q < gauss.size(); ++q)
       add_squares(law, field_values[q], truth_values[q],
@@ -161,25 +187,58 @@ private:
   Squares sums;
 };
 
-/** Parts of a cell, small near singular points: no part is much larger than its distance. */
+/** Lengths of the sides of @p box in space, measured in its middle. */
+template <int dim>
+std::array<double, dim> lengths(const CellMap<dim> &map, const Box<dim> &box,
+                                const Point<dim> &middle)
+{
+  const auto jacobian = map.jacobian(middle);
+  std::array<double, dim> result;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    double square = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      square += jacobian[c][d] * jacobian[c][d];
+    result[d] = box.sides[d] * std::sqrt(square);
+  }
+  return result;
+}
+
+/**
+ * Parts of a cell, small near singular points: no part is much larger than its distance. Sides below
+ * a quarter of the longest are not cut: of a cell of 1:1000 that would make a thousand parts a level.
+ */
 template <int dim>
 void add_graded_boxes(const CellMap<dim> &map, const Box<dim> &box,
                       const std::vector<Point<dim>> &singularities, const unsigned int levels_left,
                       std::vector<Box<dim>> &boxes)
 {
-  Point<dim> middle;
+  Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
-    middle[d] = 0.5;
-  const Point<dim> centre = map.point(box.point(middle));
-  const double diameter = box.size * map.jacobian(box.point(middle)).norm();
+    centre[d] = 0.5;
+  const Point<dim> middle = box.point(centre), in_space = map.point(middle);
+  const std::array<double, dim> sides = lengths(map, box, middle);
+  const double diameter =
+      std::sqrt(std::inner_product(sides.begin(), sides.end(), sides.begin(), 0.));
   const bool near =
       std::any_of(singularities.begin(), singularities.end(),
-                  [&](const Point<dim> &x) { return x.distance(centre) < 1.2 * diameter; });
-  if (near && levels_left > 0)
-    for (unsigned int c = 0; c < GeometryInfo<dim>::max_children_per_cell; ++c)
-      add_graded_boxes(map, box.child(c), singularities, levels_left - 1, boxes);
-  else
+                  [&](const Point<dim> &x) { return x.distance(in_space) < 1.2 * diameter; });
+  if (!near || levels_left == 0)
+  {
     boxes.push_back(box);
+    return;
+  }
+  std::vector<Box<dim>> parts{box};
+  for (unsigned int d = 0; d < dim; ++d)
+    if (sides[d] > *std::max_element(sides.begin(), sides.end()) / 4)
+    {
+      const std::vector<Box<dim>> lower = std::exchange(parts, {});
+      for (const bool is_upper : {false, true})
+        for (const Box<dim> &part : lower)
+          parts.push_back(part.half(d, is_upper));
+    }
+  for (const Box<dim> &part : parts)
+    add_graded_boxes(map, part, singularities, levels_left - 1, boxes);
 }
 } // namespace
 
@@ -236,7 +295,7 @@ double integrate_along(const Point<dim> &a, const Point<dim> &b, const ExactSolu
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double s = box.point(gauss.point(q))[0];
-      sum += gauss.weight(q) * box.size * length * f(s, a + s * (b - a));
+      sum += gauss.weight(q) * box.volume() * length * f(s, a + s * (b - a));
     }
   return sum;
 }
@@ -347,7 +406,7 @@ void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
         const Point<dim> reference_point = box.point(gauss.point(q));
         const Point<dim> x = field.map.point(reference_point);
         add_squares(law, field_values[q], {exact.displacement(x), exact.gradient(x)},
-                    gauss.weight(q) * std::pow(box.size, dim) *
+                    gauss.weight(q) * box.volume() *
                         std::abs(determinant(field.map.jacobian(reference_point))),
                     own);
       }

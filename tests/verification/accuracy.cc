@@ -86,6 +86,19 @@ TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
 }
 
 /** Four edges with two Gauss points each: the middle between those beside x = 0 is 0. */
+/** One cell of 1:256 and 256 square ones: the norm of the exact solution is the same, near singular points too. */
+TEST(TrueError, OnLongCellsIsThatOnSquareOnes)
+{
+  std::vector<double> norms;
+  for (const char *const subdivisions : {"4, 1", "4, 256"})
+    AdaptiveSolver<2>(shipped_scene("partial-slip", {{"Geometry/Upper corner", "2, 256"},
+                                                     {"Geometry/Subdivisions", subdivisions},
+                                                     {"Adaptivity/Maximum steps", "1"}}))
+        .run([&](const StepReport<2> &step) { norms.push_back(step.errors.energy_norm); });
+  ASSERT_EQ(norms.size(), 2u);
+  EXPECT_NEAR(norms[0], norms[1], 1e-9 * norms[1]);
+}
+
 TEST(TrueError, OfTheTransitionIsADistance)
 {
   const Scene<2> scene = shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"}});
