@@ -141,6 +141,7 @@ struct AdaptiveSolver<dim>::Stages
   void discretise();
   void factor();
   Solution<dim> solve(ReducedSolution &reduced);
+  bool nothing_acts(const DataScale &scale) const;
   void drop_round_off(Vector<double> &z, Vector<double> &u);
   void keep_start(const Vector<double> &z, const Vector<double> &moved);
   ErrorEstimate estimate(const Solution<dim> &solution);
@@ -290,15 +291,31 @@ Solution<dim> AdaptiveSolver<dim>::Stages::solve(ReducedSolution &reduced)
   return {scene, discretisation->spaces, std::move(u), reduced.z};
 }
 
+/** No load, no prescribed displacement, no past slip, no overlap: then u = 0 and z = 0 solve the discrete problem. */
+template <int dim>
+bool AdaptiveSolver<dim>::Stages::nothing_acts(const DataScale &scale) const
+{
+  const auto &multipliers = discretisation->spaces->contact_space.multipliers();
+  return scale.displacement == 0 && discretisation->system.f.all_zero() &&
+         std::none_of(multipliers.begin(), multipliers.end(),
+                      [](const ContactMultiplier<dim> &multiplier)
+                      {
+                        return multiplier.kind == ContactMultiplier<dim>::Kind::friction
+                                   ? multiplier.gap != 0
+                                   : multiplier.gap < 0;
+                      });
+}
+
 /** What is round-off beside the data of the scene and its history is zero: friction and pressure, then u. */
 template <int dim>
 void AdaptiveSolver<dim>::Stages::drop_round_off(Vector<double> &z, Vector<double> &u)
 {
   const DataScale scale = data_scale(scene);
-  if (z.size() > 0 && z.linfty_norm() > round_off_of_data * scale.stress)
+  const bool is_zero = nothing_acts(scale);
+  if (!is_zero && z.size() > 0 && z.linfty_norm() > round_off_of_data * scale.stress)
     return;
   z = 0.;
-  if (u.linfty_norm() > round_off_of_data * scale.displacement)
+  if (!is_zero && u.linfty_norm() > round_off_of_data * scale.displacement)
     return;
   u = 0.;
   algebraic = {};

@@ -337,6 +337,29 @@ TEST(Floor, NoWarningsAboutNothing)
       });
 }
 
+/** Where nothing acts there is no scale beside which an iterate is small: u is zero, not 1e-118. */
+TEST(Floor, NothingActsAndNothingMoves)
+{
+  const Overrides unloaded = {{"Geometry/Upper corner", "1.3178, 2.2672"},
+                              {"Geometry/Subdivisions", "2, 2"},
+                              {"Boundary bottom/Contact", "bilateral"},
+                              {"Boundary bottom/Friction coefficient", "0.11"},
+                              {"Boundary right/Displacement", "0; 0"},
+                              {"Boundary top/Contact", "unilateral"},
+                              {"Boundary top/Gap", "100"},
+                              {"Adaptivity/Method", "pu"},
+                              {"Solver/QP solver", "mprgp"}};
+  AdaptiveSolver<2>(scene_of(unloaded))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            EXPECT_EQ(step.number, 1u);
+            EXPECT_EQ(step.stopped_by, "round-off");
+            EXPECT_EQ(step.solution.u.linfty_norm(), 0.);
+            EXPECT_EQ(step.solution.z.linfty_norm(), 0.);
+          });
+}
+
 TEST(Floor, AnExactSolutionStopsTheRun)
 {
   const Scene<2> scene = scene_of({{"Boundary left/Displacement", "0; free"},
