@@ -2,6 +2,7 @@
 #include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/body/cell_map.h>
+#include <hpvi/contact/collapse.h>
 #include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/scene/scene_checks.h>
 #include <hpvi/solver/quadratic_program.h>
@@ -412,8 +413,10 @@ std::string free_place(const Solution<dim> &solution, const std::vector<ContactS
   const auto [eigenvalue, combination] = eigenpairs(gram).back();
   if (eigenvalue > 1e-14 * size)
     return {};
+  const std::string entry = friction_entry(solution.contact_space);
   return line("contact does not hold the body ", combined(motions, combination).direction(),
-              ": its place is not unique; raise Friction bound, lower the loads or add a support");
+              ": its place is not unique; ", entry.empty() ? "" : "raise " + entry + ", ",
+              "lower the loads or add a support");
 }
 
 /** The entry that gives friction on @p face. */

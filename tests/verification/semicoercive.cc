@@ -165,6 +165,19 @@ TEST(Semicoercive, DoesNotDependOnTheAxes)
   EXPECT_NEAR(std::abs(last.resultant), 2 * tau, 1e-10);
 }
 
+/** sin(2 pi x) pushes with 3e-18, which is none: without a pressure Coulomb's friction resists with 0. */
+TEST(Semicoercive, LoadsThatCancelToRoundOffPushNothing)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Subdivisions", "3, 2"},
+                                   {"Boundary bottom/Contact", "unilateral"},
+                                   {"Boundary bottom/Friction coefficient", "0.3"},
+                                   {"Boundary top/Traction", "sin(2*pi*x); 0"},
+                                   {"Adaptivity/Maximum steps", "1"}});
+  AdaptiveSolver<2>(scene).run(
+      [](const StepReport<2> &step)
+      { EXPECT_TRUE(mentions(step.warnings, "not unique; raise Friction coefficient, lower")); });
+}
+
 TEST(Semicoercive, MotionsThatNothingResistsAreBadInput)
 {
   EXPECT_THROW(sheared_block(0.1, {{"Boundary bottom/Friction bound", ""}}), InputError);
