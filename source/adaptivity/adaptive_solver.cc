@@ -19,7 +19,7 @@
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/evaluation/unseen_contact.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
 #include <hpvi/discretisation/interpolation.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <cctype>

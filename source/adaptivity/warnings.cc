@@ -4,7 +4,7 @@
 #include <hpvi/body/cell_map.h>
 #include <hpvi/contact/collapse.h>
 #include <hpvi/evaluation/unseen_contact.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 #include <hpvi/solver/quadratic_program.h>
 #include <hpvi/stresses/mean_gradients.h>
 

@@ -18,7 +18,7 @@ namespace
 constexpr double round_off = 1e-14;
 
 /** One face of the patch of a vertex a: the data of l_a on it. */
-struct Side
+struct PatchFace
 {
   unsigned int face = 0, end = 0;
   double work = 0;        ///< int psi_a z_N
@@ -124,7 +124,7 @@ public:
   {
   }
 
-  std::array<Side, 2> sides() const; ///< by end
+  std::array<PatchFace, 2> sides() const; ///< by end
 
 private:
   const unsigned int number;
@@ -135,13 +135,13 @@ private:
   const bool leans;
   const QGauss<1> &gauss;
   const EdgePolynomial z, wanted, u_t;
-  const double slip; ///< of a Side
+  const double slip; ///< of a PatchFace
 };
 
 template <int dim>
-std::array<Side, 2> FaceIntegrals<dim>::sides() const
+std::array<PatchFace, 2> FaceIntegrals<dim>::sides() const
 {
-  std::array<Side, 2> result;
+  std::array<PatchFace, 2> result;
   for (unsigned int end = 0; end < 2; ++end)
     result[end] = {
         number, end, 0.,   0.,   Vector<double>(n), FullMatrix<double>(n, n), Vector<double>(n),
@@ -149,7 +149,7 @@ std::array<Side, 2> FaceIntegrals<dim>::sides() const
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0], work = face.length * gauss.weight(q) * z(s);
-    for (Side &side : result)
+    for (PatchFace &side : result)
       side.work += hat(side.end, s) * work;
   }
   const double largest = *std::max_element(rule.values.begin(), rule.values.end());
@@ -160,7 +160,7 @@ std::array<Side, 2> FaceIntegrals<dim>::sides() const
     const double t = wanted(s), slipped = leans ? u_t(s) : 0.,
                  lambda = g > 0. ? std::max(-1., std::min(1., t / g)) : 0.,
                  small = 1e-6 * weight * ds * largest * largest;
-    for (Side &side : result)
+    for (PatchFace &side : result)
     {
       const double psi = hat(side.end, s);
       side.limit += ds * psi * g;
@@ -177,10 +177,10 @@ std::array<Side, 2> FaceIntegrals<dim>::sides() const
 }
 
 /** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */
-double constant_part(const std::vector<Side *> &sides)
+double constant_part(const std::vector<PatchFace *> &sides)
 {
   double work = 0, limit = 0;
-  for (const Side *side : sides)
+  for (const PatchFace *side : sides)
   {
     work += side->work;
     limit += side->limit;
@@ -189,17 +189,17 @@ double constant_part(const std::vector<Side *> &sides)
 }
 
 /** Bring l into [-1,1] by as much of the constant as it takes, which changes none of its conditions. */
-void shrink(const std::vector<Side *> &sides)
+void shrink(const std::vector<PatchFace *> &sides)
 {
   const double c = constant_part(sides);
   double part = 0;
-  for (const Side *side : sides)
+  for (const PatchFace *side : sides)
     for (const double s : side->l.extremes())
       if (const double value = side->l(s); std::abs(value) > 1. + round_off)
         part = std::max(part, (std::abs(value) - 1.) / std::abs(value - c));
   if (part == 0)
     return;
-  for (Side *side : sides)
+  for (PatchFace *side : sides)
   {
     std::vector<double> coefficients = side->l.coefficients();
     for (double &coefficient : coefficients)
@@ -213,7 +213,7 @@ void shrink(const std::vector<Side *> &sides)
 class PatchProgram
 {
 public:
-  PatchProgram(const std::vector<Side *> &sides, const std::vector<Side *> &free);
+  PatchProgram(const std::vector<PatchFace *> &sides, const std::vector<PatchFace *> &free);
 
   /** Set l of the free sides; false: there is none, and they are undefined. */
   bool solve();
@@ -225,14 +225,15 @@ private:
   void add_bounds(unsigned int side, double s, InequalityProgram &program) const;
   void read(const InequalityProgram &program);
 
-  const std::vector<Side *> &sides, &free;
+  const std::vector<PatchFace *> &sides, &free;
   std::vector<unsigned int> first; ///< unknown of each free side; their number
 };
 
-PatchProgram::PatchProgram(const std::vector<Side *> &sides, const std::vector<Side *> &free)
+PatchProgram::PatchProgram(const std::vector<PatchFace *> &sides,
+                           const std::vector<PatchFace *> &free)
     : sides(sides), free(free), first{0}
 {
-  for (const Side *side : free)
+  for (const PatchFace *side : free)
     first.push_back(first.back() + side->h.size());
 }
 
@@ -259,9 +260,9 @@ InequalityProgram PatchProgram::start() const
 bool PatchProgram::add_conditions(InequalityProgram &program) const
 {
   double work = 0;
-  for (const Side *side : sides)
+  for (const PatchFace *side : sides)
     work += side->work;
-  for (const Side *side : sides)
+  for (const PatchFace *side : sides)
     if (std::find(free.begin(), free.end(), side) == free.end())
       work -= side->forced() * side->limit;
   Vector<double> moments(first.back());
@@ -306,7 +307,7 @@ try
     return false;
   read(program);
   if (std::all_of(free.begin(), free.end(),
-                  [](const Side *side)
+                  [](const PatchFace *side)
                   {
                     const auto [least, most] = side->l.enclosure();
                     return least >= -1. && most <= 1.;
@@ -341,12 +342,12 @@ catch (const NumericalFailure &) // g is zero up to round-off
 }
 
 /** Find l on the one or two sides of a patch, and what work it leaves undone. */
-void distribute(const std::vector<Side *> &sides)
+void distribute(const std::vector<PatchFace *> &sides)
 {
-  std::vector<Side *> free;
+  std::vector<PatchFace *> free;
   double slip = 0;
   bool is_contradictory = false;
-  for (Side *side : sides)
+  for (PatchFace *side : sides)
     if (const double forced = side->forced(); forced == 0.)
       free.push_back(side);
     else
@@ -357,10 +358,10 @@ void distribute(const std::vector<Side *> &sides)
     }
   if (is_contradictory || (!free.empty() && !PatchProgram(sides, free).solve()))
     if (!PatchProgram(sides, sides).solve())
-      for (Side *side : sides)
+      for (PatchFace *side : sides)
         side->l = EdgePolynomial::constant(constant_part(sides));
   double missing = 0, limit = 0;
-  for (const Side *side : sides)
+  for (const PatchFace *side : sides)
   {
     const std::vector<double> coefficients = side->l.coefficients();
     missing += side->work;
@@ -368,13 +369,13 @@ void distribute(const std::vector<Side *> &sides)
     for (unsigned int i = 0; i < coefficients.size(); ++i)
       missing -= coefficients[i] * side->moments[i];
   }
-  for (Side *side : sides)
+  for (PatchFace *side : sides)
     side->missing = missing * side->limit / limit;
 }
 
 /** Do the faces of two sides lie on one straight line? */
 template <int dim>
-bool are_aligned(const Side &a, const Side &b, const std::vector<ContactFace<dim>> &faces)
+bool are_aligned(const PatchFace &a, const PatchFace &b, const std::vector<ContactFace<dim>> &faces)
 {
   return (faces[a.face].frame(0.5).normal - faces[b.face].frame(0.5).normal).norm() < 1e-6;
 }
@@ -386,11 +387,11 @@ AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
 {
   static_assert(dim == 2, "vertices of edges");
   const std::vector<ContactFace<dim>> &faces = solution.contact_space.faces();
-  std::map<unsigned int, std::vector<Side>> sides; // by vertex
+  std::map<unsigned int, std::vector<PatchFace>> sides; // by vertex
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (!faces[k].friction.vanishes() && faces[k].n_multipliers > 0)
     {
-      for (Side &side : FaceIntegrals<dim>(k, solution).sides())
+      for (PatchFace &side : FaceIntegrals<dim>(k, solution).sides())
         sides[faces[k].cell->face(faces[k].face_no)->vertex_index(side.end)].push_back(
             std::move(side));
     }
@@ -399,9 +400,9 @@ AdmissibleFriction<dim>::AdmissibleFriction(const Solution<dim> &solution)
     if (around.size() == 2 && are_aligned(around[0], around[1], faces))
       distribute({&around[0], &around[1]});
     else
-      for (Side &side : around)
+      for (PatchFace &side : around)
         distribute({&side});
-    for (const Side &side : around)
+    for (const PatchFace &side : around)
     {
       parts[side.face][side.end] = side.l;
       missing[side.face][side.end] = side.missing;

@@ -14,7 +14,7 @@ namespace
 {
 /** A contact boundary, as a rigid body meets it. */
 template <int dim>
-struct Side
+struct ContactSide
 {
   const BoundaryCondition<dim> *condition;
   Tensor<1, dim> normal, tangent;
@@ -36,16 +36,16 @@ struct Side
 constexpr unsigned int pieces = 8; ///< of a face, between which a coefficient is looked at
 
 template <int dim>
-std::vector<Side<dim>> sides_of(const ContactSpace<dim> &contact_space)
+std::vector<ContactSide<dim>> contact_sides(const ContactSpace<dim> &contact_space)
 {
-  std::vector<Side<dim>> sides;
+  std::vector<ContactSide<dim>> sides;
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     const ContactFrame<dim> middle = face.frame(0.5);
     if (sides.empty() || sides.back().condition != face.condition)
       sides.push_back(
           {face.condition, middle.normal, middle.tangent, {{face.point(0.), face.point(0.)}}});
-    Side<dim> &side = sides.back();
+    ContactSide<dim> &side = sides.back();
     side.friction += face.length * face.friction.integral();
     for (const double s : {0., 1.})
     {
@@ -57,7 +57,7 @@ std::vector<Side<dim>> sides_of(const ContactSpace<dim> &contact_space)
     }
   }
   for (const ContactFace<dim> &face : contact_space.faces())
-    for (Side<dim> &side : sides)
+    for (ContactSide<dim> &side : sides)
       for (unsigned int k = 0; k <= pieces && side.condition == face.condition; ++k)
       {
         const Point<dim> x = face.point(double(k) / pieces);
@@ -90,7 +90,7 @@ struct Loads
 };
 
 template <int dim>
-Loads loads_on(const Side<dim> &side, const LoadedMotions<dim> &loaded)
+Loads loads_on(const ContactSide<dim> &side, const LoadedMotions<dim> &loaded)
 {
   Loads result{loaded.along({side.normal, 0, {}}),
                loaded.along({side.tangent, 0, {}}),
@@ -110,7 +110,7 @@ std::string remedy(const std::string &entry)
 }
 
 template <int dim>
-Way lift(const Side<dim> &side, const Loads &loads)
+Way lift(const ContactSide<dim> &side, const Loads &loads)
 {
   std::ostringstream line;
   line.precision(10);
@@ -124,7 +124,7 @@ Way lift(const Side<dim> &side, const Loads &loads)
  * concave function above the coefficient.
  */
 template <int dim>
-double coefficient_at(const Side<dim> &side, const std::optional<double> &s)
+double coefficient_at(const ContactSide<dim> &side, const std::optional<double> &s)
 {
   double largest = 0;
   for (const auto &[before, left] : side.mu)
@@ -138,7 +138,8 @@ double coefficient_at(const Side<dim> &side, const std::optional<double> &s)
 
 /** Along boundaries that are parallel, so that no pressure resists. */
 template <int dim>
-Way slide(const Side<dim> &side, const std::vector<Side<dim>> &sides, const Loads &loads)
+Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sides,
+          const Loads &loads)
 {
   const double N = std::max(0., loads.N.value_or(0.)), T = std::abs(loads.T.value_or(0.));
   std::optional<double>
@@ -148,7 +149,7 @@ Way slide(const Side<dim> &side, const std::vector<Side<dim>> &sides, const Load
   const double mu = coefficient_at(side, s);
   double limit = mu * N;
   std::string names;
-  for (const Side<dim> &other : sides)
+  for (const ContactSide<dim> &other : sides)
   {
     limit += other.friction;
     names += (names.empty() ? "" : " and ") + other.condition->name;
@@ -176,7 +177,7 @@ Way slide(const Side<dim> &side, const std::vector<Side<dim>> &sides, const Load
 
 /** About the end of a boundary that alone presses: the loads meet it at `s = M/N` beyond that end. */
 template <int dim>
-Way topple(const Side<dim> &side, const unsigned int end, const Loads &loads)
+Way topple(const ContactSide<dim> &side, const unsigned int end, const Loads &loads)
 {
   const double M = loads.M[end].value_or(0.), N = loads.N.value_or(0.);
   std::ostringstream line;
@@ -198,7 +199,7 @@ Way topple(const Side<dim> &side, const unsigned int end, const Loads &loads)
 template <int dim>
 std::string friction_entry(const ContactSpace<dim> &contact_space)
 {
-  for (const Side<dim> &side : sides_of(contact_space))
+  for (const ContactSide<dim> &side : contact_sides(contact_space))
     if (const std::string entry = entry_of(*side.condition); !entry.empty())
       return entry;
   return {};
@@ -208,24 +209,24 @@ template <int dim>
 std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded)
 {
   static_assert(dim == 2, "boundaries with two ends");
-  const std::vector<Side<dim>> sides = sides_of(contact_space);
-  const bool is_alone = sides.size() == 1,
-             is_coulomb = std::any_of(sides.begin(), sides.end(),
-                                      [](const Side<dim> &side) { return side.is_coulomb(); });
+  const std::vector<ContactSide<dim>> sides = contact_sides(contact_space);
+  const bool is_alone = sides.size() == 1, is_coulomb = std::any_of(sides.begin(), sides.end(),
+                                                                    [](const ContactSide<dim> &side)
+                                                                    { return side.is_coulomb(); });
   Way worst;
   const auto consider = [&](const Way &way)
   {
     if (way.excess > worst.excess)
       worst = way;
   };
-  for (const Side<dim> &side : sides)
+  for (const ContactSide<dim> &side : sides)
   {
     const Loads loads = loads_on(side, loaded);
     const bool presses = is_alone && side.condition->is_unilateral();
     if (const Way way = lift(side, loads); presses && way.excess > 1e-10)
       return way.words;
     if (std::all_of(sides.begin(), sides.end(),
-                    [&](const Side<dim> &other)
+                    [&](const ContactSide<dim> &other)
                     { return std::abs(other.normal * side.tangent) < 1e-10; }) &&
         (presses || !is_coulomb))
       consider(slide(side, sides, loads));

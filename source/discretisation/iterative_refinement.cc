@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <hpvi/body/supports.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/scene/scene_checks.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <cmath>
 #include <numeric>

@@ -4,7 +4,7 @@
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/vtu.h>
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 
 #include <sstream>
 

@@ -7,7 +7,7 @@
 #include <hpvi/output/primal_output.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/output/vtu.h>
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 
 #include <algorithm>
 #include <cmath>

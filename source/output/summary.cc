@@ -4,8 +4,8 @@
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
-#include <hpvi/scene/parameters.h>
-#include <hpvi/scene/scene_entries.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
 
 namespace hpvi
 {

@@ -9,7 +9,7 @@
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/primal_solver.h>
 #include <hpvi/primal/transfer.h>
-#include <hpvi/scene/space_checks.h>
+#include <hpvi/checks/checks.h>
 
 #include <algorithm>
 #include <cmath>

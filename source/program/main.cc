@@ -11,7 +11,7 @@
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 #include <hpvi/scene/scene_reader.h>
 
 #include <deal.II/base/mpi.h>

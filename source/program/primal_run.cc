@@ -7,7 +7,7 @@
 #include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
 
-#include <hpvi/scene/space_checks.h>
+#include <hpvi/checks/checks.h>
 
 #include <cmath>
 #include <cstdlib>

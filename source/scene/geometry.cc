@@ -3,6 +3,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -70,16 +71,6 @@ bool Geometry<dim>::has_affine_cells() const
   return skew <= 1e-12 * size + 2 * std::numeric_limits<double>::epsilon() * coordinates;
 }
 
-std::vector<Point<2>> Edge::sample() const
-{
-  const unsigned int n = 32;
-  std::vector<Point<2>> points;
-  for (unsigned int i = 0; i < n; ++i)
-    points.push_back(ends[0] + (double(i) / n) * (ends[1] - ends[0]));
-  points.push_back(ends[1]); // exactly, for conditions at corners
-  return points;
-}
-
 std::array<double, 4> corner_angles(const Geometry<2> &geometry)
 {
   std::array<double, 4> angles;
@@ -93,33 +84,13 @@ std::array<double, 4> corner_angles(const Geometry<2> &geometry)
   return angles;
 }
 
-Point<2> centre_of(const Geometry<2> &geometry)
+template <int dim>
+Point<dim> centre_of(const Geometry<dim> &geometry)
 {
-  Point<2> centre;
-  for (const Point<2> &corner : geometry.corners)
-    centre += corner / 4.;
+  Point<dim> centre;
+  for (const Point<dim> &corner : geometry.corners)
+    centre += corner / double(geometry.corners.size());
   return centre;
-}
-
-std::vector<Edge> edges_of(const Geometry<2> &geometry)
-{
-  const Point<2> centre = centre_of(geometry);
-  std::vector<Edge> edges(GeometryInfo<2>::faces_per_cell);
-  for (unsigned int f = 0; f < edges.size(); ++f)
-  {
-    Edge &edge = edges[f];
-    for (unsigned int v = 0; v < 2; ++v)
-    {
-      edge.corners[v] = GeometryInfo<2>::face_to_cell_vertices(f, v);
-      edge.ends[v] = geometry.corners[edge.corners[v]];
-    }
-    const Tensor<1, 2> along = edge.ends[1] - edge.ends[0];
-    edge.normal[0] = along[1] / along.norm();
-    edge.normal[1] = -along[0] / along.norm();
-    if (edge.normal * (edge.ends[0] - centre) < 0)
-      edge.normal *= -1.;
-  }
-  return edges;
 }
 
 namespace
@@ -153,18 +124,71 @@ std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
   return points;
 }
 
-std::vector<Point<2>> sample_side(const Geometry<2> &geometry, const unsigned int side)
+namespace
 {
-  return edges_of(geometry)[side].sample();
+/** @p n + 1 equidistant points, both ends exactly, for conditions that meet there. */
+template <int dim>
+std::vector<Point<dim>> sample_segment(const Point<dim> &a, const Point<dim> &b,
+                                       const unsigned int n)
+{
+  std::vector<Point<dim>> points;
+  for (unsigned int i = 0; i < n; ++i)
+    points.push_back(a + (double(i) / n) * (b - a));
+  points.push_back(b);
+  return points;
+}
+} // namespace
+
+template <int dim>
+std::vector<Point<dim>> Side<dim>::sample() const
+{
+  if constexpr (dim == 2)
+    return sample_segment(ends[0], ends[1], 32);
+  std::vector<Point<dim>> points;
+  const auto first = sample_segment(ends[0], ends[n_corners - 2], 16),
+             last = sample_segment(ends[1], ends[n_corners - 1], 16);
+  for (unsigned int i = 0; i < first.size(); ++i)
+    for (const Point<dim> &point : sample_segment(first[i], last[i], 16))
+      points.push_back(point);
+  return points;
 }
 
-std::vector<Point<3>> sample_side(const Geometry<3> &geometry, const unsigned int side)
+template <int dim>
+std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
 {
-  std::vector<Point<3>> points;
-  for (const Point<3> &point : unit_grid<3>(16))
-    if (point[side / 2] == side % 2)
-      points.push_back(geometry.point(point));
-  return points;
+  const Point<dim> centre = centre_of(geometry);
+  std::vector<Side<dim>> sides(GeometryInfo<dim>::faces_per_cell);
+  for (unsigned int f = 0; f < sides.size(); ++f)
+  {
+    Side<dim> &side = sides[f];
+    for (unsigned int v = 0; v < side.n_corners; ++v)
+    {
+      side.corners[v] = GeometryInfo<dim>::face_to_cell_vertices(f, v);
+      side.ends[v] = geometry.corners[side.corners[v]];
+    }
+    const Tensor<1, dim> along = side.ends[1] - side.ends[0];
+    if constexpr (dim == 2)
+      side.normal = cross_product_2d(along) / along.norm();
+    else
+    {
+      const Tensor<1, dim> across = side.ends[2] - side.ends[0];
+      side.normal = cross_product_3d(along / along.norm(), across / across.norm());
+      side.normal /= side.normal.norm();
+    }
+    if (side.normal * (side.ends[0] - centre) < 0)
+      side.normal *= -1.;
+  }
+  return sides;
+}
+
+template <int dim>
+std::vector<Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two)
+{
+  std::vector<Point<dim>> corners;
+  for (unsigned int v = 0; v < one.n_corners; ++v)
+    if (std::find(two.corners.begin(), two.corners.end(), one.corners[v]) != two.corners.end())
+      corners.push_back(one.ends[v]);
+  return corners.size() == 2 ? sample_segment(corners[0], corners[1], 16) : corners;
 }
 
 template <int dim>
@@ -216,6 +240,14 @@ template Corners<2> box_corners(const Point<2> &, const Point<2> &);
 template Corners<3> box_corners(const Point<3> &, const Point<3> &);
 template struct Geometry<2>;
 template struct Geometry<3>;
+template struct Side<2>;
+template struct Side<3>;
+template std::vector<Side<2>> sides_of(const Geometry<2> &);
+template std::vector<Side<3>> sides_of(const Geometry<3> &);
+template std::vector<Point<2>> common_points(const Side<2> &, const Side<2> &);
+template std::vector<Point<3>> common_points(const Side<3> &, const Side<3> &);
 template std::vector<Point<2>> sample_body(const Geometry<2> &);
 template std::vector<Point<3>> sample_body(const Geometry<3> &);
+template Point<2> centre_of(const Geometry<2> &);
+template Point<3> centre_of(const Geometry<3> &);
 } // namespace hpvi

@@ -2,10 +2,8 @@
 #include <hpvi/scene/scene.h>
 
 #include <hpvi/base/text.h>
-#include <hpvi/scene/parameters.h>
-#include <hpvi/scene/scene_checks.h>
-#include <hpvi/scene/scene_entries.h>
-#include <hpvi/scene/space_checks.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
 
 #include <algorithm>
 #include <limits>
@@ -120,12 +118,6 @@ Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell
     adaptivity.method = Method::hap2;
     adaptivity.start_degree = own_start_degree(Method::hap2);
   }
-}
-
-template <int dim>
-void Scene<dim>::check(const SceneUse use) const
-{
-  check_scene(*this, use);
 }
 
 template <int dim>
@@ -256,12 +248,6 @@ template <int dim>
 std::string Scene<dim>::effective_parameters() const
 {
   return parameters ? parameters->print(false) : "";
-}
-
-template <int dim>
-std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
-{
-  return hpvi::free_motions(*this);
 }
 
 template Expression<2> expression<2>(double);

@@ -2,17 +2,17 @@
 #include <hpvi/scene/scene_reader.h>
 
 #include <hpvi/base/text.h>
-#include <hpvi/scene/expressions.h>
-#include <hpvi/scene/parameters.h>
-#include <hpvi/scene/scene_checks.h>
-#include <hpvi/scene/scene_entries.h>
-#include <hpvi/scene/space_checks.h>
+#include <hpvi/input/expressions.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace hpvi
@@ -96,13 +96,23 @@ Material read_material(const Parameters &parameters)
   return material;
 }
 
+/** What expressions may use; the time @p t in a load history. */
+std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
+{
+  std::map<std::string, double> constants = {
+      {"pi", numbers::PI}, {"E", material.young}, {"nu", material.poisson}, {"mu", material.mu()}};
+  if (t)
+    constants.emplace("t", *t);
+  return constants;
+}
+
 // ---------------------------------------------------------------- the exact solution
 
-/** The value of a friction bound that is the same all along @p edge; NaN if it is not. */
+/** The value of a friction bound that is the same all along @p side; NaN if it is not. */
 double constant_friction_bound(const Parameters &parameters, const ExpressionReader<2> &expressions,
-                               const std::string &boundary, const Edge &edge)
+                               const std::string &boundary, const Side<2> &side)
 {
-  const std::vector<Point<2>> points = edge.sample();
+  const std::vector<Point<2>> points = side.sample();
   const auto bound = expressions.read_bound("Boundary " + boundary, "Friction bound", points,
                                             "Tresca's bound needs g >= 0");
   if (bound == nullptr || parameters.text("Boundary " + boundary, "Contact") == "none")
@@ -150,15 +160,15 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
   if (solution == "none")
     return nullptr;
   const unsigned int bottom = 2;
-  const Edge edge = edges_of(scene.geometry)[bottom];
-  if (edge.ends[0][1] != 0. || edge.ends[1][1] != 0. || edge.normal[1] > 0)
+  const Side<2> side = sides_of(scene.geometry)[bottom];
+  if (side.ends[0][1] != 0. || side.ends[1][1] != 0. || side.normal[1] > 0)
     parameters.reject(section, "Solution",
                       "slides along y = 0 below the body; put the bottom edge there");
   if (const auto elliptic =
           read_elliptic_solution(parameters, scene.materials[0], solution, boundary_names[bottom]))
     return elliptic;
   const double friction_bound =
-      constant_friction_bound(parameters, expressions, boundary_names[bottom], edge);
+      constant_friction_bound(parameters, expressions, boundary_names[bottom], side);
   if (!(solution == "stick-slip" ? friction_bound > 0 : friction_bound >= 0))
     parameters.reject("Boundary " + boundary_names[bottom], "Friction bound",
                       "must be a positive constant for Exact solution/Solution = " + solution +
@@ -185,7 +195,7 @@ exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boun
                {
                  return std::make_shared<ExactTraction<2>>(
                      scene.exact_solution, scene.materials[0],
-                     edges_of(scene.geometry)[boundary].normal, c);
+                     sides_of(scene.geometry)[boundary].normal, c);
                }}};
   const auto none = [](const unsigned int) { return nullptr; };
   (void)scene, (void)boundary;
@@ -196,7 +206,7 @@ template <int dim>
 void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &expressions,
                    const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
 {
-  const std::vector<Point<dim>> points = sample_side(scene.geometry, boundary.id);
+  const std::vector<Point<dim>> points = sides_of(scene.geometry)[boundary.id].sample();
   const auto [exact_displacement, exact_traction] =
       exact_displacement_and_traction(scene, boundary.id);
 
@@ -310,10 +320,9 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
 
   // Expressions are tried on the body and know its material: both must be sound.
   read_geometry(*parameters, scene.geometry);
-  check_geometry(scene);
   scene.materials = {read_material<dim>(*parameters)};
-  check_materials(scene);
-  const ExpressionReader<dim> expressions(*parameters, scene.materials[0], t);
+  scene.check_body();
+  const ExpressionReader<dim> expressions(*parameters, constants_of(scene.materials[0], t));
   scene.body_force =
       expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
   if constexpr (dim == 2)

@@ -4,7 +4,7 @@
 
 #include <hpvi/base/text.h>
 #include <hpvi/output/output.h>
-#include <hpvi/scene/scene_entries.h>
+#include <hpvi/input/scene_entries.h>
 
 #include <cmath>
 #include <limits>

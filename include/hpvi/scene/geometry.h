@@ -50,33 +50,38 @@ struct Geometry
   unsigned int grading_levels = 0;
 };
 
-/** A straight edge of a plane body. */
-struct Edge
+/** A flat side of the body: an edge in the plane, a parallelogram in space. */
+template <int dim>
+struct Side
 {
-  std::array<unsigned int, 2> corners; ///< indices into Geometry::corners
-  std::array<dealii::Point<2>, 2> ends;
-  dealii::Tensor<1, 2> normal; ///< outer unit normal
+  static constexpr unsigned int n_corners = 1u << (dim - 1);
 
-  /** Equidistant points from end to end. */
-  std::vector<dealii::Point<2>> sample() const;
+  std::array<unsigned int, n_corners> corners; ///< indices into Geometry::corners
+  std::array<dealii::Point<dim>, n_corners> ends;
+  dealii::Tensor<1, dim> normal; ///< outer unit normal
+
+  /** Equidistant points all over it, its corners exactly. */
+  std::vector<dealii::Point<dim>> sample() const;
 };
 
-/** The four edges by boundary id. */
-std::vector<Edge> edges_of(const Geometry<2> &geometry);
+/** All sides by boundary id. */
+template <int dim>
+std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry);
+
+/** Where two sides meet: one corner in the plane, equidistant points of an edge in space; empty: nowhere. */
+template <int dim>
+std::vector<dealii::Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two);
 
 /** Points all over the body, its boundary included. */
 template <int dim>
 std::vector<dealii::Point<dim>> sample_body(const Geometry<dim> &geometry);
 
-/** Points all over one of its sides, by boundary id: Edge::sample() in the plane. */
-std::vector<dealii::Point<2>> sample_side(const Geometry<2> &geometry, unsigned int side);
-std::vector<dealii::Point<3>> sample_side(const Geometry<3> &geometry, unsigned int side);
-
 /** The angles of the body at its corners, in degrees and in the order of the corners. */
 std::array<double, 4> corner_angles(const Geometry<2> &geometry);
 
 /** The mean of the corners. */
-dealii::Point<2> centre_of(const Geometry<2> &geometry);
+template <int dim>
+dealii::Point<dim> centre_of(const Geometry<dim> &geometry);
 
 /** A displacement that strains nothing: `translation + rotation e_z x (x - centre)`. */
 template <int dim>

@@ -3,6 +3,7 @@
 #define hpvi_scene_h
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/scene/data_scale.h>
 #include <hpvi/scene/exact_solution.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
@@ -217,9 +218,6 @@ enum class LoadAdaptivity
   every_step  ///< each begins with the mesh of the one before
 };
 
-template <int dim>
-struct Scene;
-
 /**
  * A history of loads, t = 1/steps, 2/steps, ..., 1: quasi-static evolution, in which friction acts on
  * the increment of the tangential displacement (LoadHistory).
@@ -240,16 +238,6 @@ enum class SceneUse
 {
   solve,  ///< a run: what no run can solve is refused
   measure ///< the inf-sup constant: multipliers that are too many are what it shall find
-};
-
-/**
- * Magnitudes of what a scene prescribes, its loads and displacements: what is below round-off of them
- * is zero. In a load history those of all load steps so far.
- */
-struct DataScale
-{
-  double stress = 0; ///< of tractions, body forces times the size of the body, friction bounds
-  double displacement = 0; ///< of prescribed displacements, gaps and past slip [length]
 };
 
 /**
@@ -289,6 +277,9 @@ struct Scene
 
   /** Throws InputError, one line with entry, value and remedy, for what no stage could make sense of. */
   void check(SceneUse use = SceneUse::solve) const;
+
+  /** Of check() the part on which functions rely that are tried on the body: its shape and materials. */
+  void check_body() const;
 
   /** Throws InputError where there is none of this name. */
   BoundaryCondition<dim> &boundary(const std::string &name);

@@ -2,7 +2,7 @@
 #ifndef hpvi_scene_entries_h
 #define hpvi_scene_entries_h
 
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 
 #include <string>
 #include <vector>
@@ -72,6 +72,13 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Output", "Contact tables", output.contact);
   visit("Output", "Reference solution", output.reference);
 }
+
+/** What is wrong with a bound where there is no contact, and with a gap where none can open. */
+inline const std::string friction_needs_contact =
+                             "needs contact; set Contact = bilateral, unilateral or tangential, or "
+                             "remove it",
+                         gap_needs_contact =
+                             "needs contact that can open; set Contact = unilateral or remove it";
 
 /**
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible

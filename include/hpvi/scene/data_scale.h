@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_scene_checks_h
-#define hpvi_scene_checks_h
-
-#include <hpvi/scene/scene.h>
-
-#include <string>
-#include <vector>
+#ifndef hpvi_data_scale_h
+#define hpvi_data_scale_h
 
 namespace hpvi
 {
-/** Scene::check(). */
-void check_scene(const Scene<2> &scene, SceneUse use);
+template <int dim>
+struct Scene;
 
-/** Of that the part which functions rely on when they are tried on the body. */
-void check_geometry(const Scene<2> &scene);
+/** Squares of lengths, stresses and displacements, and their products, must not over- or underflow. */
+constexpr double smallest_magnitude = 1e-100, largest_magnitude = 1e100;
 
-/** And the part on which the constants of expressions rely. */
-void check_materials(const Scene<2> &scene);
-
-/** Scene::free_motions(). */
-std::vector<RigidBodyMotion<2>> free_motions(const Scene<2> &scene);
+/**
+ * Magnitudes of what a scene prescribes, its loads and displacements: what is below round-off of them
+ * is zero. In a load history those of all load steps so far.
+ */
+struct DataScale
+{
+  double stress = 0;       ///< of tractions and of body forces times the size of the body
+  double displacement = 0; ///< of prescribed displacements, interference and past slip [length]
+};
 
 /**
  * The largest magnitudes of what @p scene prescribes, at points all over its body and boundaries, and of
@@ -43,13 +42,6 @@ double support_tolerance(const Scene<dim> &scene);
  */
 template <int dim>
 Scene<dim> load_step(const Scene<dim> &scene, unsigned int number, const DataScale &past);
-
-/** What is wrong with a bound where there is no contact, and with a gap where none can open. */
-inline const std::string friction_needs_contact =
-                             "needs contact; set Contact = bilateral, unilateral or tangential, or "
-                             "remove it",
-                         gap_needs_contact =
-                             "needs contact that can open; set Contact = unilateral or remove it";
 } // namespace hpvi
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/scene_entries.h>
+#include <hpvi/input/scene_entries.h>
 
 #include <deal.II/base/patterns.h>
 

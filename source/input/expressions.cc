@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/expressions.h>
+#include <hpvi/input/expressions.h>
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <regex>
+#include <utility>
 
 namespace hpvi
 {
@@ -85,15 +86,6 @@ std::shared_ptr<const Function<dim>> finite(const std::shared_ptr<const Function
     return result;
   };
   return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
-}
-
-std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
-{
-  std::map<std::string, double> constants = {
-      {"pi", numbers::PI}, {"E", material.young}, {"nu", material.poisson}, {"mu", material.mu()}};
-  if (t)
-    constants.emplace("t", *t);
-  return constants;
 }
 
 /** For messages about values. */
@@ -177,9 +169,9 @@ bool is_absent(const std::string &text, const std::string &absent)
 } // namespace
 
 template <int dim>
-ExpressionReader<dim>::ExpressionReader(const Parameters &parameters, const Material &material,
-                                        const std::optional<double> t)
-    : parameters(parameters), constants(constants_of(material, t))
+ExpressionReader<dim>::ExpressionReader(const Parameters &parameters,
+                                        std::map<std::string, double> constants)
+    : parameters(parameters), constants(std::move(constants))
 {
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>

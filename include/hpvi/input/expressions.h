@@ -2,8 +2,7 @@
 #ifndef hpvi_expressions_h
 #define hpvi_expressions_h
 
-#include <hpvi/scene/material.h>
-#include <hpvi/scene/parameters.h>
+#include <hpvi/input/parameters.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/point.h>
@@ -12,7 +11,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +27,8 @@ class ExpressionReader
 public:
   using Expression = std::shared_ptr<const dealii::Function<dim>>;
 
-  /** The material gives the constants E, nu, mu; @p t is the time in a load history. */
-  ExpressionReader(const Parameters &parameters, const Material &material,
-                   std::optional<double> t = {});
+  /** Names and values of what an expression may use beside its coordinates; `t` is the time in a load history. */
+  ExpressionReader(const Parameters &parameters, std::map<std::string, double> constants);
 
   /** Gives a component of the exact solution's field; null if the scene has no such solution. */
   using ExactField = std::function<Expression(unsigned int component)>;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_checks_h
+#define hpvi_checks_h
+
+#include <hpvi/scene/scene.h>
+
+namespace hpvi
+{
+// What Scene::check() asks, by subject. Each throws InputError, one line with entry, value and remedy.
+
+/**
+ * Loads, displacements, gaps and friction are finite, can be squared and stand where they mean something.
+ * What two boundaries say of a point they share is check_supports().
+ */
+template <int dim>
+void check_boundaries(const Scene<dim> &scene);
+
+/** Loads, supports and contact are those of Scene::exact_solution, where there is one. */
+template <int dim>
+void check_exact_solution(const Scene<dim> &scene);
+
+/** Scene::check() of each load step of a history, and what a history cannot have. */
+template <int dim>
+void check_load_history(const Scene<dim> &scene, SceneUse use);
+
+/** Numbers are those that a file may say, and the method, its degrees and its multipliers fit. */
+template <int dim>
+void check_method(const Scene<dim> &scene, SceneUse use);
+
+/** @p scene asks for nothing that the primal path does not offer. */
+template <int dim>
+void check_primal_path(const Scene<dim> &scene);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/checks/checks.h>
+#include <hpvi/checks/rejection.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Compares one boundary with the exact solution, at points all along it. */
+class ExactSolutionCheck
+{
+public:
+  ExactSolutionCheck(const Scene<2> &scene, const unsigned int id)
+      : scene(scene), exact(*scene.exact_solution), boundary(scene.boundaries[id]),
+        section(section_of(boundary)), side(sides_of(scene.geometry)[id])
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      stress[d] = std::make_unique<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
+                                                     side.normal, d);
+    for (const Side<2> &any : sides_of(scene.geometry))
+      for (const Point<2> &point : any.sample())
+      {
+        displacement_scale = std::max(displacement_scale, exact.displacement(point).norm());
+        stress_scale =
+            std::max(stress_scale, scene.materials[0].mu() * exact.gradient(point).norm());
+      }
+  }
+
+  void run() const
+  {
+    for (const Point<2> &point : side.sample())
+    {
+      check_displacement(point);
+      if (!boundary.has_contact())
+        check_traction(point);
+      else
+      {
+        check_normal_contact(point);
+        check_friction_law(point);
+      }
+    }
+  }
+
+private:
+  void check_displacement(const Point<2> &point) const
+  {
+    const Tensor<1, 2> u = exact.displacement(point);
+    for (unsigned int d = 0; d < 2; ++d)
+      if (boundary.displacement[d] != nullptr &&
+          differ(boundary.displacement[d]->value(point), u[d], displacement_scale))
+        contradict("Displacement", point, "write exact");
+  }
+
+  void check_traction(const Point<2> &point) const
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      if (boundary.displacement[d] == nullptr &&
+          differ(traction(d, point), stress[d]->value(point), stress_scale))
+        contradict("Traction", point, "write exact");
+  }
+
+  /**
+   * bilateral: `u_n = 0`; unilateral: `u_n <= u_0`, `p >= 0`, `(u_n - u_0) p = 0`; unilateral and, with
+   * p = 0, tangential: `sigma_n = G_n - p`.
+   */
+  void check_normal_contact(const Point<2> &point) const
+  {
+    const double u_n = exact.displacement(point) * side.normal;
+    if (boundary.contact == Contact::bilateral)
+    {
+      if (differ(u_n, 0, displacement_scale))
+        contradict("Contact", point, "set Contact = none");
+      return;
+    }
+    const double p = boundary.is_unilateral() ? exact.pressure(point) : 0.;
+    double imbalance = p;
+    for (unsigned int d = 0; d < 2; ++d)
+      imbalance += side.normal[d] * (stress[d]->value(point) - traction(d, point));
+    if (p < -tolerance * stress_scale || differ(imbalance, 0, stress_scale))
+      contradict_load(point, "Contact", "set Contact = none");
+    const double gap = boundary.gap_at(point) - u_n;
+    const bool closed = p > tolerance * stress_scale;
+    if (boundary.is_unilateral() && differ(closed ? gap : std::min(gap, 0.), 0, displacement_scale))
+      contradict("Gap", point, "give that of the solution");
+  }
+
+  /** `sigma_t = G_t - g lambda`, `|lambda| <= 1`, `lambda u_t = |u_t|`. */
+  void check_friction_law(const Point<2> &point) const
+  {
+    const Tensor<1, 2> u = exact.displacement(point), n = side.normal, t({-n[1], n[0]});
+    const double lambda = exact.multiplier(point);
+    if (std::abs(lambda) > 1 + tolerance)
+      reject(scene, "Exact solution", "Length",
+             "asks friction for |lambda| = " + to_string(std::abs(lambda)) + " > 1 at " +
+                 to_string(point) +
+                 "; enlarge it, shorten the contact or move Transition to the right");
+    double imbalance = g(point) * lambda;
+    for (unsigned int d = 0; d < 2; ++d)
+      imbalance += t[d] * (stress[d]->value(point) - traction(d, point));
+    if (differ(imbalance, 0, stress_scale))
+      contradict_load(point, friction_entry(), "give that of the solution");
+    if (g(point) == 0 || !differ(lambda * (u * t), std::abs(u * t), displacement_scale))
+      return;
+    if (lambda == 0)
+      contradict(friction_entry(), point, "leave the contact without friction");
+    reject(scene, "Exact solution", "Length",
+           "lets the body slip against its friction at " + to_string(point) +
+               "; enlarge it or move Transition to the right");
+  }
+
+  /** Tresca's bound, or Coulomb's under the pressure of the solution. */
+  double g(const Point<2> &point) const
+  {
+    if (boundary.friction.coefficient)
+      return boundary.friction.coefficient->value(point) * std::max(0., exact.pressure(point));
+    return boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
+  }
+
+  std::string friction_entry() const
+  {
+    return boundary.friction.coefficient ? "Friction coefficient" : "Friction bound";
+  }
+
+  double traction(const unsigned int component, const Point<2> &point) const
+  {
+    return boundary.traction[component] ? boundary.traction[component]->value(point) : 0.;
+  }
+
+  static bool differ(const double a, const double b, const double scale)
+  {
+    return !(std::abs(a - b) <= tolerance * scale);
+  }
+
+  /** A load on the contact is at fault, or else @p entry. */
+  [[noreturn]] void contradict_load(const Point<2> &point, const std::string &entry,
+                                    const std::string &remedy) const
+  {
+    if (boundary.has_traction())
+      contradict("Traction", point, "leave the contact without traction");
+    contradict(entry, point, remedy);
+  }
+
+  [[noreturn]] void contradict(const std::string &entry, const Point<2> &point,
+                               const std::string &remedy) const
+  {
+    reject(scene, section, entry,
+           "contradicts " + mention(scene, "Exact solution", "Solution") + " at " +
+               to_string(point) + "; " + remedy + " or set Solution = none");
+  }
+
+  static constexpr double tolerance = 1e-8;
+  const Scene<2> &scene;
+  const ExactSolution<2> &exact;
+  const BoundaryCondition<2> &boundary;
+  const std::string section;
+  const Side<2> side;
+  std::array<std::unique_ptr<const Function<2>>, 2> stress; ///< the components of `sigma n`
+  double displacement_scale = 0, stress_scale = 0;
+};
+
+} // namespace
+
+template <>
+void check_exact_solution(const Scene<2> &scene)
+{
+  if (scene.exact_solution == nullptr)
+    return;
+  if (scene.has_body_force())
+    reject(scene, "Body force", "Expression",
+           "contradicts " + mention(scene, "Exact solution", "Solution") +
+               ", which has none; remove it or set Solution = none");
+  if (scene.materials.size() > 1)
+    reject(scene, "Exact solution", "Solution",
+           "knows one material, and the scene has " + std::to_string(scene.materials.size()) +
+               "; measure errors by Error/Reference solution");
+  for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
+    ExactSolutionCheck(scene, b).run();
+}
+
+/** None is known in space, where a file cannot name one and the primal path offers none. */
+template <>
+void check_exact_solution(const Scene<3> &)
+{
+}
+} // namespace hpvi

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/checks/supports.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double round_off = 1e-8; ///< of the coefficients of a motion, which are of size 1
+
+/**
+ * `u(x) = a + c x (x - centre)/length`: its coefficients, the translation a and then the rotation c, a number in
+ * the plane.
+ */
+template <int dim>
+using RigidMotion = std::array<double, dim *(dim + 1) / 2>;
+
+/** What `direction . u = 0` at @p centre + length @p arm asks of a motion. */
+RigidMotion<2> row_of(const Tensor<1, 2> &direction, const Tensor<1, 2> &arm)
+{
+  return {{direction[0], direction[1], direction[1] * arm[0] - direction[0] * arm[1]}};
+}
+
+RigidMotion<3> row_of(const Tensor<1, 3> &direction, const Tensor<1, 3> &arm)
+{
+  const Tensor<1, 3> moment = cross_product_3d(arm, direction);
+  return {{direction[0], direction[1], direction[2], moment[0], moment[1], moment[2]}};
+}
+
+template <std::size_t n>
+bool is_translation(const std::array<double, n> &motion)
+{
+  constexpr unsigned int dim = n == 3 ? 2 : 3;
+  return std::all_of(motion.begin() + dim, motion.end(),
+                     [](const double c) { return std::abs(c) < round_off; });
+}
+
+/** "in x", or "along" a direction: three coefficients from @p first on, two in the plane. */
+template <int dim>
+std::string direction_of(const RigidMotion<dim> &motion, const unsigned int first)
+{
+  Point<dim> direction;
+  std::string axes;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    direction[d] = motion[first + d];
+    if (std::abs(direction[d]) >= round_off)
+      axes += "xyz"[d];
+  }
+  return axes.size() == 1 ? "in " + axes : "along " + to_string(direction);
+}
+
+std::string describe(const RigidMotion<2> &motion, const Point<2> &centre, const double length)
+{
+  if (is_translation(motion))
+    return "translation " + direction_of<2>(motion, 0);
+  return "rotation about " +
+         to_string(centre + length / motion[2] * Point<2>(-motion[1], motion[0]));
+}
+
+std::string describe(const RigidMotion<3> &motion, const Point<3> &, const double)
+{
+  if (is_translation(motion))
+    return "translation " + direction_of<3>(motion, 0);
+  return "rotation about an axis " + direction_of<3>(motion, 3);
+}
+
+/** A basis of the rigid-body motions that satisfy all @p rows, conditions on their coefficients. */
+template <std::size_t n>
+std::vector<std::array<double, n>> motions_of(std::vector<std::array<double, n>> rows)
+{
+  // Gauss and Jordan: each column without pivot is a motion that earlier columns can balance.
+  std::vector<unsigned int> pivots;
+  std::vector<std::array<double, n>> motions;
+  for (unsigned int column = 0; column < n; ++column)
+  {
+    const unsigned int rank = pivots.size();
+    const auto pivot = std::max_element(rows.begin() + rank, rows.end(),
+                                        [column](const auto &a, const auto &b)
+                                        { return std::abs(a[column]) < std::abs(b[column]); });
+    if (pivot == rows.end() || std::abs((*pivot)[column]) < round_off)
+    {
+      std::array<double, n> motion{};
+      motion[column] = 1;
+      for (unsigned int k = 0; k < rank; ++k)
+        motion[pivots[k]] = -rows[k][column] / rows[k][pivots[k]];
+      motions.push_back(motion);
+      continue;
+    }
+    std::swap(*pivot, rows[rank]);
+    for (unsigned int r = 0; r < rows.size(); ++r)
+    {
+      const double factor = r == rank ? 0. : rows[r][column] / rows[rank][column];
+      for (unsigned int c = 0; c < n; ++c)
+        rows[r][c] -= factor * rows[rank][c];
+    }
+    pivots.push_back(column);
+  }
+  return motions;
+}
+
+/** What holds the body: supports, and what resists beside them, friction and bilateral pressure. */
+template <int dim>
+struct Rows
+{
+  std::vector<RigidMotion<dim>> held, resisted;
+};
+
+/** Conditions at the corners of each side, for a rigid-body motion is linear along it. */
+template <int dim>
+Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const double length)
+{
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  Rows<dim> rows;
+  for (unsigned int f = 0; f < sides.size(); ++f)
+    for (const Point<dim> &end : sides[f].ends)
+    {
+      const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+      const Tensor<1, dim> arm = (end - centre) / length;
+      for (const PointCondition<dim> &condition : conditions_at(boundary, sides[f], end))
+        // Coulomb's law has a multiplier where bilateral contact is a support else.
+        (boundary.has_pressure() ? rows.resisted : rows.held)
+            .push_back(row_of(condition.direction, arm));
+      if constexpr (dim == 2)
+        if (boundary.friction) // where it vanishes, the mesh decides
+          rows.resisted.push_back(row_of(-cross_product_2d(sides[f].normal), arm));
+    }
+  rows.resisted.insert(rows.resisted.end(), rows.held.begin(), rows.held.end());
+  return rows;
+}
+
+/** The motion as one about @p centre, a translation of unit length. */
+RigidBodyMotion<2> motion_about(const Point<2> &centre, const double length,
+                                const RigidMotion<2> &motion)
+{
+  RigidBodyMotion<2> free{Tensor<1, 2>({motion[0], motion[1]}), motion[2] / length, centre};
+  if (is_translation(motion))
+  {
+    free.translation /= free.translation.norm();
+    free.rotation = 0;
+  }
+  return free;
+}
+} // namespace
+
+/** In space none may be left, for no contact may resist it there. */
+template <int dim>
+std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
+{
+  const Point<dim> centre = centre_of(geometry);
+  double length = 0;
+  for (const Point<dim> &corner : geometry.corners)
+    length = std::max(length, corner.distance(centre));
+  const Rows<dim> rows = rows_of(*this, centre, length);
+  // Unilateral contact holds some motions one way, and what none holds may be in balance.
+  const bool may_rest_on_contact = dim == 2 && has_unilateral_contact();
+  if (const auto motions = motions_of(rows.resisted); !motions.empty() && !may_rest_on_contact)
+    throw InputError(printable(origin(), 400) + ": Boundary left, right, bottom, top" +
+                     (dim == 2 ? "" : ", front, back") +
+                     "/Displacement: the supports leave a rigid-body motion free, " +
+                     describe(motions.front(), centre, length) +
+                     (dim == 2 ? ", and no friction resists it; prescribe a displacement component "
+                                 "or contact that stops it"
+                               : ", which neither friction nor unilateral contact may resist in "
+                                 "space; prescribe a displacement component or bilateral contact "
+                                 "that stops it"));
+  std::vector<RigidBodyMotion<dim>> result;
+  if constexpr (dim == 2)
+    for (const RigidMotion<dim> &motion : motions_of(rows.held))
+      result.push_back(motion_about(centre, length, motion));
+  return result;
+}
+
+template std::vector<RigidBodyMotion<2>> Scene<2>::free_motions() const;
+template std::vector<RigidBodyMotion<3>> Scene<3>::free_motions() const;
+} // namespace hpvi

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/checks/checks.h>
+#include <hpvi/checks/rejection.h>
+#include <hpvi/input/scene_entries.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The functions of one entry, and where they are tried. */
+template <int dim>
+struct EntryFunctions
+{
+  std::string section, name;
+  std::array<Expression<dim>, dim> components;
+  std::vector<Point<dim>> points;
+};
+
+template <int dim>
+std::vector<EntryFunctions<dim>> functions_of(const Scene<dim> &scene)
+{
+  std::vector<EntryFunctions<dim>> result{
+      {"Body force", "Expression", scene.body_force, sample_body(scene.geometry)}};
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  for (unsigned int b = 0; b < sides.size(); ++b)
+  {
+    const BoundaryCondition<dim> &boundary = scene.boundaries[b];
+    const std::string section = section_of(boundary);
+    const std::vector<Point<dim>> points = sides[b].sample();
+    result.push_back({section, "Displacement", boundary.displacement, points});
+    result.push_back({section, "Traction", boundary.traction, points});
+    result.push_back({section, "Gap", {{boundary.gap}}, points});
+  }
+  return result;
+}
+
+/** Loads and displacements enter energies as squares; in load steps, checked by themselves, the smallest are 0. */
+template <int dim>
+void check_magnitude(const Scene<dim> &scene, const EntryFunctions<dim> &functions)
+{
+  for (const auto &component : functions.components)
+  {
+    double magnitude = 0;
+    for (const Point<dim> &point : functions.points)
+      if (const double value = component ? component->value(point) : 0.; std::isfinite(value))
+        magnitude = std::max(magnitude, std::abs(value));
+    const bool is_small =
+        magnitude > 0 && magnitude < smallest_magnitude && !scene.has_load_history();
+    if (magnitude > largest_magnitude || is_small)
+      reject(scene, functions.section, functions.name,
+             "has a component of magnitude " + to_string(magnitude) +
+                 ", outside 1e-100 to 1e100; choose other units or write 0");
+  }
+}
+
+template <int dim>
+void check_finite(const Scene<dim> &scene, const EntryFunctions<dim> &functions)
+{
+  for (const auto &component : functions.components)
+    for (const Point<dim> &point : functions.points)
+      if (component && !std::isfinite(component->value(point)))
+        reject(scene, functions.section, functions.name,
+               "is not finite at " + to_string(point) +
+                   "; give a function that is finite everywhere it applies");
+}
+
+/** The largest value of a bound or a coefficient, which must not be negative. */
+template <int dim>
+double check_friction(const Scene<dim> &scene, const std::string &section, const std::string &name,
+                      const Expression<dim> &function, const std::vector<Point<dim>> &points,
+                      const std::string &remedy)
+{
+  double largest_value = 0;
+  for (const Point<dim> &point : points)
+  {
+    const double value = function ? function->value(point) : 0.;
+    if (!(value >= 0 && std::isfinite(value)))
+      reject(scene, section, name,
+             "is " + to_string(value) + " at " + to_string(point) + "; " + remedy);
+    largest_value = std::max(largest_value, value);
+  }
+  return largest_value;
+}
+
+template <int dim>
+void check_friction(const Scene<dim> &scene, const std::string &section,
+                    const BoundaryCondition<dim> &boundary, const std::vector<Point<dim>> &points)
+{
+  const FrictionLaw<dim> &law = boundary.friction;
+  if (law.bound && !boundary.has_contact())
+    reject(scene, section, "Friction bound", friction_needs_contact);
+  if (law.coefficient && !boundary.has_contact())
+    reject(scene, section, "Friction coefficient", friction_needs_contact);
+  if (law.bound && law.coefficient)
+    reject(scene, section, "Friction coefficient",
+           "stands beside Friction bound; keep Coulomb's law or Tresca's");
+  if (law.coefficient && boundary.contact == Contact::tangential)
+    reject(
+        scene, section, "Friction coefficient",
+        "needs a pressure, which Contact = tangential has not; give Friction bound or set Contact "
+        "= unilateral");
+  const double bound = check_friction(scene, section, "Friction bound", law.bound, points,
+                                      "Tresca's bound needs g >= 0");
+  check_friction(scene, section, "Friction coefficient", law.coefficient, points,
+                 "Coulomb's coefficient needs mu_f >= 0");
+  if (boundary.contact == Contact::tangential && bound == 0)
+    reject(scene, section, "Contact",
+           "has friction nowhere to act, for Friction bound is 0 all along the boundary; give "
+           "Friction bound > 0 or set Contact = none",
+           name_of(boundary.contact));
+}
+
+/** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
+template <int dim>
+void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+                    const Side<dim> &side)
+{
+  const std::string section = section_of(boundary);
+  for (unsigned int d = 0; d < dim; ++d)
+    if (boundary.traction[d] != nullptr && boundary.displacement[d] != nullptr)
+      reject(scene, section, "Traction",
+             std::string("acts on the component ") + "xyz"[d] +
+                 " that Displacement prescribes; make that component 0 here or free "
+                 "there");
+  check_friction(scene, section, boundary, side.sample());
+  if (boundary.gap != nullptr && !boundary.is_unilateral())
+    reject(scene, section, "Gap", gap_needs_contact);
+  if (boundary.has_contact() && boundary.has_displacement())
+    reject(scene, section, "Displacement",
+           "stands beside Contact = " + name_of(boundary.contact) + "; keep only one of the two");
+}
+} // namespace
+
+template <int dim>
+void check_boundaries(const Scene<dim> &scene)
+{
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  if (scene.boundaries.size() != sides.size())
+    fail(printable(scene.origin()), "Boundary",
+         "has " + std::to_string(scene.boundaries.size()) + " instead of " +
+             std::to_string(sides.size()) + "; change those of a new scene, add and remove none");
+  for (unsigned int b = 0; b < sides.size(); ++b)
+    if (scene.boundaries[b].id != b)
+      fail(printable(scene.origin()), "Boundary " + scene.boundaries[b].name,
+           "has the id " + std::to_string(scene.boundaries[b].id) + " and stands at " +
+               std::to_string(b) + "; leave ids and order as they are in a new scene");
+  const std::vector<EntryFunctions<dim>> all = functions_of(scene);
+  for (const EntryFunctions<dim> &functions : all)
+    check_magnitude(scene, functions);
+  for (const EntryFunctions<dim> &functions : all) // after what is huge, which explains it
+    check_finite(scene, functions);
+  for (unsigned int b = 0; b < sides.size(); ++b)
+    check_boundary(scene, scene.boundaries[b], sides[b]);
+}
+
+template void check_boundaries(const Scene<2> &);
+template void check_boundaries(const Scene<3> &);
+} // namespace hpvi

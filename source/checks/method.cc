@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/checks/checks.h>
+#include <hpvi/checks/rejection.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hpvi
+{
+namespace
+{
+/** Compares what code may have set with what a file may say; a switch may be either. */
+template <int dim>
+struct CheckValue
+{
+  const Scene<dim> &scene;
+
+  void operator()(const std::string &, const std::string &, const bool) const
+  {
+  }
+
+  void operator()(const std::string &section, const std::string &name, const double value) const
+  {
+    check_value(scene, section, name, text(value));
+  }
+
+  template <class Integer>
+  void operator()(const std::string &section, const std::string &name, const Integer value) const
+  {
+    check_value(scene, section, name, std::to_string(value));
+  }
+};
+
+template <int dim>
+void check_adaptivity(const Scene<dim> &scene)
+{
+  const Adaptivity &adaptivity = scene.adaptivity;
+  const std::string start = std::to_string(adaptivity.start_degree);
+  if (adaptivity.start_degree == 0) // a file's own degree, which the reader has put in its place
+    reject(scene, "Adaptivity", "Start degree",
+           "is no degree; give one from 1 to 20, as own_start_degree()", start);
+  if (adaptivity.start_degree > adaptivity.maximum_degree)
+    reject(scene, "Adaptivity", "Start degree",
+           "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
+               "; lower the one or raise the other",
+           start);
+  if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
+    reject(scene, "Adaptivity", "hpa1 raised fraction",
+           "makes more than all cells with hpa1 bisected fraction = " +
+               (scene.parameters ? scene.parameters->text("Adaptivity", "hpa1 bisected fraction")
+                                 : text(adaptivity.hpa1_bisected)) +
+               "; let the two sum to at most 1",
+           text(adaptivity.hpa1_raised));
+}
+
+/** Coulomb's bounds follow the pressure, which nodes would let turn negative between them. */
+template <int dim>
+void check_normal_contact(const Scene<dim> &scene)
+{
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (scene.solver.normal_contact == NormalContact::nodes && boundary.is_unilateral() &&
+        boundary.friction.coefficient)
+      reject(scene, "Solver", "Normal contact",
+             "is not offered with the Friction coefficient of Boundary " + boundary.name +
+                 "; set multiplier, or automatic",
+             "nodes");
+}
+
+/** Only contact without friction that closes at nodes needs no multiplier. */
+template <int dim>
+bool needs_multiplier(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  return boundary.has_contact() && (!boundary.is_unilateral() || boundary.friction ||
+                                    scene.normal_contact() == NormalContact::multiplier);
+}
+
+template <int dim>
+void check_multiplier_degree(const Scene<dim> &scene, const SceneUse use)
+{
+  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
+                   [&](const BoundaryCondition<dim> &b) { return needs_multiplier(scene, b); }))
+    return;
+  const int offset = scene.solver.multiplier_offset;
+  // p + 1 multipliers on each edge meet p tangential displacements per edge, and one more at most.
+  if (offset >= 0 && use == SceneUse::solve)
+    reject(scene, "Solver", "Multiplier degree offset",
+           "makes S singular: there are more multipliers than displacements on the "
+           "contact boundary determine, the discrete inf-sup constant is 0; give -2, or "
+           "measure the constant by hpvi --inf-sup",
+           std::to_string(offset));
+  if (static_cast<int>(scene.adaptivity.start_degree) + offset < 0)
+    reject(scene, "Adaptivity", "Start degree",
+           "is too low for contact: the multiplier has degree p - " + std::to_string(-offset) +
+               "; give at least " + std::to_string(-offset) +
+               " or raise Solver/Multiplier degree offset = " + std::to_string(offset),
+           std::to_string(scene.adaptivity.start_degree));
+}
+
+/** At least so many: grading adds some, and what two sides hold where they meet is held once. */
+template <int dim>
+void check_first_step(const Scene<dim> &scene)
+{
+  const unsigned int degree = scene.adaptivity.start_degree;
+  std::array<double, dim> nodes;
+  double all_nodes = 1;
+  for (unsigned int d = 0; d < dim; ++d)
+    all_nodes *= nodes[d] = 1. + degree * double(scene.geometry.subdivisions[d]);
+  double unknowns = dim * all_nodes;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    int held = boundary.holds_normal() ? 1 : 0;
+    for (const auto &component : boundary.displacement)
+      held += component != nullptr ? 1 : 0;
+    unknowns -= std::min(held, dim) * all_nodes / nodes[boundary.id / 2];
+  }
+  if (unknowns > scene.adaptivity.maximum_unknowns)
+    reject(scene, "Geometry", "Subdivisions",
+           "makes at least " + std::to_string(std::llround(unknowns)) +
+               " free unknowns of degree " + std::to_string(degree) +
+               " in the first step, more than Adaptivity/Maximum unknowns = " +
+               std::to_string(scene.adaptivity.maximum_unknowns) +
+               "; start coarser or raise that limit");
+}
+} // namespace
+
+template <int dim>
+void check_method(const Scene<dim> &scene, const SceneUse use)
+{
+  for_each_value(scene, CheckValue<dim>{scene});
+  check_adaptivity(scene);
+  check_first_step(scene);
+  check_normal_contact(scene);
+  check_multiplier_degree(scene, use);
+}
+
+template <int dim>
+void check_primal_path(const Scene<dim> &scene)
+{
+  const std::string why = dim == 3 ? "space" : "the primal path";
+  const Adaptivity &adaptivity = scene.adaptivity;
+  if (adaptivity.method >= Method::pu)
+    reject(scene, "Adaptivity", "Method",
+           "varies the degree from cell to cell or with the steps, which " + why +
+               " does not offer; take hup2, hup3, hup4, hap2, hap3 or hap4",
+           method_names[static_cast<unsigned int>(adaptivity.method)]);
+  if (adaptivity.start_degree < 2 || adaptivity.start_degree > 8)
+    reject(scene, "Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
+           std::to_string(adaptivity.start_degree));
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.friction.coefficient)
+      reject(scene, section_of(boundary), "Friction coefficient",
+             "is Coulomb's law, which " + why + " does not offer; give Friction bound, Tresca's");
+  if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
+    reject(scene, "Solver", "Normal contact",
+           "is not offered by " + why + ", whose pressures are multipliers; set multiplier",
+           "nodes");
+  if ((scene.has_friction() || scene.has_unilateral_contact()) &&
+      scene.solver.multiplier_offset != -2)
+    reject(scene, "Solver", "Multiplier degree offset",
+           "is not offered by " + why + ", whose moments need -2; remove it");
+  if (scene.solver.condition_number)
+    reject(scene, "Solver", "Condition number",
+           "asks for a matrix S that " + why + " does not form; remove it");
+  if (scene.output.reference || !scene.reference_solution.empty())
+    reject(scene, scene.output.reference ? "Output" : "Error", "Reference solution",
+           "is not offered by " + why + "; remove it");
+  if (scene.loading.steps > 0)
+    reject(scene, "Loading", "Steps",
+           "is a load history, which " + why + " does not offer; remove it",
+           std::to_string(scene.loading.steps));
+  if (scene.geometry.shape != Shape::box)
+    reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
+           "quadrilateral");
+  if (scene.exact_solution)
+    reject(scene, "Exact solution", "Solution",
+           "is not offered by " + why + "; set Path = reduced or remove it");
+}
+
+template void check_method(const Scene<2> &, SceneUse);
+template void check_method(const Scene<3> &, SceneUse);
+template void check_primal_path(const Scene<2> &);
+template void check_primal_path(const Scene<3> &);
+} // namespace hpvi

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/checks/rejection.h>
+
+#include <hpvi/base/text.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
+
+#include <vector>
+
+namespace hpvi
+{
+template <int dim>
+std::string mention(const Scene<dim> &scene, const std::string &section, const std::string &name,
+                    const std::string &value)
+{
+  const std::string shown = scene.parameters ? scene.parameters->text(section, name) : value;
+  return section + "/" + name + (scene.parameters || !shown.empty() ? " = " + shown : "");
+}
+
+template <int dim>
+void reject(const Scene<dim> &scene, const std::string &section, const std::string &name,
+            const std::string &problem_and_remedy, const std::string &value)
+{
+  if (scene.parameters)
+    scene.parameters->reject(section, name, problem_and_remedy);
+  fail(printable(scene.name), mention(scene, section, name, value), problem_and_remedy);
+}
+
+template <int dim>
+void check_value(const Scene<dim> &scene, const std::string &section, const std::string &name,
+                 const std::string &shown)
+{
+  static const std::vector<Entry> entries = scene_entries(dim); // a history asks for each load step
+  for (const Entry &entry : entries)
+    if (entry.section == section && entry.name == name)
+      if (const std::string objection = entry.objection(shown); !objection.empty())
+        reject(scene, section, name, objection, shown);
+}
+
+std::string name_of(const Contact contact)
+{
+  return contact_names[static_cast<unsigned int>(contact)];
+}
+
+template std::string mention(const Scene<2> &, const std::string &, const std::string &,
+                             const std::string &);
+template std::string mention(const Scene<3> &, const std::string &, const std::string &,
+                             const std::string &);
+template void reject(const Scene<2> &, const std::string &, const std::string &,
+                     const std::string &, const std::string &);
+template void reject(const Scene<3> &, const std::string &, const std::string &,
+                     const std::string &, const std::string &);
+template void check_value(const Scene<2> &, const std::string &, const std::string &,
+                          const std::string &);
+template void check_value(const Scene<3> &, const std::string &, const std::string &,
+                          const std::string &);
+} // namespace hpvi

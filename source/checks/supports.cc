@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/checks/rejection.h>
+#include <hpvi/checks/supports.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
+                                               const Side<dim> &side, const Point<dim> &point)
+{
+  std::vector<PointCondition<dim>> conditions;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (boundary.displacement[d] != nullptr)
+    {
+      Tensor<1, dim> direction;
+      direction[d] = 1.;
+      conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
+    }
+  if (boundary.contact == Contact::bilateral)
+    conditions.push_back({side.normal, 0., boundary.id});
+  return conditions;
+}
+
+namespace
+{
+template <int dim>
+const std::string meeting_place = dim == 2 ? " at their corner " : " at their common point ";
+
+/** The entry that says what happens to the displacement of a boundary. */
+template <int dim>
+std::string support_entry(const BoundaryCondition<dim> &boundary)
+{
+  return boundary.contact == Contact::bilateral ? "Contact" : "Displacement";
+}
+
+template <int dim>
+[[noreturn]] void reject_meeting(const Scene<dim> &scene, const BoundaryCondition<dim> &one,
+                                 const BoundaryCondition<dim> &two, const Point<dim> &point,
+                                 const double contradiction)
+{
+  // The message stands at the boundary whose value can be changed.
+  const BoundaryCondition<dim> &changeable = one.contact == Contact::bilateral ? two : one;
+  const BoundaryCondition<dim> &other = one.contact == Contact::bilateral ? one : two;
+  reject(scene, section_of(changeable), support_entry(changeable),
+         "contradicts " + mention(scene, section_of(other), support_entry(other)) +
+             meeting_place<dim> + to_string(point) + " by " + to_string(std::abs(contradiction)) +
+             "; make both agree there or free one component");
+}
+
+/** Where @p boundary prescribes u_n > u_0 where it meets @p contact. */
+template <int dim>
+[[noreturn]] void reject_penetration(const Scene<dim> &scene,
+                                     const BoundaryCondition<dim> &boundary,
+                                     const BoundaryCondition<dim> &contact, const Point<dim> &point,
+                                     const double depth)
+{
+  const std::string limit =
+      contact.gap ? mention(scene, section_of(contact), "Gap")
+                  : mention(scene, section_of(contact), "Contact", name_of(contact.contact));
+  reject(scene, section_of(boundary), support_entry(boundary),
+         "contradicts " + limit + meeting_place<dim> + to_string(point) +
+             ", for u_n exceeds the gap by " + to_string(depth) +
+             "; let u_n <= u_0 there or free one component");
+}
+
+/** What @p condition asks for beyond the orthonormal @p basis: no direction if that decides it. */
+template <int dim>
+PointCondition<dim> rest_of(PointCondition<dim> condition,
+                            const std::vector<PointCondition<dim>> &basis)
+{
+  for (const PointCondition<dim> &q : basis)
+  {
+    const double product = condition.direction * q.direction;
+    condition.direction -= product * q.direction;
+    condition.value -= product * q.value;
+  }
+  return condition;
+}
+
+/** Can all @p conditions at one point hold together, and @p limits `u_n <= u_0` with them? */
+template <int dim>
+void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
+                   const std::vector<PointCondition<dim>> &conditions,
+                   const std::vector<PointCondition<dim>> &limits, const double tolerance)
+{
+  constexpr double parallel = 1e-6;
+  std::vector<PointCondition<dim>> basis; // by Gram and Schmidt
+  for (const PointCondition<dim> &condition : conditions)
+  {
+    const PointCondition<dim> rest = rest_of(condition, basis);
+    const double norm = rest.direction.norm();
+    if (norm > parallel)
+      basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
+    else if (std::abs(rest.value) > tolerance)
+      reject_meeting(scene, scene.boundaries[basis.front().boundary],
+                     scene.boundaries[rest.boundary], point, rest.value);
+  }
+  for (const PointCondition<dim> &limit : limits)
+    if (const PointCondition<dim> rest = rest_of(limit, basis);
+        rest.direction.norm() <= parallel && rest.value < -tolerance)
+      reject_penetration(scene, scene.boundaries[basis.front().boundary],
+                         scene.boundaries[limit.boundary], point, -rest.value);
+}
+
+} // namespace
+
+template <int dim>
+void check_supports(const Scene<dim> &scene)
+{
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const double tolerance = support_tolerance(scene);
+  for (unsigned int a = 0; a < sides.size(); ++a)
+    for (unsigned int b = a + 1; b < sides.size(); ++b)
+      for (const Point<dim> &point : common_points(sides[a], sides[b]))
+      {
+        std::vector<PointCondition<dim>> conditions, limits;
+        for (const unsigned int f : {a, b})
+        {
+          const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+          for (const PointCondition<dim> &condition : conditions_at(boundary, sides[f], point))
+            conditions.push_back(condition);
+          if (boundary.is_unilateral())
+            limits.push_back({sides[f].normal, boundary.gap_at(point), boundary.id});
+        }
+        check_meeting(scene, point, conditions, limits, tolerance);
+      }
+}
+
+template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &, const Side<2> &,
+                                                      const Point<2> &);
+template std::vector<PointCondition<3>> conditions_at(const BoundaryCondition<3> &, const Side<3> &,
+                                                      const Point<3> &);
+template void check_supports(const Scene<2> &);
+template void check_supports(const Scene<3> &);
+} // namespace hpvi

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/data_scale.h>
+
+#include <hpvi/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Raises @p magnitude to what @p function has at @p points, but for what its check refuses. */
+template <int dim>
+void raise(double &magnitude, const Expression<dim> &function,
+           const std::vector<Point<dim>> &points, const std::function<double(double)> &size)
+{
+  if (function)
+    for (const Point<dim> &point : points)
+      if (const double value = size(function->value(point)); value <= largest_magnitude)
+        magnitude = std::max(magnitude, value);
+}
+
+/** @p function, but 0 where that is round-off. */
+template <int dim>
+void drop(const double round_off, Expression<dim> &function)
+{
+  if (function)
+    function = expression<dim>(
+        [function = function, round_off](const Point<dim> &x)
+        {
+          const double value = function->value(x);
+          return std::abs(value) < round_off ? 0. : value;
+        });
+}
+
+template <int dim>
+double size_of(const Geometry<dim> &geometry)
+{
+  return geometry.corners.front().distance(geometry.corners.back());
+}
+} // namespace
+
+template <int dim>
+DataScale data_scale(const Scene<dim> &scene)
+{
+  const double size = size_of(scene.geometry);
+  const auto absolute = [](const double value) { return std::abs(value); };
+  DataScale scale = scene.past_data;
+  double force = 0;
+  for (const Expression<dim> &component : scene.body_force)
+    raise<dim>(force, component, sample_body(scene.geometry), absolute);
+  scale.stress = std::max(scale.stress, force * size);
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    const std::vector<Point<dim>> points = sides[boundary.id].sample();
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      raise<dim>(scale.stress, boundary.traction[c], points, absolute);
+      raise<dim>(scale.displacement, boundary.displacement[c], points, absolute);
+    }
+    raise<dim>(scale.displacement, boundary.gap, points, [](const double gap) { return -gap; });
+    raise<dim>(scale.displacement, boundary.friction.past, points, absolute);
+  }
+  double softest = scene.largest_mu();
+  for (const Material &material : scene.materials)
+    softest = std::min(softest, material.mu());
+  const double strain = scale.stress / scene.largest_mu();
+  scale.stress = std::max(scale.stress, softest * scale.displacement / size);
+  scale.displacement = std::max(scale.displacement, strain * size);
+  return scale;
+}
+
+template <int dim>
+double support_tolerance(const Scene<dim> &scene)
+{
+  return 1e-10 * data_scale(scene).displacement;
+}
+
+template <int dim>
+Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const DataScale &past)
+{
+  Scene<dim> result = scene.loading.at(scene.loading.time(number));
+  result.past_data = past;
+  // A tenth of what counts as round-off of a solution: nothing that is seen is lost.
+  const auto round_off = [](const double largest)
+  { return std::max(0.1 * round_off_of_data * largest, smallest_magnitude); };
+  const DataScale scale = data_scale(result);
+  for (Expression<dim> &component : result.body_force)
+    drop(round_off(scale.stress / size_of(scene.geometry)), component);
+  for (BoundaryCondition<dim> &boundary : result.boundaries)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      drop(round_off(scale.stress), boundary.traction[c]);
+      drop(round_off(scale.displacement), boundary.displacement[c]);
+    }
+    drop(round_off(scale.displacement), boundary.gap);
+  }
+  return result;
+}
+
+template DataScale data_scale(const Scene<2> &);
+template DataScale data_scale(const Scene<3> &);
+template double support_tolerance(const Scene<2> &);
+template double support_tolerance(const Scene<3> &);
+template Scene<2> load_step(const Scene<2> &, unsigned int, const DataScale &);
+template Scene<3> load_step(const Scene<3> &, unsigned int, const DataScale &);
+} // namespace hpvi
