@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/vtu.h>
-#include <hpvi/input/parameters.h>
 
 #include <sstream>
 

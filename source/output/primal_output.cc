@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/primal_output.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/output/vtu.h>
-#include <hpvi/input/parameters.h>
 
 #include <algorithm>
 #include <cmath>

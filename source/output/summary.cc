@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/input/scene_entries.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
-#include <hpvi/input/parameters.h>
-#include <hpvi/input/scene_entries.h>
 
 namespace hpvi
 {

@@ -6,10 +6,10 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/deformation.h>
 #include <hpvi/body/mesh.h>
+#include <hpvi/checks/checks.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/primal_solver.h>
 #include <hpvi/primal/transfer.h>
-#include <hpvi/checks/checks.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,13 +5,13 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/output.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/primal_run.h>
 #include <hpvi/program/terminal.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/scene/scene_reader.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,8 +3,8 @@
 #include "discretisation.h"
 
 #include <hpvi/base/text.h>
-#include <hpvi/output/output.h>
 #include <hpvi/input/scene_entries.h>
+#include <hpvi/output/output.h>
 
 #include <cmath>
 #include <limits>
