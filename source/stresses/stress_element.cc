@@ -157,7 +157,7 @@ void StressElement::set_tractions(const Tensor<2, 2> &B)
     Tensor<1, 2> normal;
     normal[0] = along_xi ? -tangent[1] : tangent[1];
     normal[1] = along_xi ? tangent[0] : -tangent[0];
-    const bool is_skew = std::abs(across * tangent) > 1e-12 * across.norm(); // or round-off
+    const bool is_skew = std::abs(across * tangent) > 1e-10 * across.norm(); // or round-off
     // |B^-T e| is the length of the edge, since det B = 1
     traction[along_xi] = {{across * normal / length, is_skew ? across * tangent / length : 0., 1.}};
   }
