@@ -311,8 +311,14 @@ Vector<double> TractionSystem::minimiser() const
     for (unsigned int k = 0; k < p.size(); ++k)
       p[k] = z[k] + (pass == 0 ? 0. : square / last * p[k]);
     const Vector<double> y = solver.solve(forces(p));
-    x.add(-square / product(p, met(y)), y);
-    r = missed(x);
+    Vector<double> next(x);
+    next.add(-square / product(p, met(y)), y);
+    const Multipliers rest = missed(next);
+    // Far from the origin the data have fewer digits than the tolerance asks for: steps would lead away again.
+    if (largest(rest) > 0.5 * largest(r) && largest(r) < 1e-10 * x.linfty_norm())
+      break;
+    x = next;
+    r = rest;
     last = square;
   }
   return x;
