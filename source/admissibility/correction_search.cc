@@ -518,7 +518,10 @@ std::vector<bool> CorrectionSearch<dim>::nearby_faces(const std::vector<double> 
   std::vector<bool> result(faces.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (slips[k].mode == Slip::everywhere)
-      result[k] = gaps[k] > std::max(0.01 * of_slip, 1e-10 * sum(gaps)); // not by round-off
+    {
+      if (gaps[k] > std::max(0.01 * of_slip, 1e-10 * sum(gaps))) // not by round-off
+        result[k] = true;
+    }
     else
     {
       result[k] = slips[k].mode == Slip::partly;
@@ -607,9 +610,10 @@ Vector<double> CorrectionSearch<dim>::in_one_direction(const RestrictedEnergy &s
   for (const Condition &condition : conditions)
     for (unsigned int i = 0, n = condition.trace->legendre.m(); i <= n; ++i)
       add(condition, 0.5 - 0.5 * std::cos(numbers::PI * i / n));
-  // What has another sign between the points is worth more points.
+  // What has another sign between the points is worth more points; the w is measured as it is, with what it misses.
+  constexpr double implied = 1e-8;
   bool stands_out = true;
-  for (unsigned int round = 0; stands_out && round <= 10 && program.solve(); ++round)
+  for (unsigned int round = 0; stands_out && round <= 10 && program.solve(implied); ++round)
   {
     w = strip.minimiser(program.minimiser());
     stands_out = false;

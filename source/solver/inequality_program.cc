@@ -100,7 +100,7 @@ unsigned int InequalityProgram::most_violated() const
   return result;
 }
 
-bool InequalityProgram::solve()
+bool InequalityProgram::solve(const double implied)
 {
   const unsigned int patience = 20 * (x.size() + rows.size());
   for (unsigned int step = 0; step < patience; ++step)
@@ -108,8 +108,11 @@ bool InequalityProgram::solve()
     const unsigned int row = most_violated();
     if (row == none)
       return true;
-    if (!take_in(row))
+    if (take_in(row))
+      continue;
+    if (slack(rows[row], implied) != 0.)
       return false;
+    is_in[row] = true;
   }
   return false;
 }

@@ -232,6 +232,30 @@ TEST(InequalityProgram, KnowsNoUnits)
   }
 }
 
+/** x_0 >= 1 and x_0 <= 1 - miss: a contradiction, or round-off of what both bounds come from. */
+TEST(InequalityProgram, ContradictsByRoundOff)
+{
+  FullMatrix<double> H(2, 2);
+  H(0, 0) = H(1, 1) = 1.;
+  Vector<double> h(2), row(2), opposite(2), other(2);
+  row[0] = other[1] = 1.;
+  opposite[0] = -1.;
+  for (const double miss : {1e-9, 1e-3})
+  {
+    InequalityProgram program(H, h);
+    program.add_inequality(row, 1.);
+    program.add_inequality(opposite, -1. + miss);
+    program.add_inequality(other, 0.5);
+    EXPECT_FALSE(program.solve());
+    EXPECT_EQ(program.solve(1e-8), miss < 1e-8);
+    if (miss < 1e-8)
+    {
+      EXPECT_NEAR(program.minimiser()[0], 1., 1e-8);
+      EXPECT_NEAR(program.minimiser()[1], 0.5, 1e-15);
+    }
+  }
+}
+
 TEST(InequalityProgram, RefusesWhatIsNotConvex)
 {
   FullMatrix<double> H(2, 2);

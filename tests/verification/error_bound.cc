@@ -741,6 +741,7 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
 {
   const Overrides unilateral = {{"Contact", "unilateral"}, {"Friction bound", "0.01"}},
                   opens = {{"Contact", "unilateral"}, {"Gap", "0.01"}, {"Friction bound", "0.01"}},
+                  slips = {{"Contact", "bilateral"}, {"Friction bound", "0.02"}},
                   rubs_in_part = {{"Contact", "bilateral"},
                                   {"Friction bound", "0.05*max(0, X - 0.61)"}},
                   free;
@@ -763,6 +764,13 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                                           upright,
                                           {{1, 2}},
                                           {{opens, free, free, opens}},
+                                          {{none, none, down, none}},
+                                          three_steps,
+                                          12345},
+                                         {"slip on either side of stick",
+                                          upright,
+                                          {{4, 2}},
+                                          {{slips, free, free, free}},
                                           {{none, none, down, none}},
                                           three_steps,
                                           12345},

@@ -28,8 +28,11 @@ public:
   /** `row' x >= least`, from the next solve() on. */
   void add_inequality(dealii::Vector<double> row, double least);
 
-  /** False: no x meets all rows, or round-off keeps the method from ending. */
-  bool solve();
+  /**
+   * False: no x meets all rows, or round-off keeps the method from ending. A row that contradicts others by no more
+   * than the part @p implied of its terms, round-off of bounds that come from data, counts as met from then on.
+   */
+  bool solve(double implied = 0.);
 
   const dealii::Vector<double> &minimiser() const; ///< x
 
@@ -71,7 +74,7 @@ private:
   dealii::FullMatrix<double> R; ///< where the columns of N are the active rows
   std::vector<unsigned int> active;
   std::vector<double> y;   ///< multipliers of the active rows
-  std::vector<bool> is_in; ///< is a row active?
+  std::vector<bool> is_in; ///< is a row active, or does it count as met?
 };
 } // namespace hpvi
 
