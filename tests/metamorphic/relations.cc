@@ -12,18 +12,24 @@ namespace
 {
 using Claim = Relation::Claim;
 
-/**
- * The bound takes branches on ties that round-off decides, so that it depends on the frame: seen were factors of 3, and
- * bounds in one frame alone. Once ties are decided alike in every frame: 1e-6 and true.
- */
-constexpr double bound_elsewhere = 4;
-constexpr bool bounds_everywhere = false;
-
-Tolerances of_today()
+/** Another discretisation, or a side that touches nothing, has another bound, a few times as large or none. */
+Tolerances otherwise()
 {
   Tolerances result;
-  result.bound = bound_elsewhere;
-  result.same_bounds = bounds_everywhere;
+  result.bound = 4;
+  result.same_bounds = false;
+  return result;
+}
+
+/**
+ * Ties of the bound are decided alike in every frame, and it agrees to 1e-6 in nine of ten random scenes. In one of 150 pairs
+ * more than 2 % are left, or no bound in one frame, where two sides in contact meet: doc/reliability.md.
+ */
+Tolerances in_another_frame()
+{
+  Tolerances result;
+  result.bound = 0.1;
+  result.same_bounds = false;
   return result;
 }
 
@@ -56,7 +62,7 @@ private:
   void add(const std::string &name, const RandomScene &one, const RandomScene &other,
            const Claim claim = Claim::same)
   {
-    result.push_back({name, one, other, other.own_frame(), claim, of_today()});
+    result.push_back({name, one, other, other.own_frame(), claim, otherwise()});
   }
 
   void vary(const std::string &name, const Settings &settings, const Claim claim = Claim::same)
@@ -91,6 +97,7 @@ void Relations::tell_in_another_way()
   {
     add("told in another way", scene, scene);
     result.back().frame = random_frame(scene.own_frame(), scene.needs_axes(), random);
+    result.back().tolerances = in_another_frame();
     write_box(result.back().frame, scene);
   }
 }
