@@ -208,8 +208,8 @@ void TractionSystem::add(const PatchCell &cell, const double scale, const Legend
 }
 
 /**
- * C and b, and `C rho C'` added to H. A condition costs 1e10 times the energy of the tractions that it is about:
- * round-off then leaves that energy some six digits, and conjugate gradients few steps.
+ * C and b, and `C rho C'` added to H. A condition costs 1e8 times the energy of the tractions that it is about:
+ * round-off then leaves that energy some eight digits, enough for a matrix that is positive definite in slender bodies, and conjugate gradients few steps.
  */
 void TractionSystem::add_conditions(const PatchCell &cell, const Faces &faces,
                                     std::vector<double> &H)
@@ -235,7 +235,7 @@ void TractionSystem::add_conditions(const PatchCell &cell, const Faces &faces,
       square += entry;
       energy += entry * H[i * n + i];
     }
-    rho.push_back(square > 0 ? 1e10 * energy / (square * square) : 0.);
+    rho.push_back(square > 0 ? 1e8 * energy / (square * square) : 0.);
     for (unsigned int i = 0; i < n; ++i)
       weighted[k * n + i] *= rho.back();
   }

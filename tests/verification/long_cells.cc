@@ -184,4 +184,22 @@ TEST(LongCellsThatAreDistorted, HaveABoundAboveTheError)
     EXPECT_LE(step.bound, 1.5 * error);
   }
 }
+
+/** High degrees in some cells: the factorisation keeps enough digits of the energy beside its conditions. */
+TEST(LongCellsOfManyDegrees, HaveABoundInEachStep)
+{
+  EXPECT_EQ(steps_of(scene_of({{"Geometry/Shape", "quadrilateral"},
+                               {"Geometry/Corners", "0, 0; 1.876, 0; 1.887, 0.009; 0.011, 0.009"},
+                               {"Geometry/Subdivisions", "3, 2"},
+                               {"Material/Young's modulus", "0.1"},
+                               {"Boundary bottom/Contact", "bilateral"},
+                               {"Boundary bottom/Friction bound", "0.0018"},
+                               {"Boundary right/Displacement", "1.3*y; -0.6*y*exp(-110*y)"},
+                               {"Adaptivity/Method", "hpa2"},
+                               {"Adaptivity/Indicator", "residual"},
+                               {"Adaptivity/Maximum steps", "6"},
+                               {"Error/Bound on distorted cells", "true"}}))
+                .size(),
+            6u);
+}
 } // namespace
