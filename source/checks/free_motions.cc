@@ -41,15 +41,15 @@ bool is_translation(const std::array<double, n> &motion)
                      [](const double c) { return std::abs(c) < round_off; });
 }
 
-/** "in x", or "along" a direction: three coefficients from @p first on, two in the plane. */
+/** "in x", or "along" a direction. */
 template <int dim>
-std::string direction_of(const RigidMotion<dim> &motion, const unsigned int first)
+std::string direction_of(const RigidMotion<dim> &motion)
 {
   Point<dim> direction;
   std::string axes;
   for (unsigned int d = 0; d < dim; ++d)
   {
-    direction[d] = motion[first + d];
+    direction[d] = motion[d];
     if (std::abs(direction[d]) >= round_off)
       axes += "xyz"[d];
   }
@@ -59,7 +59,7 @@ std::string direction_of(const RigidMotion<dim> &motion, const unsigned int firs
 std::string describe(const RigidMotion<2> &motion, const Point<2> &centre, const double length)
 {
   if (is_translation(motion))
-    return "translation " + direction_of<2>(motion, 0);
+    return "translation " + direction_of<2>(motion);
   return "rotation about " +
          to_string(centre + length / motion[2] * Point<2>(-motion[1], motion[0]));
 }
@@ -67,8 +67,8 @@ std::string describe(const RigidMotion<2> &motion, const Point<2> &centre, const
 std::string describe(const RigidMotion<3> &motion, const Point<3> &, const double)
 {
   if (is_translation(motion))
-    return "translation " + direction_of<3>(motion, 0);
-  return "rotation about an axis " + direction_of<3>(motion, 3);
+    return "translation " + direction_of<3>(motion);
+  return "rotation about an axis along " + to_string(Point<3>(motion[3], motion[4], motion[5]));
 }
 
 /** A basis of the rigid-body motions that satisfy all @p rows, conditions on their coefficients. */

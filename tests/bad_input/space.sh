@@ -69,7 +69,8 @@ invalid "Steps = 3" "load history" -- "Loading/Steps=3"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
 
 # --- boundaries
-invalid "rigid-body motion" -- "Boundary right/Displacement="
+invalid "rigid-body motion free, translation in x" -- "Boundary right/Displacement="
+invalid "rigid-body motion free, translation in z" -- "Boundary right/Displacement=0; free; free"
 invalid "contradicts" "common point" -- "Boundary top/Displacement=1; free; free"
 "$hpvi" --validate prm/slab.prm --set "Boundary top/Displacement=0.1*sin(pi); free; free" --set "Boundary right/Displacement=0; 0; 0" >/dev/null ||
   { echo "two supports that differ by round-off are refused"; failures=1; }
