@@ -28,13 +28,25 @@ void write_refinement(std::ostream &out, const Refinement &refinement)
 }
 
 /** How many, then boundary, value, place and length of each. */
-void write_peaks(std::ostream &out, const std::vector<StressSample<2>> &peaks)
+template <int dim>
+void write_peaks(std::ostream &out, const std::vector<StressSample<dim>> &peaks)
 {
   out << ' ' << peaks.size();
-  for (const StressSample<2> &peak : peaks)
-    out << ' ' << peak.boundary << ' ' << text(peak.value) << ' ' << text(peak.where[0]) << ' '
-        << text(peak.where[1]) << ' ' << text(peak.length);
+  for (const StressSample<dim> &peak : peaks)
+  {
+    out << ' ' << peak.boundary << ' ' << text(peak.value);
+    for (unsigned int d = 0; d < dim; ++d)
+      out << ' ' << text(peak.where[d]);
+    out << ' ' << text(peak.length);
+  }
   out << '\n';
+}
+
+const FileFormat &run_state_format()
+{
+  static const FileFormat format("run state", 5,
+                                 "go on with the scene of that run, or begin a new one");
+  return format;
 }
 
 /** The content of a file, word by word. */
@@ -84,15 +96,16 @@ public:
     return result;
   }
 
-  std::vector<StressSample<2>> peaks()
+  template <int dim>
+  std::vector<StressSample<dim>> peaks()
   {
-    std::vector<StressSample<2>> result;
+    std::vector<StressSample<dim>> result;
     for (unsigned int n = number<unsigned int>(); n > 0; --n)
     {
-      StressSample<2> &peak = result.emplace_back();
+      StressSample<dim> &peak = result.emplace_back();
       peak.boundary = number<dealii::types::boundary_id>();
       peak.value = number<double>();
-      for (const unsigned int d : {0, 1})
+      for (unsigned int d = 0; d < dim; ++d)
         peak.where[d] = number<double>();
       peak.length = number<double>();
     }
@@ -113,7 +126,7 @@ public:
 private:
   [[noreturn]] void malformed() const
   {
-    RunState::format().reject(file, "not a run state");
+    run_state_format().reject(file, "not a run state");
   }
 
   std::istringstream in;
@@ -131,26 +144,27 @@ bool decides(const std::string &section, const std::string &entry)
 }
 } // namespace
 
-std::vector<std::string> RunState::entries_of(const std::string &scene_prm)
+template <int dim>
+std::vector<std::string> RunState<dim>::entries_of(const std::string &scene_prm)
 {
   return hpvi::entries_of(scene_prm, decides);
 }
 
-const FileFormat &RunState::format()
+template <int dim>
+const FileFormat &RunState<dim>::format()
 {
-  static const FileFormat format("run state", 5,
-                                 "go on with the scene of that run, or begin a new one");
-  return format;
+  return run_state_format();
 }
 
-void RunState::write(std::ostream &out) const
+template <int dim>
+void RunState<dim>::write(std::ostream &out) const
 {
   std::ostringstream content;
   content << "entries " << entries.size() << '\n';
   for (const std::string &entry : entries)
     content << entry << '\n';
   content << "steps " << history.size() << '\n';
-  for (const PastStep &step : history)
+  for (const PastStep<dim> &step : history)
   {
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
             << text(step.relative_bound) << ' ' << text(step.seconds) << ' ' << step.lacks_condition
@@ -160,13 +174,14 @@ void RunState::write(std::ostream &out) const
   content << "refinements " << refinements.size() << '\n';
   for (const Refinement &refinement : refinements)
     write_refinement(content, refinement);
-  write_values(content, "motion", motion);
-  write_values(content, "u", u);
-  write_values(content, "z", z);
+  write_values(content, "motion", values.motion);
+  write_values(content, "u", values.u);
+  write_values(content, "z", values.z);
   format().write(out, content.str());
 }
 
-RunState RunState::read(std::istream &in, const std::string &name)
+template <int dim>
+RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
 {
   Reader reader(format().read(in, name), name);
   RunState state;
@@ -176,21 +191,24 @@ RunState RunState::read(std::istream &in, const std::string &name)
   reader.expect("steps");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
   {
-    PastStep &step = state.history.emplace_back();
+    PastStep<dim> &step = state.history.emplace_back();
     step.estimate = reader.number<double>();
     step.relative_estimate = reader.number<double>();
     step.relative_bound = reader.number<double>();
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
     step.own_stress = reader.number<double>();
-    step.peaks = reader.peaks();
+    step.peaks = reader.template peaks<dim>();
   }
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
     state.refinements.push_back(reader.refinement());
-  state.motion = reader.values("motion");
-  state.u = reader.values("u");
-  state.z = reader.values("z");
+  state.values.motion = reader.values("motion");
+  state.values.u = reader.values("u");
+  state.values.z = reader.values("z");
   return state;
 }
+
+template struct RunState<2>;
+template struct RunState<3>;
 } // namespace hpvi

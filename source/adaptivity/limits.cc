@@ -2,7 +2,6 @@
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
-#include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
@@ -18,17 +17,30 @@ namespace
 {
 /** Energies are squares, of which a small solution would leave zero. */
 template <int dim>
-void check_underflow(const Solution<dim> &solution)
+void check_underflow(const Scene<dim> &scene, const double largest)
 {
-  const double largest = solution.u.linfty_norm();
   const double negligible =
       std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-  for (const Material &material : solution.scene.materials) // the softest part may hold it all
-    if (largest > 0 && material.young * largest * largest < negligible)
-      throw NumericalFailure("the energy underflows: Young's modulus " + to_string(material.young) +
+  for (const Material &material : scene.materials) // the softest part may hold it all
+    if (largest > 0 && material.modulus() * largest * largest < negligible)
+      throw NumericalFailure("the energy underflows: " + material.stiffness_in_words() +
                              " and displacements up to " + to_string(largest) +
                              "; choose units in which loads are moderate");
 }
+
+/**
+ * Is the indicator no more than that of round-off in u_N, and likewise what it does not see of the data? Where it is,
+ * refinement goes on for nothing. Asked only where it is small, because it costs an indicator.
+ */
+template <int dim>
+bool is_exact_to_round_off(const Scene<dim> &scene, const double estimate, const LastSolution &last)
+{
+  const double largest = std::max(last.displacement, data_scale(scene).displacement),
+               small = 1e-7 * scene.largest_weight() * largest,
+               larger = std::max(estimate, last.missed * std::sqrt(scene.coercivity()));
+  return larger <= small && larger <= 4 * last.round_off();
+}
+} // namespace
 
 void check_algebraic_error(const AlgebraicError &error)
 {
@@ -43,53 +55,37 @@ void check_algebraic_error(const AlgebraicError &error)
   throw NumericalFailure(line.str());
 }
 
-/**
- * Is the indicator no more than that of round-off in u_N, and likewise what it does not see of the data? Where it is,
- * refinement goes on for nothing. Asked only where it is small, because it costs an indicator.
- */
 template <int dim>
-bool is_exact_to_round_off(const Solution<dim> &solution, const double estimate,
-                           const double missed)
-{
-  const double largest =
-                   std::max(solution.u.linfty_norm(), data_scale(solution.scene).displacement),
-               small = 1e-7 * solution.scene.largest_mu() * largest,
-               larger = std::max(estimate, missed * std::sqrt(solution.scene.coercivity()));
-  return larger <= small && larger <= 4 * round_off_of_estimate(solution);
-}
-} // namespace
-
-template <int dim>
-void check_numbers(const Solution<dim> &solution, const Energies &energies,
-                   const AlgebraicError &algebraic)
+void check_numbers(const Scene<dim> &scene, const double displacement, const Energies &energies)
 {
   check_finite("the energy", energies.energy);
   check_finite("the Lagrangian", energies.lagrangian);
   check_finite("the energy norm", energies.norm);
-  check_underflow(solution);
-  check_algebraic_error(algebraic);
+  check_underflow(scene, displacement);
 }
 
 template <int dim>
-std::string reached_limit(const Solution<dim> &solution, const History &history,
-                          const double missed)
+std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
+                          const LastSolution &last)
 {
-  const Adaptivity &limits = solution.scene.adaptivity;
-  const PastStep &last = history.back();
-  if (is_exact_to_round_off(solution, last.estimate, missed))
+  const Adaptivity &limits = scene.adaptivity;
+  const PastStep<dim> &step = history.back();
+  if (is_exact_to_round_off(scene, step.estimate, last))
     return "round-off";
-  const bool on_bound = limits.tolerance_on == Indicator::bound && !std::isnan(last.relative_bound);
-  if ((on_bound ? last.relative_bound : last.relative_estimate) < limits.tolerance)
+  const bool on_bound = limits.tolerance_on == Indicator::bound && !std::isnan(step.relative_bound);
+  if ((on_bound ? step.relative_bound : step.relative_estimate) < limits.tolerance)
     return "Tolerance";
   if (history.size() >= limits.maximum_steps)
     return "Maximum steps";
-  if (solution.displacement_space.n_free_dofs() >= limits.maximum_unknowns)
+  if (last.n_free >= limits.maximum_unknowns)
     return "Maximum unknowns";
-  if (limits.maximum_seconds > 0 && last.seconds >= limits.maximum_seconds)
+  if (limits.maximum_seconds > 0 && step.seconds >= limits.maximum_seconds)
     return "Maximum seconds";
   return {};
 }
 
-template void check_numbers(const Solution<2> &, const Energies &, const AlgebraicError &);
-template std::string reached_limit(const Solution<2> &, const History &, double);
+template void check_numbers(const Scene<2> &, double, const Energies &);
+template void check_numbers(const Scene<3> &, double, const Energies &);
+template std::string reached_limit(const Scene<2> &, const History<2> &, const LastSolution &);
+template std::string reached_limit(const Scene<3> &, const History<3> &, const LastSolution &);
 } // namespace hpvi

@@ -7,11 +7,9 @@
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
-#include <set>
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -20,31 +18,12 @@ using namespace dealii;
 
 namespace
 {
-/** What a warning says before its first number or place. */
-std::string kind(const std::string &warning)
-{
-  return warning.substr(0, warning.find_first_of("(0123456789"));
-}
-
-/** The first number of a warning outside its parentheses, where places stand: how bad it is; without one 0. */
-double severity(const std::string &warning)
-{
-  unsigned int depth = 0;
-  for (std::size_t k = 0; k < warning.size(); ++k)
-    if (depth == 0 && std::isdigit(static_cast<unsigned char>(warning[k])))
-      return std::strtod(&warning[k], nullptr);
-    else
-      depth += warning[k] == '(' ? 1 : warning[k] == ')' ? -1 : 0;
-  return 0.;
-}
-
-/** The end of a load step: the mesh and the slip with which the next begins. */
+/** The end of a load step, from whose slip the next one counts. */
 template <int dim>
 struct Past
 {
   std::shared_ptr<const Scene<dim>> scene; ///< of the solution, which it has to outlive
   Solution<dim> solution;
-  typename AdaptiveSolver<dim>::Start start;
 };
 } // namespace
 
@@ -52,29 +31,32 @@ template <int dim>
 struct LoadHistory<dim>::Evolution
 {
   const Scene<dim> &scene;
+  const MPI_Comm communicator;
   std::shared_ptr<const Scene<dim>> current; ///< the scene of the load step
   std::unique_ptr<AdaptiveSolver<dim>> solver;
-  std::optional<Past<dim>> past;
+  std::optional<Past<dim>> past; ///< of the reduced path
   LoadStep load;
   unsigned int n_steps = 0; ///< of finished load steps
   double seconds = 0;       ///< likewise
   unsigned int first = 0;   ///< load step with an error; 0: none yet
   double tolerance = 0;     ///< that it sets for those after it
-  std::vector<std::string> warnings;
+  Warnings warnings;        ///< the worst of each kind
 
-  explicit Evolution(const Scene<dim> &scene);
+  Evolution(const Scene<dim> &scene, MPI_Comm communicator);
 
   void begin(unsigned int number);
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
   std::string reason(const std::string &stopped_by) const;
   void conclude(StepReport<dim> &report);
-  void collect(StepReport<dim> &report);
+  PastSlip<dim> slip_so_far() const;
+  void count_work(const ReducedPart<dim> &part);
   std::string place() const;
 };
 
 template <int dim>
-LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene) : scene(scene)
+LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene, MPI_Comm communicator)
+    : scene(scene), communicator(communicator)
 {
   if (scene.has_load_history())
   {
@@ -82,7 +64,7 @@ LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene) : scene(scene)
     begin(1);
   }
   else
-    solver = std::make_unique<AdaptiveSolver<dim>>(scene);
+    solver = std::make_unique<AdaptiveSolver<dim>>(scene, communicator);
 }
 
 template <int dim>
@@ -92,17 +74,18 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
   load.t = scene.loading.time(number);
   const auto next = std::make_shared<Scene<dim>>(
       load_step(scene, number, current ? data_scale(*current) : DataScale()));
-  if (!past)
+  if (!solver)
   {
     current = next;
-    solver = std::make_unique<AdaptiveSolver<dim>>(*current);
+    solver = std::make_unique<AdaptiveSolver<dim>>(*current, communicator);
     return;
   }
-  const Solution<dim> &last = past->solution;
-  for (BoundaryCondition<dim> &boundary : next->boundaries)
-    if (boundary.has_contact() && boundary.friction)
-      boundary.friction.past = std::make_shared<const TangentialTrace<dim>>(
-          last.contact_space, last.displacement_space, last.tables, last.u, boundary.id);
+  const PastSlip<dim> slip = slip_so_far();
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  for (const auto &[boundary, u_t] : slip)
+    for (const Point<dim> &x : sides[boundary].sample())
+      next->past_data.displacement =
+          std::max(next->past_data.displacement, std::abs(u_t->value(x)));
   if (keeps_mesh())
     next->adaptivity.maximum_steps = 1;
   if (next->adaptivity.tolerance == 0)
@@ -110,8 +93,19 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
     next->adaptivity.tolerance = tolerance;
     next->adaptivity.tolerance_on = Indicator::residual;
   }
-  current = next;
-  solver = std::make_unique<AdaptiveSolver<dim>>(*current, past->start);
+  const auto last = std::exchange(current, next); // the solver refers to it
+  solver = std::make_unique<AdaptiveSolver<dim>>(*current, *solver, slip);
+}
+
+/** From which the next load step counts. */
+template <int dim>
+PastSlip<dim> LoadHistory<dim>::Evolution::slip_so_far() const
+{
+  if constexpr (dim == 2)
+    if (past)
+      return past_slip(past->solution.contact_space, past->solution.displacement_space,
+                       past->solution.tables, past->solution.u);
+  return {};
 }
 
 /** What is exact on the coarse mesh, as no load at all, says nothing of the mesh that others need. */
@@ -145,14 +139,8 @@ StepReport<dim> LoadHistory<dim>::Evolution::report(const StepReport<dim> &step)
 template <int dim>
 void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
 {
-  const Solution<dim> &solution = report.solution;
-  const Vector<double> &loads = report.system.loads();
-  const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
-                         : work_from_rest(solution, loads);
-  load.work += done.external;
-  load.dissipated += done.dissipated;
-  load.released += done.released;
-  load.unbalanced += done.unbalanced;
+  if (report.reduced)
+    count_work(*report.reduced);
   load.stored = 0.5 * report.energies.norm * report.energies.norm;
   report.load = load;
   n_steps = report.number;
@@ -163,28 +151,27 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
     first = load.number;
     tolerance = 1.2 * report.relative_estimate;
   }
-  past.emplace(Past<dim>{current, solution, solver->end()});
-  collect(report);
+  keep_worst(warnings, report.warnings, place());
+  if (load.number == scene.loading.steps)
+    report.warnings = warnings;
 }
 
-/** The last load step says what there was to say of all, each with the numbers of the worst. */
+/** What the load step did from where the one before has ended. */
 template <int dim>
-void LoadHistory<dim>::Evolution::collect(StepReport<dim> &report)
+void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
 {
-  const bool is_last = load.number == scene.loading.steps;
-  for (const std::string &warning : report.warnings)
+  if constexpr (dim == 2)
   {
-    const auto known =
-        std::find_if(warnings.begin(), warnings.end(),
-                     [&](const std::string &other) { return kind(other) == kind(warning); });
-    const std::string line = warning + " (" + place() + ")";
-    if (known == warnings.end())
-      warnings.push_back(line);
-    else if (severity(warning) > severity(*known))
-      *known = line;
+    const Solution<dim> &solution = part.solution;
+    const Vector<double> &loads = part.system.loads();
+    const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
+                           : work_from_rest(solution, loads);
+    load.work += done.external;
+    load.dissipated += done.dissipated;
+    load.released += done.released;
+    load.unbalanced += done.unbalanced;
+    past.emplace(Past<dim>{current, solution});
   }
-  if (is_last)
-    report.warnings = warnings;
 }
 
 /** As in "load step 3, t = 0.15", for messages. */
@@ -195,8 +182,8 @@ std::string LoadHistory<dim>::Evolution::place() const
 }
 
 template <int dim>
-LoadHistory<dim>::LoadHistory(const Scene<dim> &scene)
-    : evolution(std::make_unique<Evolution>(scene))
+LoadHistory<dim>::LoadHistory(const Scene<dim> &scene, MPI_Comm communicator)
+    : evolution(std::make_unique<Evolution>(scene, communicator))
 {
 }
 
@@ -252,4 +239,5 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
 }
 
 template class LoadHistory<2>;
+template class LoadHistory<3>;
 } // namespace hpvi

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/correction_search.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/solver/inequality_program.h>
+#include <hpvi/quadratic/inequality_program.h>
 #include <hpvi/stresses/legendre.h>
 
 #include <algorithm>
@@ -20,53 +20,6 @@ constexpr unsigned int none = numbers::invalid_unsigned_int;
 double sum(const std::vector<double> &values)
 {
   return std::accumulate(values.begin(), values.end(), 0.);
-}
-
-/** The largest value over [0,1]; zero if none is above that, or all are round-off. */
-double largest_value(const EdgePolynomial &polynomial, const double round_off)
-{
-  double result = 0.;
-  if (polynomial.largest() <= round_off || polynomial.enclosure().second <= 0.)
-    return result;
-  for (const double s : polynomial.extremes())
-    result = std::max(result, polynomial(s));
-  return result;
-}
-
-/** The polynomial over that of degree 1 or 2 which vanishes at some ends and is 1 at the other, or s (1 - s). */
-EdgePolynomial divided(const EdgePolynomial &polynomial, const std::array<bool, 2> &ends,
-                       const ShapeTables<2> &tables)
-{
-  const QGauss<1> &gauss = tables.gauss(polynomial.coefficients().size());
-  std::vector<double> values;
-  for (const Point<1> &point : gauss.get_points())
-  {
-    const double s = point[0];
-    values.push_back(polynomial(s) / ((ends[0] ? s : 1.) * (ends[1] ? 1. - s : 1.)));
-  }
-  return EdgePolynomial::through(values, gauss);
-}
-
-/**
- * How many degrees edge bubbles have beyond the cell's. Measured: with eight the bound is a twentieth lower near
- * incompressibility, where it is harder to move in one cell; elsewhere by up to a twentieth, not worth their matrices.
- */
-template <int dim>
-unsigned int bubbles_on(const ContactFace<dim> &face, const Scene<dim> &scene)
-{
-  return scene.material_of(face.cell).is_nearly_incompressible(dim) ? 8 : 4;
-}
-
-/** Coefficients of P_{p+1+i} - P_{p-1+i}, which vanish at both ends: (p + 1 + n_bubbles) x n_bubbles. */
-FullMatrix<double> bubble_coefficients(const unsigned int p, const unsigned int n_bubbles)
-{
-  FullMatrix<double> result(p + 1 + n_bubbles, n_bubbles);
-  for (unsigned int i = 0; i < n_bubbles; ++i)
-  {
-    result(p + 1 + i, i) = 1. / legendre::root(p + 1 + i);
-    result(p - 1 + i, i) = -1. / legendre::root(p - 1 + i);
-  }
-  return result;
 }
 
 /** A trace of w at a point of its face by the unknowns of a strip that are kept. */
@@ -93,59 +46,6 @@ bool add_condition(const Trace &trace, const EdgePolynomial &rest, const double 
   return true;
 }
 
-/** A displacement that is put together node by node from its components along the sides of the body. */
-template <int dim>
-class NodalDisplacement
-{
-public:
-  NodalDisplacement(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
-      : u(solution.u.size()), solution(solution), unknowns(unknowns)
-  {
-  }
-
-  /** `direction u = wanted(s)` at the nodes of a face. Two sides that meet at a corner are both heeded. */
-  template <class Wanted>
-  void set(const ContactFace<dim> &face, const Tensor<1, dim> &direction, const Wanted &wanted);
-
-  /** From now on what has been set may be overruled. */
-  void release()
-  {
-    heeded.clear();
-  }
-
-  Vector<double> u;
-
-private:
-  const Solution<dim> &solution;
-  const Unknowns<dim> &unknowns;
-  std::map<types::global_dof_index, Tensor<1, dim>> heeded; ///< directions, by first component
-};
-
-template <int dim>
-template <class Wanted>
-void NodalDisplacement<dim>::set(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
-                                 const Wanted &wanted)
-{
-  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(face.degree).edge[face.face_no];
-  const unsigned int n = face.degree + 1;
-  for (unsigned int j = 0; j < n; ++j)
-  {
-    const auto [place, is_new] = heeded.try_emplace(dofs[on_edge[j]], direction);
-    const Tensor<1, dim> &other = place->second;
-    const Tensor<1, dim> step = is_new ? direction : direction - (direction * other) * other;
-    if (step.norm() < 1e-6) // the face before this one has set it
-      continue;
-    double missing = wanted(solution.tables.gauss_lobatto(n).point(j)[0]);
-    for (unsigned int c = 0; c < dim; ++c)
-      missing -= direction[c] * u[dofs[on_edge[c * n + j]]];
-    for (unsigned int c = 0; c < dim; ++c)
-      if (const auto dof = dofs[on_edge[c * n + j]]; unknowns.terms(dof).size() > 0)
-        u[dof] += missing / (direction * step) * step[c];
-  }
-}
-
 /** @p cells and those that share unknowns with them. */
 template <int dim>
 std::vector<bool> with_neighbours(const std::vector<bool> &cells,
@@ -165,32 +65,6 @@ std::vector<bool> with_neighbours(const std::vector<bool> &cells,
   return result;
 }
 } // namespace
-
-template <int dim>
-double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
-                    const ShapeTables<dim> &tables, const std::function<double(double)> &l)
-{
-  if (face.friction.vanishes())
-    return 0.;
-  std::vector<double> cuts = v.zeros();
-  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
-  std::sort(cuts.begin(), cuts.end());
-  // l* has degree p + 5, v up to p + 8; the rest is for g.
-  const QGauss<1> &gauss = tables.gauss(face.degree + 8);
-  double result = 0;
-  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      const double value = v(s);
-      // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
-      const double density = std::abs(value) * (l ? 1. - (value < 0. ? -1. : 1.) * l(s) : 1.);
-      if (density != 0.)
-        result +=
-            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
-    }
-  return result;
-}
 
 template <int dim>
 CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
@@ -232,155 +106,6 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
   }
   for (const auto &[cell, own_faces] : by_cell)
     add_bubbles(cell, own_faces, *bubbles);
-}
-
-/** Bubbles along the directions of some traces on the faces of a cell, as unknowns of these. */
-template <int dim>
-void CorrectionSearch<dim>::add_bubbles(const unsigned int cell,
-                                        const std::vector<BubbleFace> &own_faces,
-                                        EdgeBubbles<dim> &bubbles)
-{
-  unsigned int first = A.n();
-  typename EdgeBubbles<dim>::Traces all;
-  for (const auto &[face, directions] : own_faces)
-  {
-    const FullMatrix<double> coefficients =
-        bubble_coefficients(face->degree, bubbles_on(*face, solution.scene));
-    all.emplace_back(face, bubbles_at_nodes(coefficients, directions));
-    for (const auto &[direction, trace] : directions)
-    {
-      trace->extend(coefficients, first);
-      first += coefficients.n();
-    }
-  }
-  add_columns(cell, bubbles.energies(all, solution.scene, solution.tables));
-}
-
-/** Bubbles with these coefficients, along each of the directions, at the nodes of their degree. */
-template <int dim>
-FullMatrix<double> CorrectionSearch<dim>::bubbles_at_nodes(const FullMatrix<double> &coefficients,
-                                                           const Directions &directions) const
-{
-  const unsigned int n_bubbles = coefficients.n(), n_nodes = coefficients.m();
-  FullMatrix<double> at_nodes(dim * n_nodes, directions.size() * n_bubbles);
-  for (unsigned int node = 0; node < n_nodes; ++node)
-  {
-    const Vector<double> L =
-        legendre_basis(n_nodes, solution.tables.gauss_lobatto(n_nodes).point(node)[0]);
-    Vector<double> values(n_bubbles);
-    coefficients.Tvmult(values, L);
-    for (unsigned int d = 0; d < directions.size(); ++d)
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int i = 0; i < n_bubbles; ++i)
-          at_nodes(c * n_nodes + node, d * n_bubbles + i) = directions[d].first[c] * values[i];
-  }
-  return at_nodes;
-}
-
-template <int dim>
-void CorrectionSearch<dim>::add_columns(const unsigned int cell,
-                                        const typename EdgeBubbles<dim>::Energies &energies)
-{
-  const auto dofs = solution.displacement_space.cell_dofs(cell);
-  const unsigned int first = A.n();
-  for (unsigned int i = 0; i < energies.own.n(); ++i)
-  {
-    std::map<unsigned int, double> column;
-    for (unsigned int j = 0; j < energies.with_shapes.m(); ++j)
-      for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[j]))
-        column[unknown] += weight * energies.with_shapes(j, i);
-    for (unsigned int j = 0; j <= i; ++j)
-      column[first + j] = energies.own(j, i);
-    for (const auto &[row, value] : column)
-    {
-      A.border.row.push_back(row);
-      A.border.value.push_back(value);
-    }
-    A.border.column_start.push_back(A.border.row.size());
-    cell_of_bubble.push_back(cell);
-  }
-}
-
-/** Is the normal displacement at an end of a face prescribed, so that w_n vanishes there? */
-template <int dim>
-std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) const
-{
-  const unsigned int n = faces[face].degree + 1;
-  const Tensor<1, dim> normal = faces[face].frame(0.5).normal;
-  const auto dofs = solution.displacement_space.cell_dofs(faces[face].cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(faces[face].degree).edge[faces[face].face_no];
-  std::array<bool, 2> result{};
-  for (unsigned int end = 0; end < 2; ++end)
-    for (unsigned int c = 0; c < dim; ++c)
-      result[end] =
-          result[end] ||
-          (std::abs(normal[c]) > 1e-10 &&
-           discretisation.unknowns.terms(dofs[on_edge[c * n + (end == 0 ? 0 : n - 1)]]).size() ==
-               0);
-  return result;
-}
-
-/** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces on either side. */
-template <int dim>
-double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heights) const
-{
-  double result = 0;
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (openings[k])
-    {
-      const EdgePolynomial rest = openings[k]->penetration.rest(w);
-      const double depth = largest_value(rest, tolerance);
-      result = std::max(result, depth);
-      if (depth == 0.)
-        continue;
-      const std::array<bool, 2> held = held_ends(k);
-      const double height = held[0] || held[1]
-                                ? largest_value(divided(rest, held, solution.tables), tolerance)
-                                : depth;
-      if (held[0] && held[1])
-        heights.on_faces[k] = height;
-      for (unsigned int end = 0; end < 2; ++end)
-        if (!held[end])
-        {
-          double &at_vertex = heights.at_vertices[{
-              faces[k].condition->id, faces[k].cell->face(faces[k].face_no)->vertex_index(end)}];
-          at_vertex = std::max(at_vertex, height);
-        }
-    }
-  return result;
-}
-
-/**
- * w_n += a function that takes away what penetrates, linear along each face, quadratic where both ends are held. Returns
- * by how much it still does, because supports are in the way; 0 where that is round-off.
- */
-template <int dim>
-double CorrectionSearch<dim>::lift(Vector<double> &w) const
-{
-  Heights heights;
-  if (penetration(w, heights) <= tolerance)
-    return 0.;
-  NodalDisplacement<dim> lifting(solution, discretisation.unknowns);
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (openings[k])
-    {
-      const auto face = faces[k].cell->face(faces[k].face_no);
-      const auto height = [&](const unsigned int end) {
-        return heights.at_vertices[{faces[k].condition->id, face->vertex_index(end)}];
-      };
-      const double first = height(0), last = height(1), inside = heights.on_faces[k];
-      if (first > 0. || last > 0. || inside > 0.)
-        lifting.set(faces[k], faces[k].frame(0.5).normal,
-                    [&](const double s) {
-                      return (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
-                    });
-    }
-  const Vector<double> lifted = discretisation.unknowns.coordinates(lifting.u);
-  for (unsigned int i = 0; i < lifted.size(); ++i)
-    w[i] += lifted[i];
-  const double rest = penetration(w, heights);
-  return rest <= std::max(tolerance, 1e-13 * solution.u.linfty_norm()) ? 0. : rest;
 }
 
 template <int dim>
@@ -483,26 +208,6 @@ bool CorrectionSearch<dim>::find_near_pressure(const unsigned int face) const
     if (openings[other]->mode != Opening::open)
       return true;
   return largest_value(EdgePolynomial(openings[face]->penetration.u), tolerance) > tolerance;
-}
-
-/**
- * The unknowns of a displacement that is u_Nt where the body sticks and u_Nn - u_0 where it presses;
- * elsewhere of no use.
- */
-template <int dim>
-Vector<double> CorrectionSearch<dim>::fixed_displacement() const
-{
-  NodalDisplacement<dim> all(solution, discretisation.unknowns);
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (slips[k].mode == Slip::nowhere)
-      all.set(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
-  all.release(); // a tangent of one side may be the normal of another, which matters more
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (openings[k] && openings[k]->mode == Opening::closed)
-      all.set(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
-  Vector<double> result = discretisation.unknowns.coordinates(all.u);
-  result.grow_or_shrink(A.n());
-  return result;
 }
 
 /**
@@ -679,7 +384,5 @@ std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) con
   return result;
 }
 
-template double friction_gap(const ContactFace<2> &, const EdgePolynomial &, const ShapeTables<2> &,
-                             const std::function<double(double)> &);
 template class CorrectionSearch<2>;
 } // namespace hpvi

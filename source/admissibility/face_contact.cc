@@ -20,7 +20,7 @@ Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
     const double slip = slip_at(i, solution.z, solution.contact_space);
     n_forward += slip > 0.;
     n_backward += slip < 0.;
-    n_free += solution.contact_space.multipliers()[i].bound == 0.;
+    n_free += solution.contact_space.multipliers()[i].friction.vanishes();
   }
   Slip result;
   if (n_forward + n_backward + n_free == 0 && face.n_multipliers > 0)
@@ -108,6 +108,32 @@ void free_neighbours(std::vector<std::optional<Opening>> &openings,
         openings[k]->mode = Opening::partly;
 }
 
+template <int dim>
+double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
+                    const ShapeTables<dim> &tables, const std::function<double(double)> &l)
+{
+  if (face.friction.vanishes())
+    return 0.;
+  std::vector<double> cuts = v.zeros();
+  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  std::sort(cuts.begin(), cuts.end());
+  // l* has degree p + 5, v up to p + 8; the rest is for g.
+  const QGauss<1> &gauss = tables.gauss(face.degree + 8);
+  double result = 0;
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
+      const double value = v(s);
+      // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
+      const double density = std::abs(value) * (l ? 1. - (value < 0. ? -1. : 1.) * l(s) : 1.);
+      if (density != 0.)
+        result +=
+            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
+    }
+  return result;
+}
+
 template std::vector<Slip> slips_of(const Solution<2> &);
 template std::vector<unsigned int> faces_beside(unsigned int, unsigned int,
                                                 const std::vector<ContactFace<2>> &);
@@ -116,4 +142,6 @@ template void free_neighbours(std::vector<std::optional<Opening>> &,
                               const std::vector<ContactFace<2>> &);
 template Opening opening_of(unsigned int, const Solution<2> &, const Unknowns<2> &,
                             const AdmissiblePressure<2> &, const LegendreTables &);
+template double friction_gap(const ContactFace<2> &, const EdgePolynomial &, const ShapeTables<2> &,
+                             const std::function<double(double)> &);
 } // namespace hpvi

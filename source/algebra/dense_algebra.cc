@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/numerical_failure.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace hpvi
 {
@@ -34,6 +37,13 @@ bool cholesky(const unsigned int n, double *const A, const unsigned int stride)
   if (n > 0)
     dealii::potrf("L", &size, A, &lda, &info);
   return info == 0;
+}
+
+void require_regular(const bool is_positive_definite, const char *const what)
+{
+  if (!is_positive_definite)
+    throw NumericalFailure(std::string("round-off spoils ") + what +
+                           ", as where it is many thousand times as long as wide");
 }
 
 void solve_triangular(const char op, const unsigned int n, const unsigned int columns,
@@ -94,5 +104,33 @@ std::vector<double> PivotedCholesky::solve(const std::vector<double> &b) const
   for (unsigned int i = 0; i < rank; ++i)
     x[order[i]] = y[i];
   return x;
+}
+
+LuFactor::LuFactor(std::vector<double> matrix, const unsigned int n)
+    : factor(std::move(matrix)), pivots(n), n(n)
+{
+  if (n == 0 ||
+      !std::all_of(factor.begin(), factor.end(), [](const double x) { return std::isfinite(x); }))
+    return;
+  blas_int info = 0;
+  dealii::getrf(&this->n, &this->n, factor.data(), &this->n, pivots.data(), &info);
+  // L, with 1 on its diagonal and nothing larger below, is well conditioned.
+  std::vector<double> work(3 * n);
+  std::vector<blas_int> integers(n);
+  dealii::trcon("1", "U", "N", &this->n, factor.data(), &this->n, &reciprocal_condition,
+                work.data(), integers.data(), &info);
+}
+
+bool LuFactor::is_singular() const
+{
+  return !(n == 0 || reciprocal_condition > 1e-14);
+}
+
+void LuFactor::solve(std::vector<double> &x) const
+{
+  const blas_int one = 1;
+  blas_int info = 0;
+  if (n > 0)
+    dealii::getrs("N", &n, &one, factor.data(), &n, pivots.data(), x.data(), &n, &info);
 }
 } // namespace hpvi

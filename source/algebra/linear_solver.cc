@@ -344,9 +344,4 @@ const std::vector<unsigned int> &LinearSolver::kept_order() const
 {
   return factor->order;
 }
-
-std::size_t LinearSolver::factor_entries() const
-{
-  return factor->L ? factor->L->xsize : 0;
-}
 } // namespace hpvi

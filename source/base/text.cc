@@ -89,6 +89,14 @@ std::vector<std::string> split_components(const std::string &text)
   return parts;
 }
 
+std::string listed(const std::vector<std::string> &names, const std::string &conjunction)
+{
+  std::string result;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    result += (k == 0 ? "" : k + 1 == names.size() ? " " + conjunction + " " : ", ") + names[k];
+  return result;
+}
+
 unsigned int edit_distance(const std::string &left, const std::string &right)
 {
   const std::string a = lower_case(left), b = lower_case(right);

@@ -163,4 +163,5 @@ double CellMap<dim>::shortest_edge() const
 
 template class CellMap<2>;
 template class CellMap<1>;
+template class CellMap<3>;
 } // namespace hpvi

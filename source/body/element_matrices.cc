@@ -148,7 +148,7 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
           [&](const unsigned int a, const unsigned int b) { return P[a][b](i, j); }, c, d);
     }
   if (volume == Volume::projected && hooke.is_nearly_incompressible(dim))
-    subtract_oscillations(map, degree, hooke.lambda(dim), tables, K);
+    subtract_oscillations(map, degree, law.volume_modulus(), tables, K);
   return K;
 }
 

@@ -387,6 +387,10 @@ std::vector<double> evaluate(const FullMatrix<double> &table,
 
 template struct ShapeTable<2>;
 template class ShapeTables<2>;
+template struct ShapeTable<3>;
+template class ShapeTables<3>;
 template ShapeTable<2> tabulate(unsigned int, const std::vector<Point<2>> &,
+                                const std::vector<double> &, bool);
+template ShapeTable<3> tabulate(unsigned int, const std::vector<Point<3>> &,
                                 const std::vector<double> &, bool);
 } // namespace hpvi

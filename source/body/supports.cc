@@ -31,30 +31,14 @@ namespace
 /** Directions that differ by less say the same, as in the check of the scene. */
 constexpr double repeats = 1e-6;
 
-/** What @p boundary asks of a node at @p x on an edge with outer normal @p normal. */
-template <int dim>
-void add_conditions(const BoundaryCondition<dim> &boundary, const Point<dim> &x,
-                    const Tensor<1, dim> &normal, std::vector<NodeCondition<dim>> &conditions)
-{
-  for (unsigned int d = 0; d < dim; ++d)
-    if (boundary.displacement[d] != nullptr)
-    {
-      Tensor<1, dim> direction;
-      direction[d] = 1.;
-      conditions.push_back({direction, boundary.displacement[d]->value(x), boundary.id});
-    }
-  if (boundary.holds_normal())
-    conditions.push_back({normal, 0., boundary.id});
-}
-
 /** Orthonormal conditions with the same solutions, by Gram and Schmidt. */
 template <int dim>
-std::vector<NodeCondition<dim>> independent(const std::vector<NodeCondition<dim>> &conditions)
+std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<dim>> &conditions)
 {
-  std::vector<NodeCondition<dim>> basis;
-  for (NodeCondition<dim> rest : conditions)
+  std::vector<PointCondition<dim>> basis;
+  for (PointCondition<dim> rest : conditions)
   {
-    for (const NodeCondition<dim> &q : basis)
+    for (const PointCondition<dim> &q : basis)
     {
       const double product = rest.direction * q.direction;
       rest.direction -= product * q.direction;
@@ -104,7 +88,9 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           // A vertex inside an edge of the body gets the same conditions from both of its cells.
           if (std::none_of(node.conditions.begin(), node.conditions.end(),
                            [&](const auto &known) { return known.boundary == boundary.id; }))
-            add_conditions(boundary, node.x, map.normal(f, reference), node.conditions);
+            for (const PointCondition<dim> &condition :
+                 conditions_at(boundary, map.normal(f, reference), boundary.holds_normal(), node.x))
+              node.conditions.push_back(condition);
         }
       }
   std::vector<SupportedNode<dim>> result;
@@ -124,10 +110,10 @@ void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
 {
   for (const SupportedNode<dim> &node : nodes)
   {
-    std::vector<NodeCondition<dim>> rows = independent(node.conditions);
+    std::vector<PointCondition<dim>> rows = independent(node.conditions);
     std::vector<unsigned int> pivots;
     // Gauss and Jordan: each row is solved for its largest component, which leaves the others.
-    for (NodeCondition<dim> &row : rows)
+    for (PointCondition<dim> &row : rows)
     {
       unsigned int pivot = 0;
       for (unsigned int d = 1; d < dim; ++d)
@@ -135,7 +121,7 @@ void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
           pivot = d;
       row.value /= row.direction[pivot];
       row.direction /= row.direction[pivot];
-      for (NodeCondition<dim> &other : rows)
+      for (PointCondition<dim> &other : rows)
         if (&other != &row)
         {
           const double factor = other.direction[pivot];
@@ -167,7 +153,7 @@ void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
 template <int dim>
 std::vector<double> SupportedNode<dim>::split(const Tensor<1, dim> &force) const
 {
-  const std::vector<NodeCondition<dim>> basis = independent(conditions);
+  const std::vector<PointCondition<dim>> basis = independent(conditions);
   FullMatrix<double> C(basis.size(), conditions.size()), CC(basis.size(), basis.size());
   Vector<double> components(basis.size()), weights(basis.size()), result(conditions.size());
   for (unsigned int j = 0; j < basis.size(); ++j)

@@ -23,14 +23,14 @@ public:
         section(section_of(boundary)), side(sides_of(scene.geometry)[id])
   {
     for (unsigned int d = 0; d < 2; ++d)
-      stress[d] = std::make_unique<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
-                                                     side.normal, d);
+      stress[d] =
+          std::make_unique<ExactTraction<2>>(scene.exact_solution, scene.materials[0], side, d);
     for (const Side<2> &any : sides_of(scene.geometry))
       for (const Point<2> &point : any.sample())
       {
         displacement_scale = std::max(displacement_scale, exact.displacement(point).norm());
         stress_scale =
-            std::max(stress_scale, scene.materials[0].mu() * exact.gradient(point).norm());
+            std::max(stress_scale, scene.materials[0].weight() * exact.gradient(point).norm());
       }
   }
 
@@ -73,7 +73,7 @@ private:
    */
   void check_normal_contact(const Point<2> &point) const
   {
-    const double u_n = exact.displacement(point) * side.normal;
+    const double u_n = exact.displacement(point) * side.normal(point);
     if (boundary.contact == Contact::bilateral)
     {
       if (differ(u_n, 0, displacement_scale))
@@ -83,7 +83,7 @@ private:
     const double p = boundary.is_unilateral() ? exact.pressure(point) : 0.;
     double imbalance = p;
     for (unsigned int d = 0; d < 2; ++d)
-      imbalance += side.normal[d] * (stress[d]->value(point) - traction(d, point));
+      imbalance += side.normal(point)[d] * (stress[d]->value(point) - traction(d, point));
     if (p < -tolerance * stress_scale || differ(imbalance, 0, stress_scale))
       contradict_load(point, "Contact", "set Contact = none");
     const double gap = boundary.gap_at(point) - u_n;
@@ -95,7 +95,7 @@ private:
   /** `sigma_t = G_t - g lambda`, `|lambda| <= 1`, `lambda u_t = |u_t|`. */
   void check_friction_law(const Point<2> &point) const
   {
-    const Tensor<1, 2> u = exact.displacement(point), n = side.normal, t({-n[1], n[0]});
+    const Tensor<1, 2> u = exact.displacement(point), t = side.tangent(point);
     const double lambda = exact.multiplier(point);
     if (std::abs(lambda) > 1 + tolerance)
       reject(scene, "Exact solution", "Length",
@@ -116,17 +116,15 @@ private:
                "; enlarge it or move Transition to the right");
   }
 
-  /** Tresca's bound, or Coulomb's under the pressure of the solution. */
+  /** What friction may be under the pressure of the solution. */
   double g(const Point<2> &point) const
   {
-    if (boundary.friction.coefficient)
-      return boundary.friction.coefficient->value(point) * std::max(0., exact.pressure(point));
-    return boundary.friction.bound ? boundary.friction.bound->value(point) : 0.;
+    return boundary.friction.limit(point, exact.pressure(point));
   }
 
   std::string friction_entry() const
   {
-    return boundary.friction.coefficient ? "Friction coefficient" : "Friction bound";
+    return boundary.friction.entry();
   }
 
   double traction(const unsigned int component, const Point<2> &point) const

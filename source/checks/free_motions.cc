@@ -123,13 +123,14 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
     {
       const BoundaryCondition<dim> &boundary = scene.boundaries[f];
       const Tensor<1, dim> arm = (end - centre) / length;
-      for (const PointCondition<dim> &condition : conditions_at(boundary, sides[f], end))
+      for (const PointCondition<dim> &condition : conditions_at(
+               boundary, sides[f].normal(end), boundary.contact == Contact::bilateral, end))
         // Coulomb's law has a multiplier where bilateral contact is a support else.
         (boundary.has_pressure() ? rows.resisted : rows.held)
             .push_back(row_of(condition.direction, arm));
       if constexpr (dim == 2)
         if (boundary.friction) // where it vanishes, the mesh decides
-          rows.resisted.push_back(row_of(-cross_product_2d(sides[f].normal), arm));
+          rows.resisted.push_back(row_of(sides[f].tangent(end), arm));
     }
   rows.resisted.insert(rows.resisted.end(), rows.held.begin(), rows.held.end());
   return rows;
@@ -153,10 +154,8 @@ RigidBodyMotion<2> motion_about(const Point<2> &centre, const double length,
 template <int dim>
 std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 {
-  const Point<dim> centre = centre_of(geometry);
-  double length = 0;
-  for (const Point<dim> &corner : geometry.corners)
-    length = std::max(length, corner.distance(centre));
+  const Point<dim> centre = geometry.centre();
+  const double length = geometry.radius();
   const Rows<dim> rows = rows_of(*this, centre, length);
   // Unilateral contact holds some motions one way, and what none holds may be in balance.
   const bool may_rest_on_contact = dim == 2 && has_unilateral_contact();
@@ -167,9 +166,12 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
                      describe(motions.front(), centre, length) +
                      (dim == 2 ? ", and no friction resists it; prescribe a displacement component "
                                  "or contact that stops it"
-                               : ", which neither friction nor unilateral contact may resist in "
-                                 "space; prescribe a displacement component or bilateral contact "
-                                 "that stops it"));
+                               : std::string(has_unilateral_contact() || has_friction()
+                                                 ? ", and bodies held by contact alone are not "
+                                                   "offered in space"
+                                                 : "") +
+                                     "; prescribe a displacement component or bilateral contact "
+                                     "that stops it"));
   std::vector<RigidBodyMotion<dim>> result;
   if constexpr (dim == 2)
     for (const RigidMotion<dim> &motion : motions_of(rows.held))

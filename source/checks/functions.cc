@@ -2,7 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/checks/checks.h>
 #include <hpvi/checks/rejection.h>
-#include <hpvi/input/scene_entries.h>
+#include <hpvi/reader/scene_entries.h>
 
 #include <algorithm>
 #include <array>
@@ -71,46 +71,23 @@ void check_finite(const Scene<dim> &scene, const EntryFunctions<dim> &functions)
                    "; give a function that is finite everywhere it applies");
 }
 
-/** The largest value of a bound or a coefficient, which must not be negative. */
-template <int dim>
-double check_friction(const Scene<dim> &scene, const std::string &section, const std::string &name,
-                      const Expression<dim> &function, const std::vector<Point<dim>> &points,
-                      const std::string &remedy)
-{
-  double largest_value = 0;
-  for (const Point<dim> &point : points)
-  {
-    const double value = function ? function->value(point) : 0.;
-    if (!(value >= 0 && std::isfinite(value)))
-      reject(scene, section, name,
-             "is " + to_string(value) + " at " + to_string(point) + "; " + remedy);
-    largest_value = std::max(largest_value, value);
-  }
-  return largest_value;
-}
-
 template <int dim>
 void check_friction(const Scene<dim> &scene, const std::string &section,
                     const BoundaryCondition<dim> &boundary, const std::vector<Point<dim>> &points)
 {
   const FrictionLaw<dim> &law = boundary.friction;
-  if (law.bound && !boundary.has_contact())
-    reject(scene, section, "Friction bound", friction_needs_contact);
-  if (law.coefficient && !boundary.has_contact())
-    reject(scene, section, "Friction coefficient", friction_needs_contact);
-  if (law.bound && law.coefficient)
-    reject(scene, section, "Friction coefficient",
-           "stands beside Friction bound; keep Coulomb's law or Tresca's");
-  if (law.coefficient && boundary.contact == Contact::tangential)
+  if (law && !boundary.has_contact())
+    reject(scene, section, law.entry(), friction_needs_contact);
+  if (law.knows_pressure() && boundary.contact == Contact::tangential)
     reject(
         scene, section, "Friction coefficient",
         "needs a pressure, which Contact = tangential has not; give Friction bound or set Contact "
         "= unilateral");
-  const double bound = check_friction(scene, section, "Friction bound", law.bound, points,
-                                      "Tresca's bound needs g >= 0");
-  check_friction(scene, section, "Friction coefficient", law.coefficient, points,
-                 "Coulomb's coefficient needs mu_f >= 0");
-  if (boundary.contact == Contact::tangential && bound == 0)
+  if (const auto problem = law.problem(points))
+    reject(scene, section, problem->entry, problem->words);
+  if (boundary.contact == Contact::tangential &&
+      std::all_of(points.begin(), points.end(),
+                  [&](const Point<dim> &x) { return law.at(x).vanishes(); }))
     reject(scene, section, "Contact",
            "has friction nowhere to act, for Friction bound is 0 all along the boundary; give "
            "Friction bound > 0 or set Contact = none",

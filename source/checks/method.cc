@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
 #include <hpvi/checks/checks.h>
 #include <hpvi/checks/rejection.h>
 #include <hpvi/input/parameters.h>
-#include <hpvi/input/scene_entries.h>
+#include <hpvi/reader/scene_entries.h>
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ void check_normal_contact(const Scene<dim> &scene)
 {
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (scene.solver.normal_contact == NormalContact::nodes && boundary.is_unilateral() &&
-        boundary.friction.coefficient)
+        boundary.friction.knows_pressure())
       reject(scene, "Solver", "Normal contact",
              "is not offered with the Friction coefficient of Boundary " + boundary.name +
                  "; set multiplier, or automatic",
@@ -109,13 +110,14 @@ void check_first_step(const Scene<dim> &scene)
   double all_nodes = 1;
   for (unsigned int d = 0; d < dim; ++d)
     all_nodes *= nodes[d] = 1. + degree * double(scene.geometry.subdivisions[d]);
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
   double unknowns = dim * all_nodes;
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     int held = boundary.holds_normal() ? 1 : 0;
     for (const auto &component : boundary.displacement)
       held += component != nullptr ? 1 : 0;
-    unknowns -= std::min(held, dim) * all_nodes / nodes[boundary.id / 2];
+    unknowns -= std::min(held, dim) * all_nodes / nodes[sides[boundary.id].axis];
   }
   if (unknowns > scene.adaptivity.maximum_unknowns)
     reject(scene, "Geometry", "Subdivisions",
@@ -151,9 +153,10 @@ void check_primal_path(const Scene<dim> &scene)
     reject(scene, "Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
            std::to_string(adaptivity.start_degree));
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.friction.coefficient)
+    if (boundary.friction.knows_pressure())
       reject(scene, section_of(boundary), "Friction coefficient",
-             "is Coulomb's law, which " + why + " does not offer; give Friction bound, Tresca's");
+             "is " + boundary.friction.name() + ", which " + why +
+                 " does not offer; give Friction bound, Tresca's");
   if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",
            "is not offered by " + why + ", whose pressures are multipliers; set multiplier",
@@ -175,6 +178,15 @@ void check_primal_path(const Scene<dim> &scene)
   if (scene.geometry.shape != Shape::box)
     reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
            "quadrilateral");
+  if constexpr (dim == 2)
+    if (const auto motions = scene.free_motions(); !motions.empty())
+      throw InputError(printable(scene.origin(), 400) +
+                       ": Boundary left, right, bottom, top/Displacement: the supports leave a "
+                       "motion free " +
+                       motions.front().direction() +
+                       ", and bodies held by contact alone are not offered by the primal path; "
+                       "prescribe a displacement component or bilateral contact that stops it, or "
+                       "run the reduced path on one process");
   if (scene.exact_solution)
     reject(scene, "Exact solution", "Solution",
            "is not offered by " + why + "; set Path = reduced or remove it");

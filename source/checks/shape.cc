@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/checks/rejection.h>
+#include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -26,55 +27,13 @@ double length(const Tensor<1, dim> &edge)
   return result;
 }
 
-template <int dim>
-void check_box(const Scene<dim> &scene)
-{
-  const Corners<dim> &corners = scene.geometry.corners;
-  for (unsigned int d = 0; d < dim; ++d)
-    if (!(corners.front()[d] < corners.back()[d]))
-      reject(scene, "Geometry", "Upper corner",
-             std::string(dim == 2 ? "is not above and right of" : "is not beyond") +
-                 " the lower corner " + to_string(corners.front()) +
-                 (dim == 2 ? "" : " in every direction") + "; enlarge every coordinate beyond it",
-             to_string(corners.back()));
-  if (corners != box_corners(corners.front(), corners.back()))
-    reject(scene, "Geometry", "Shape",
-           std::string("has corners that are not those of a box; take box_corners()") +
-               (dim == 2 ? " or shape = quadrilateral" : ""),
-           "box");
-}
-
-/** Each corner must turn left. */
-void check_quadrilateral(const Scene<2> &scene)
-{
-  const Corners<2> &corners = scene.geometry.corners;
-  const std::array<Point<2>, 4> around = {{corners[0], corners[1], corners[3], corners[2]}};
-  for (unsigned int c = 0; c < 4; ++c)
-  {
-    const Tensor<1, 2> in = around[c] - around[(c + 3) % 4], out = around[(c + 1) % 4] - around[c];
-    const double sine =
-        in[0] / length(in) * (out[1] / length(out)) - in[1] / length(in) * (out[0] / length(out));
-    if (!(sine > 1e-12)) // no more than round-off
-      reject(scene, "Geometry", "Corners",
-             "is degenerate, clockwise or not convex at " + to_string(around[c]) +
-                 "; give the corners of a convex quadrilateral counterclockwise from "
-                 "the bottom left");
-  }
-}
-
-void check_quadrilateral(const Scene<3> &scene)
-{
-  reject(scene, "Geometry", "Shape", "is no box, and space has no other shape; take box_corners()");
-}
-
 void check_angles(const Scene<2> &scene, const std::string &entry)
 {
-  const std::array<double, 4> angles = corner_angles(scene.geometry);
-  for (unsigned int c = 0; c < angles.size(); ++c)
-    if (angles[c] < 0.1 || angles[c] > 179.9)
+  for (const Corner &corner : corners_of(scene.geometry))
+    if (corner.degrees < 0.1 || corner.degrees > 179.9)
       reject(scene, "Geometry", entry,
-             "has an angle of " + to_string(angles[c]) + " degrees at " +
-                 to_string(scene.geometry.corners[c]) +
+             "has an angle of " + to_string(corner.degrees) + " degrees at " +
+                 to_string(corner.at) +
                  "; give a quadrilateral with angles between 0.1 and 179.9 degrees");
 }
 
@@ -84,10 +43,9 @@ void check_angles(const Scene<3> &, const std::string &)
 
 /** Lengths that can be squared, edges that are more than round-off, corners that are corners. */
 template <int dim>
-void check_lengths(const Scene<dim> &scene)
+void check_lengths(const Scene<dim> &scene, const std::string &entry)
 {
   const Corners<dim> &corners = scene.geometry.corners;
-  const std::string entry = scene.geometry.shape == Shape::box ? "Upper corner" : "Corners";
   double farthest = 0, shortest = std::numeric_limits<double>::max();
   for (const Point<dim> &corner : corners)
     for (unsigned int d = 0; d < dim; ++d)
@@ -116,21 +74,22 @@ void check_grading(const Scene<dim> &scene)
     reject(scene, "Geometry", "Grading levels",
            std::string("has no point to grade to; set Graded towards = ") +
                (dim == 2 ? "x, y" : "x, y, z") + " or remove it");
-  double diameter = 0;
-  for (const Point<dim> &corner : geometry.corners)
-    diameter = std::max(diameter, 2 * corner.distance(centre_of(geometry)));
   for (const Point<dim> &point : geometry.graded_towards)
-    for (const Side<dim> &side : sides_of(geometry))
-      if (!(side.normal * (point - side.ends[0]) <= 1e-10 * diameter))
-        reject(scene, "Geometry", "Graded towards",
-               "has the point " + to_string(point) + " outside the body; name points of the body");
+    if (!geometry.contains(point))
+      reject(scene, "Geometry", "Graded towards",
+             "has the point " + to_string(point) + " outside the body; name points of the body");
 }
 /** Corners, subdivisions and grading make a mesh. */
 template <int dim>
 void check_geometry(const Scene<dim> &scene)
 {
-  scene.geometry.shape == Shape::box ? check_box(scene) : check_quadrilateral(scene);
-  check_lengths(scene);
+  const ShapeKind<dim> *const kind = find_shape<dim>(scene.geometry.shape);
+  if (kind == nullptr)
+    reject(scene, "Geometry", "Shape",
+           "is no box, and space has no other shape; take box_corners()");
+  if (const auto flaw = kind->flaw(scene.geometry.corners))
+    reject(scene, "Geometry", flaw->entry, flaw->problem, flaw->value);
+  check_lengths(scene, kind->size_entry);
   double cells = 1;
   std::string shown;
   for (const unsigned int n : scene.geometry.subdivisions)
@@ -160,12 +119,8 @@ void check_materials(const Scene<dim> &scene)
     fail(printable(scene.origin()), "Material",
          "says nowhere which of " + number + " is where; set material_at or keep one");
   for (const Material &material : scene.materials)
-  {
-    check_value(scene, "Material", "Young's modulus", text(material.young));
-    if (!(material.poisson > -1 && material.poisson < 0.5))
-      reject(scene, "Material", "Poisson's ratio",
-             "is outside (-1, 1/2); an elastic material has -1 < nu < 1/2", text(material.poisson));
-  }
+    if (const auto flaw = material.flaw())
+      reject(scene, "Material", flaw->entry, flaw->problem, flaw->value);
 }
 
 } // namespace

@@ -11,7 +11,8 @@ using namespace dealii;
 
 template <int dim>
 std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
-                                               const Side<dim> &side, const Point<dim> &point)
+                                               const Tensor<1, dim> &normal, const bool slides,
+                                               const Point<dim> &point)
 {
   std::vector<PointCondition<dim>> conditions;
   for (unsigned int d = 0; d < dim; ++d)
@@ -21,8 +22,8 @@ std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &bou
       direction[d] = 1.;
       conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
     }
-  if (boundary.contact == Contact::bilateral)
-    conditions.push_back({side.normal, 0., boundary.id});
+  if (slides)
+    conditions.push_back({normal, 0., boundary.id});
   return conditions;
 }
 
@@ -122,19 +123,20 @@ void check_supports(const Scene<dim> &scene)
         for (const unsigned int f : {a, b})
         {
           const BoundaryCondition<dim> &boundary = scene.boundaries[f];
-          for (const PointCondition<dim> &condition : conditions_at(boundary, sides[f], point))
+          for (const PointCondition<dim> &condition : conditions_at(
+                   boundary, sides[f].normal(point), boundary.contact == Contact::bilateral, point))
             conditions.push_back(condition);
           if (boundary.is_unilateral())
-            limits.push_back({sides[f].normal, boundary.gap_at(point), boundary.id});
+            limits.push_back({sides[f].normal(point), boundary.gap_at(point), boundary.id});
         }
         check_meeting(scene, point, conditions, limits, tolerance);
       }
 }
 
-template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &, const Side<2> &,
-                                                      const Point<2> &);
-template std::vector<PointCondition<3>> conditions_at(const BoundaryCondition<3> &, const Side<3> &,
-                                                      const Point<3> &);
+template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &,
+                                                      const Tensor<1, 2> &, bool, const Point<2> &);
+template std::vector<PointCondition<3>> conditions_at(const BoundaryCondition<3> &,
+                                                      const Tensor<1, 3> &, bool, const Point<3> &);
 template void check_supports(const Scene<2> &);
 template void check_supports(const Scene<3> &);
 } // namespace hpvi

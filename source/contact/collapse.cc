@@ -19,7 +19,8 @@ struct ContactSide
   const BoundaryCondition<dim> *condition;
   Tensor<1, dim> normal, tangent;
   std::array<Point<dim>, 2> ends;             ///< along the tangent
-  double friction = 0;                        ///< int g
+  double friction = 0;                        ///< int of the limit without pressure
+  double most = 0;                            ///< and with any pressure
   std::vector<std::array<double, 2>> mu = {}; ///< mu_f at distances from the first end
 
   bool is_coulomb() const
@@ -46,7 +47,9 @@ std::vector<ContactSide<dim>> contact_sides(const ContactSpace<dim> &contact_spa
       sides.push_back(
           {face.condition, middle.normal, middle.tangent, {{face.point(0.), face.point(0.)}}});
     ContactSide<dim> &side = sides.back();
-    side.friction += face.length * face.friction.integral();
+    side.friction += face.friction_without_pressure();
+    for (const PointLimit &point : face.limits)
+      side.most += face.length * point.weight * point.friction.most;
     for (const double s : {0., 1.})
     {
       const Point<dim> x = face.point(s);
@@ -69,9 +72,7 @@ std::vector<ContactSide<dim>> contact_sides(const ContactSpace<dim> &contact_spa
 template <int dim>
 std::string entry_of(const BoundaryCondition<dim> &condition)
 {
-  return condition.friction.coefficient ? "Friction coefficient"
-         : condition.friction.bound     ? "Friction bound"
-                                        : "";
+  return condition.friction ? condition.friction.entry_to_raise() : "";
 }
 
 /** One way to give way: what is missing to resist, in parts of the loads, and what to say. */
@@ -147,11 +148,12 @@ Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sid
   if (N > 0. && loads.M[0])
     s = std::clamp(-*loads.M[0] / N, 0., side.length());
   const double mu = coefficient_at(side, s);
-  double limit = mu * N;
+  double limit = std::min(mu * N, side.most), without_pressure = 0;
   std::string names;
   for (const ContactSide<dim> &other : sides)
   {
     limit += other.friction;
+    without_pressure += other.friction;
     names += (names.empty() ? "" : " and ") + other.condition->name;
   }
   std::ostringstream line;
@@ -162,8 +164,13 @@ Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sid
     line << "nothing resists";
   else
     line << "friction resists with ";
-  if (side.is_coulomb())
-    line << mu << " * " << N << " = ";
+  if (side.is_coulomb() && mu * N <= side.most)
+  {
+    line << mu << " * " << N;
+    if (without_pressure > 0.)
+      line << " + " << without_pressure;
+    line << " = ";
+  }
   if (!entry.empty())
     line << limit;
   if (!entry.empty() && side.friction == 0. && !side.is_coulomb())

@@ -40,26 +40,53 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
   return face;
 }
 
-/** Give the face its rules for g and mu_f; in `int g |u_t|` g meets the degree p. */
+/** The points of the rules for g and mu_f: of both, where both are there, on their common pieces. */
+template <int dim>
+std::vector<PointLimit> limits_of(const ContactFace<dim> &face, const QGauss<1> &gauss)
+{
+  std::vector<PointLimit> result;
+  const auto add = [&](const double s, const double weight) {
+    result.push_back({s, weight, face.condition->friction.at(face.point(s))});
+  };
+  const FrictionRule &one = face.friction.vanishes() ? face.coefficient : face.friction;
+  if (face.friction.vanishes() || face.coefficient.vanishes())
+  {
+    for (unsigned int q = 0; q < one.points.size(); ++q)
+      add(one.points[q], one.weights[q]);
+    return result;
+  }
+  std::vector<double> cuts;
+  std::set_union(face.friction.cuts.begin(), face.friction.cuts.end(),
+                 face.coefficient.cuts.begin(), face.coefficient.cuts.end(),
+                 std::back_inserter(cuts));
+  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+      add(cuts[k] + (cuts[k + 1] - cuts[k]) * gauss.point(q)[0],
+          (cuts[k + 1] - cuts[k]) * gauss.weight(q));
+  return result;
+}
+
+/** Give the face its rules for g, mu_f and the limit; in `int g |u_t|` g meets the degree p. */
 template <int dim>
 void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
 {
   const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
   face.friction = make_friction_rule(
       [&face](const double s) { return face.friction_bound(face.point(s)); }, gauss, degree);
-  if (face.condition->friction.coefficient)
+  if (face.condition->friction.knows_pressure())
     face.coefficient = make_friction_rule([&face](const double s)
                                           { return face.friction_coefficient(face.point(s)); },
                                           gauss, degree);
+  face.limits = limits_of(face, gauss);
 }
 
 /** A scene by code is checked at some points of the boundary, none of which need be @p x. */
 template <int dim>
-double checked_bound(const ContactFace<dim> &face, const Point<dim> &x)
+FrictionLimit checked_limit(const ContactFace<dim> &face, const Point<dim> &x)
 {
   const double g = face.friction_bound(x);
   if (g >= 0 && std::isfinite(g))
-    return g;
+    return face.condition->friction.at(x);
   std::ostringstream line;
   line << "Boundary " << face.condition->name << "/Friction bound: is " << g << " at (" << x
        << "); give a bound that is finite and not negative everywhere";
@@ -98,49 +125,9 @@ bool is_prescribed(const AffineConstraints<double> &constraints,
 } // namespace
 
 template <int dim>
-ContactFrame<dim> ContactFace<dim>::frame(const double s) const
-{
-  return contact_frame<dim>(map, face_no, Point<dim - 1>(s));
-}
-
-template <int dim>
-Point<dim> ContactFace<dim>::point(const double s) const
-{
-  return map.point(point_on_face<dim>(face_no, Point<dim - 1>(s)));
-}
-
-template <int dim>
-double ContactFace<dim>::friction_bound(const Point<dim> &x) const
-{
-  return condition->friction.bound ? condition->friction.bound->value(x) : 0.;
-}
-
-template <int dim>
-double ContactFace<dim>::friction_coefficient(const Point<dim> &x) const
-{
-  return condition->friction.coefficient ? condition->friction.coefficient->value(x) : 0.;
-}
-
-template <int dim>
-double ContactFace<dim>::past_slip(const Point<dim> &x) const
-{
-  return condition->friction.past ? condition->friction.past->value(x) : 0.;
-}
-
-std::vector<double> lagrange_basis(const std::vector<double> &points, const double s)
-{
-  std::vector<double> values(points.size(), 1.);
-  for (unsigned int i = 0; i < values.size(); ++i)
-    for (unsigned int k = 0; k < values.size(); ++k)
-      if (k != i)
-        values[i] *= (s - points[k]) / (points[i] - points[k]);
-  return values;
-}
-
-template <int dim>
 ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                                 const DisplacementSpace<dim> &displacement_space,
-                                const ShapeTables<dim> &tables)
+                                const ShapeTables<dim> &tables, const PastSlip<dim> &past)
 {
   if (!scene.has_contact())
     return;
@@ -165,12 +152,14 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                    });
   for (ContactFace<dim> &face : contact_faces)
   {
+    if (const auto found = past.find(face.condition->id); found != past.end())
+      face.past = found->second;
     number_friction(face, tables);
     if (!face.condition->has_pressure())
       continue;
-    // With nodes the bounds of Coulomb's law could turn negative between them.
-    face.at_nodes =
-        scene.normal_contact() == NormalContact::nodes && !face.condition->friction.coefficient;
+    // With nodes a limit that follows the pressure could turn negative between them.
+    face.at_nodes = scene.normal_contact() == NormalContact::nodes &&
+                    !face.condition->friction.knows_pressure();
     if (face.at_nodes)
       number_nodes(face, displacement_space, tables);
     else
@@ -185,7 +174,8 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
   integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)));
   face.first_multiplier = unknowns.size();
-  const bool acts = !face.friction.vanishes() || !face.coefficient.vanishes();
+  const bool acts = std::any_of(face.limits.begin(), face.limits.end(),
+                                [](const PointLimit &at) { return !at.friction.vanishes(); });
   face.n_multipliers = acts ? face.n_points : 0;
   if (face.n_multipliers == 0)
     return;
@@ -195,10 +185,9 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   {
     const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
     unknowns.push_back({Kind::friction, frame.x, frame.tangent, points.weight(i) * frame.measure,
-                        checked_bound(face, frame.x)});
-    unknowns.back().coefficient = face.friction_coefficient(frame.x);
+                        checked_limit(face, frame.x)});
   }
-  if (face.condition->friction.past)
+  if (face.past)
     add_past(face, tables.gauss(std::max(face.degree, face.n_points) + 1));
 }
 
@@ -227,7 +216,7 @@ void ContactSpace<dim>::number_pressures(ContactFace<dim> &face, const ShapeTabl
     const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
     face.normal_points.push_back(points.point(i)[0]);
     face.pressures.push_back(unknowns.size());
-    if (face.condition->friction.coefficient && face.n_multipliers > 0)
+    if (face.condition->friction.knows_pressure() && face.n_multipliers > 0)
       unknowns[face.first_multiplier + i].partner = unknowns.size();
     unknowns.push_back({Kind::pressure, frame.x, frame.normal, points.weight(i) * frame.measure});
     unknowns.back().is_bilateral = !face.condition->is_unilateral();
@@ -312,7 +301,7 @@ FeasibleSet ContactSpace<dim>::feasible_set() const
     if (unknown.is_bilateral || unknown.partner != none)
       result.add_interval(-infinity, infinity);
     else if (unknown.kind == Kind::friction)
-      result.add_interval(-unknown.bound, unknown.bound);
+      result.add_interval(-unknown.friction.limit(0.), unknown.friction.limit(0.));
     else
       result.add_interval(0., infinity);
   return result;
@@ -324,7 +313,7 @@ std::vector<FrictionCones::Cone> ContactSpace<dim>::cones() const
   std::vector<FrictionCones::Cone> result;
   for (unsigned int i = 0; i < unknowns.size(); ++i)
     if (unknowns[i].partner != none)
-      result.push_back({i, unknowns[i].partner, unknowns[i].coefficient});
+      result.push_back({i, unknowns[i].partner, unknowns[i].friction});
   return result;
 }
 
@@ -332,7 +321,7 @@ template <int dim>
 double ContactSpace<dim>::bound(const unsigned int unknown, const Vector<double> &z) const
 {
   const ContactMultiplier<dim> &own = unknowns[unknown];
-  return own.partner == none ? own.bound : own.coefficient * std::max(0., z[own.partner]);
+  return own.friction.limit(own.partner == none ? 0. : z[own.partner]);
 }
 
 template <int dim>
@@ -340,9 +329,8 @@ double ContactSpace<dim>::bound(const ContactFace<dim> &face, const Vector<doubl
                                 const double s) const
 {
   const Point<dim> x = face.point(s);
-  return face.condition->friction.coefficient
-             ? face.friction_coefficient(x) * std::max(0., pressure(face, z, s))
-             : face.friction_bound(x);
+  const FrictionLaw<dim> &law = face.condition->friction;
+  return law.limit(x, law.knows_pressure() ? pressure(face, z, s) : 0.);
 }
 
 template <int dim>
@@ -386,7 +374,7 @@ double ContactSpace<dim>::friction_limit() const
 {
   double sum = 0;
   for (const ContactFace<dim> &face : contact_faces)
-    sum += face.length * face.friction.integral();
+    sum += face.friction_without_pressure();
   return sum;
 }
 
@@ -395,7 +383,7 @@ double ContactSpace<dim>::discrete_friction_limit() const
 {
   double sum = 0;
   for (const ContactMultiplier<dim> &unknown : unknowns)
-    sum += unknown.weight * unknown.bound;
+    sum += unknown.weight * unknown.friction.limit(0.);
   return sum;
 }
 
@@ -404,88 +392,9 @@ double ContactSpace<dim>::largest_bound() const
 {
   double largest = 0;
   for (const ContactMultiplier<dim> &unknown : unknowns)
-    largest = std::max(largest, unknown.bound);
+    largest = std::max(largest, unknown.friction.limit(0.));
   return largest;
 }
 
-/** What friction can carry on @p face, to the points of the multiplier and to the integral. */
-template <int dim>
-UnresolvedBound<dim> ContactSpace<dim>::limit(const ContactFace<dim> &face,
-                                              const Vector<double> &z) const
-{
-  UnresolvedBound<dim> result{&face, 0., 0., 0.};
-  const bool coulomb = face.condition->friction.coefficient != nullptr;
-  for (unsigned int i = 0; i < face.n_multipliers; ++i)
-  {
-    const ContactMultiplier<dim> &unknown = unknowns[face.first_multiplier + i];
-    result.sum +=
-        unknown.weight * (coulomb ? unknown.coefficient * z[unknown.partner] : unknown.bound);
-  }
-  const FrictionRule &rule = coulomb ? face.coefficient : face.friction;
-  for (unsigned int q = 0; q < rule.points.size(); ++q)
-  {
-    const double g = rule.values[q] * (coulomb ? pressure(face, z, rule.points[q]) : 1.);
-    result.integral += face.length * rule.weights[q] * g;
-    result.absolute += face.length * rule.weights[q] * std::abs(g);
-  }
-  return result;
-}
-
-template <int dim>
-std::vector<UnresolvedBound<dim>> ContactSpace<dim>::limits(const Vector<double> &z) const
-{
-  std::vector<UnresolvedBound<dim>> result;
-  for (const ContactFace<dim> &face : contact_faces)
-    result.push_back(limit(face, z));
-  return result;
-}
-
-namespace
-{
-/** A part of what friction can carry on all faces. */
-template <int dim>
-double negligible_force(const std::vector<UnresolvedBound<dim>> &limits)
-{
-  double sum = 0;
-  for (const UnresolvedBound<dim> &limit : limits)
-    sum += limit.absolute;
-  return 1e-6 * sum;
-}
-} // namespace
-
-template <int dim>
-std::vector<UnresolvedBound<dim>>
-ContactSpace<dim>::unresolved_bounds(const Vector<double> &z) const
-{
-  std::vector<UnresolvedBound<dim>> result = limits(z);
-  const double negligible = negligible_force(result);
-  const auto is_resolved = [&](const UnresolvedBound<dim> &limit)
-  { return std::abs(limit.sum - limit.integral) <= std::max(1e-3 * limit.absolute, negligible); };
-  result.erase(std::remove_if(result.begin(), result.end(), is_resolved), result.end());
-  return result;
-}
-
-template <int dim>
-std::vector<UnresolvedJump<dim>> ContactSpace<dim>::unresolved_jumps(const Vector<double> &z) const
-{
-  const double negligible = negligible_force(limits(z));
-  std::vector<UnresolvedJump<dim>> result;
-  for (const ContactFace<dim> &face : contact_faces)
-  {
-    const bool coulomb = face.condition->friction.coefficient != nullptr;
-    double carried = coulomb ? 0. : face.length; // by a unit of height
-    for (unsigned int i = 0; coulomb && i < face.n_multipliers; ++i)
-    {
-      const ContactMultiplier<dim> &unknown = unknowns[face.first_multiplier + i];
-      carried += unknown.weight * std::abs(z[unknown.partner]);
-    }
-    for (const FrictionRule::Jump &jump : (coulomb ? face.coefficient : face.friction).jumps)
-      if (const double height = std::abs(jump.height); height * carried > negligible)
-        result.push_back({&face, face.point(jump.s), height, height * carried});
-  }
-  return result;
-}
-
-template struct ContactFace<2>;
 template class ContactSpace<2>;
 } // namespace hpvi

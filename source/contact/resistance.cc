@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/balance/equality_constraints.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/contact/collapse.h>
 #include <hpvi/contact/resistance.h>
-#include <hpvi/solver/equality_constraints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,12 +37,18 @@ struct Tractions
     factors.add_interval(lower, upper);
   }
 
-  /** The sides of Coulomb's cone: `n + mu t` and `n - mu t`. */
+  /**
+   * Pressure with friction that needs it: the sides of the cone, `n + mu t` and `n - mu t`, up to the largest
+   * friction @p most, from where on `n` alone is left.
+   */
   void add_cone(const Point<dim> &point, const Tensor<1, dim> &normal,
-                const Tensor<1, dim> &tangent, const double mu, const unsigned int at = none)
+                const Tensor<1, dim> &tangent, const double mu, const double most,
+                const unsigned int at = none)
   {
     for (const double sign : {-1., 1.})
-      add(point, normal + sign * mu * tangent, 0., infinity, at);
+      add(point, normal + sign * mu * tangent, 0., mu > 0. ? most / mu : infinity, at);
+    if (std::isfinite(most))
+      add(point, normal, 0., infinity, at);
   }
 };
 
@@ -55,21 +61,36 @@ Tractions<dim> on_this_mesh(const ContactSpace<dim> &contact_space)
     if (unknown.kind == Kind::pressure)
       result.add(unknown.x, unknown.direction, unknown.is_bilateral ? -infinity : 0., infinity);
     else if (unknown.partner == none)
-      result.add(unknown.x, unknown.weight * unknown.direction, -unknown.bound, unknown.bound);
+      result.add(unknown.x, unknown.weight * unknown.direction, -unknown.friction.limit(0.),
+                 unknown.friction.limit(0.));
     else
+    {
+      const FrictionLimit &friction = unknown.friction;
+      if (const double cohesion = friction.limit(0.); cohesion > 0.)
+        result.add(unknown.x, unknown.weight * unknown.direction, -cohesion, cohesion);
       result.add_cone(unknown.x, contact_space.multipliers()[unknown.partner].direction,
-                      unknown.direction, unknown.coefficient);
+                      unknown.direction, friction.coefficient,
+                      unknown.weight * (friction.most - friction.limit(0.)));
+    }
   return result;
 }
 
+/**
+ * More than on any mesh: pressures act at points, where friction that has a largest value obeys either the
+ * cone, or with @p capped that value on the whole face.
+ */
 template <int dim>
-Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space)
+Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space, const bool capped = false)
 {
   Tractions<dim> result;
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     const ContactFrame<dim> middle = face.frame(0.5);
-    const double friction = face.length * face.friction.integral();
+    double most = 0;
+    for (const PointLimit &point : face.limits)
+      most += face.length * point.weight * point.friction.most;
+    const bool is_capped = capped && std::isfinite(most);
+    const double friction = is_capped ? most : face.friction_without_pressure();
     result.add(middle.x, middle.tangent, -friction, friction);
     if (!face.condition->has_pressure())
       continue;
@@ -82,11 +103,21 @@ Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space)
       const ContactFrame<dim> here = face.frame(s);
       result.add(here.x, here.normal, face.condition->is_unilateral() ? 0. : -infinity, infinity,
                  cell);
-      if (face.condition->friction.coefficient)
-        result.add_cone(here.x, here.normal, here.tangent, face.friction_coefficient(here.x), cell);
+      if (face.condition->friction.knows_pressure() && !is_capped)
+        result.add_cone(here.x, here.normal, here.tangent, face.friction_coefficient(here.x),
+                        infinity, cell);
     }
   }
   return result;
+}
+
+/** Has friction a largest value anywhere, whatever presses? */
+template <int dim>
+bool has_cap(const ContactSpace<dim> &contact_space)
+{
+  return std::any_of(contact_space.multipliers().begin(), contact_space.multipliers().end(),
+                     [](const ContactMultiplier<dim> &unknown)
+                     { return unknown.partner != none && std::isfinite(unknown.friction.most); });
 }
 
 /** What @p traction does along a motion; round-off of a point where the motion ought to vanish is zero. */
@@ -212,8 +243,10 @@ std::optional<double> LoadedMotions<dim>::along(const RigidBodyMotion<dim> &moti
 template <int dim>
 void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded)
 {
-  const std::optional<Imbalance> imbalance =
-      imbalance_of(on_any_mesh(contact_space), loaded, loaded.motions.size());
+  std::optional<Imbalance> imbalance;
+  for (const bool capped : {false, true})
+    if (!imbalance && (!capped || has_cap(contact_space)))
+      imbalance = imbalance_of(on_any_mesh(contact_space, capped), loaded, loaded.motions.size());
   if (!imbalance)
     return;
   std::string words = collapse(contact_space, loaded);

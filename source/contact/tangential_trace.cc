@@ -55,5 +55,20 @@ double TangentialTrace<dim>::value(const Point<dim> &x, const unsigned int) cons
   return std::inner_product(basis.begin(), basis.end(), piece.u_t.begin(), 0.);
 }
 
+template <int dim>
+PastSlip<dim> past_slip(const ContactSpace<dim> &contact_space,
+                        const DisplacementSpace<dim> &displacement_space,
+                        const ShapeTables<dim> &tables, const Vector<double> &u)
+{
+  PastSlip<dim> result;
+  for (const ContactFace<dim> &face : contact_space.faces())
+    if (face.condition->friction && result.count(face.condition->id) == 0)
+      result[face.condition->id] = std::make_shared<const TangentialTrace<dim>>(
+          contact_space, displacement_space, tables, u, face.condition->id);
+  return result;
+}
+
 template class TangentialTrace<2>;
+template PastSlip<2> past_slip(const ContactSpace<2> &, const DisplacementSpace<2> &,
+                               const ShapeTables<2> &, const Vector<double> &);
 } // namespace hpvi

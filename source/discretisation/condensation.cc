@@ -159,42 +159,48 @@ Condensation<dim>::element(const unsigned int cell) const
   return elements[cell];
 }
 
+/** Calls f(extension, unknowns, x inside, x on the boundary) for each cell that has unknowns inside. */
 template <int dim>
-void Condensation<dim>::eliminate(Vector<double> &forces) const
+template <class F>
+void Condensation<dim>::for_each_extension(const F &f) const
 {
   Vector<double> inside, boundary; // keep their memory from cell to cell
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
     if (elements[cell] && elements[cell]->extension.m() > 0)
     {
       const FullMatrix<double> &extension = elements[cell]->extension;
-      const auto dofs = space.cell_dofs(cell);
       inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
       boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
-      for (unsigned int i = 0; i < inside.size(); ++i)
-        inside[i] = forces[dofs[boundary.size() + i]];
-      extension.Tvmult(boundary, inside);
-      for (unsigned int i = 0; i < boundary.size(); ++i)
-        forces[dofs[i]] += boundary[i];
+      f(extension, space.cell_dofs(cell), inside, boundary);
     }
+}
+
+template <int dim>
+void Condensation<dim>::eliminate(Vector<double> &forces) const
+{
+  for_each_extension(
+      [&](const auto &extension, const auto &dofs, auto &inside, auto &boundary)
+      {
+        for (unsigned int i = 0; i < inside.size(); ++i)
+          inside[i] = forces[dofs[boundary.size() + i]];
+        extension.Tvmult(boundary, inside);
+        for (unsigned int i = 0; i < boundary.size(); ++i)
+          forces[dofs[i]] += boundary[i];
+      });
 }
 
 template <int dim>
 void Condensation<dim>::extend(Vector<double> &u) const
 {
-  Vector<double> inside, boundary; // keep their memory from cell to cell
-  for (unsigned int cell = 0; cell < elements.size(); ++cell)
-    if (elements[cell] && elements[cell]->extension.m() > 0)
-    {
-      const FullMatrix<double> &extension = elements[cell]->extension;
-      const auto dofs = space.cell_dofs(cell);
-      inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
-      boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
-      for (unsigned int i = 0; i < boundary.size(); ++i)
-        boundary[i] = u[dofs[i]];
-      extension.vmult(inside, boundary);
-      for (unsigned int i = 0; i < inside.size(); ++i)
-        u[dofs[boundary.size() + i]] = inside[i];
-    }
+  for_each_extension(
+      [&](const auto &extension, const auto &dofs, auto &inside, auto &boundary)
+      {
+        for (unsigned int i = 0; i < boundary.size(); ++i)
+          boundary[i] = u[dofs[i]];
+        extension.vmult(inside, boundary);
+        for (unsigned int i = 0; i < inside.size(); ++i)
+          u[dofs[boundary.size() + i]] = inside[i];
+      });
 }
 
 template <int dim>

@@ -20,14 +20,22 @@ template <int dim>
 Spaces<dim>::Spaces(const Scene<dim> &scene,
                     std::shared_ptr<const Triangulation<dim>> triangulation, const Degrees &degrees,
                     std::shared_ptr<const ShapeTables<dim>> shape_tables,
-                    std::shared_ptr<const LoadRules<dim>> rules)
+                    std::shared_ptr<const LoadRules<dim>> rules, PastSlip<dim> past_slip)
     : mesh(std::move(triangulation)), tables(std::move(shape_tables)),
       loads(rules ? std::move(rules)
                   : std::make_shared<const LoadRules<dim>>(scene, *mesh, tables)),
-      displacement_space(scene, *mesh, degrees, *tables),
-      contact_space(scene, displacement_space, *tables),
+      past(std::move(past_slip)), displacement_space(scene, *mesh, degrees, *tables),
+      contact_space(scene, displacement_space, *tables, past),
       contact_operator(displacement_space, contact_space, *tables)
 {
+}
+
+template <int dim>
+std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
+{
+  const std::string why = scene.no_error_bound();
+  return why.empty() && !past.empty() ? "friction acts on increments after the first load step"
+                                      : why;
 }
 
 // @sect3{Discretisation}

@@ -171,18 +171,6 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
 // error does not know.
 namespace
 {
-/** Evaluate the components of an expression; null means zero. */
-template <int dim>
-Tensor<1, dim> value(const std::array<typename BoundaryCondition<dim>::Expression, dim> &components,
-                     const Point<dim> &x)
-{
-  Tensor<1, dim> result;
-  for (unsigned int c = 0; c < dim; ++c)
-    if (components[c])
-      result[c] = components[c]->value(x);
-  return result;
-}
-
 /** local_i += sum_q weight_q phi_i(x_q) . force(x_q) */
 template <int dim, class Force>
 void integrate_load(const ShapeTable<dim> &table, const LocalNumbering &numbering,
@@ -226,7 +214,7 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
       if (interior_loads)
       {
         const auto force = [&](const Point<dim> &reference, const Point<dim> &x) {
-          return std::abs(determinant(map.jacobian(reference))) * value<dim>(scene.body_force, x);
+          return std::abs(determinant(map.jacobian(reference))) * load_at<dim>(scene.body_force, x);
         };
         const LoadRule<dim> rule = rules.body_force(cell, degree);
         if (rule.n_gauss > 0)
@@ -243,7 +231,7 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
           if (!condition.has_traction())
             continue;
           const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
-          { return map.face_measure(face, reference) * value<dim>(condition.traction, x); };
+          { return map.face_measure(face, reference) * load_at<dim>(condition.traction, x); };
           const LoadRule<dim - 1> rule = rules.traction(cell, face, degree);
           if (rule.n_gauss > 0)
             integrate_load(tables.face(degree, face, rule.n_gauss), numbering, map, force, local);

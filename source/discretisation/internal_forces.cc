@@ -32,9 +32,8 @@ public:
   Batch(const Material &material, const DisplacementSpace<dim> &space,
         const ShapeTables<dim> &tables, const unsigned int degree, const unsigned int n_gauss,
         const Volume volume)
-      : law(material), lambda(material.lambda(dim)), space(space),
-        table(tables.gradients(degree, n_gauss)), numbering(tables.numbering(degree)),
-        n_rows(table.derivatives.m())
+      : law(material), space(space), table(tables.gradients(degree, n_gauss)),
+        numbering(tables.numbering(degree)), n_rows(table.derivatives.m())
   {
     if (volume == Volume::projected && material.is_nearly_incompressible(dim))
       modes = oscillating_modes(table, degree);
@@ -102,7 +101,8 @@ private:
       const double weight = table.weights[q] * std::abs(determinant(J));
       Tensor<2, dim> sigma = weight * Tensor<2, dim>(law.stress(gradient));
       if (!oscillating.empty())
-        sigma -= weight * lambda * oscillating[q] * Tensor<2, dim>(unit_symmetric_tensor<dim>());
+        sigma -= weight * law.volume_modulus() * oscillating[q] *
+                 Tensor<2, dim>(unit_symmetric_tensor<dim>());
       energy += scalar_product(sigma, gradient);
       const Tensor<2, dim> pulled = sigma * transpose(inverse);
       for (unsigned int c = 0; c < dim; ++c)
@@ -129,7 +129,6 @@ private:
   }
 
   const HookesLaw<dim> law;
-  const double lambda;
   const DisplacementSpace<dim> &space;
   const ShapeTable<dim> &table;
   const LocalNumbering &numbering;

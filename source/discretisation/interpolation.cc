@@ -103,8 +103,8 @@ Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer)
   const Degrees &degrees = finer.displacement_space.degrees();
   if (finer.mesh == coarse.spaces->mesh && degrees == coarse.displacement_space.degrees())
     return coarse;
-  const auto spaces = std::make_shared<const Spaces<dim>>(coarse.scene, finer.mesh, degrees,
-                                                          finer.tables, coarse.spaces->loads);
+  const auto spaces = std::make_shared<const Spaces<dim>>(
+      coarse.scene, finer.mesh, degrees, finer.tables, coarse.spaces->loads, coarse.spaces->past);
   return {coarse.scene, spaces, interpolate(coarse, spaces->displacement_space),
           MultiplierTrace<dim>(coarse.contact_space, coarse.z)
               .values(spaces->contact_space, *finer.tables)};

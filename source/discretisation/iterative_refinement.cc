@@ -108,7 +108,7 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
 }
 
 /**
- * A bound of the energy that the last bits of u have, or of what the data displace: 100 times `mu (epsilon |u|)^2`
+ * A bound of the energy that the last bits of u have, or of what the data displace: 100 times `weight (epsilon |u|)^2`
  * for each unknown. A body with no more is moved, not strained. The stiffest material has most.
  */
 template <int dim>
@@ -116,7 +116,7 @@ double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
   const double largest = std::max(u.linfty_norm(), data_scale(discretisation.scene).displacement),
                last_bit = std::numeric_limits<double>::epsilon() * largest;
-  return 100 * discretisation.scene.largest_mu() * last_bit * last_bit * u.size();
+  return 100 * discretisation.scene.largest_weight() * last_bit * last_bit * u.size();
 }
 
 /** Does the residual do more work on the free part of u than round-off explains? */

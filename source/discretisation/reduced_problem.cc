@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
+#include <hpvi/balance/balance_solver.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/discretisation/reduced_problem.h>
-#include <hpvi/solver/active_set.h>
-#include <hpvi/solver/balance_solver.h>
+#include <hpvi/quadratic/active_set.h>
 
 #include <cmath>
 #include <sstream>

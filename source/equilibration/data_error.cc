@@ -82,9 +82,9 @@ double missed_traction(const EquilibratedStress &stress, const unsigned int inde
   double sum = 0;
   const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
   const double length = cell->face(edge.sides[0].face)->diameter();
-  for (const auto &[s, weight] : stress.prescribed_points(index))
+  for (const auto &[s, weight] : stress.prescribed().points(index))
   {
-    const Tensor<1, 2> exact = stress.prescribed_traction(index, s);
+    const Tensor<1, 2> exact = stress.prescribed().value(index, s);
     for (unsigned int c = 0; c < 2; ++c)
       if (!edge.components[c].is_unknown)
       {

@@ -165,10 +165,9 @@ std::string flaw_of_balance(const Solution<2> &solution, const EquilibratedStres
   if (stress.defect <= tolerable)
     return {};
   const Point<2> &vertex = solution.spaces->mesh->get_vertices()[stress.worst_vertex];
-  const auto &corners = solution.scene.geometry.corners;
   return "patches of cells are out of balance by up to " + text(stress.defect, 2) +
          " of their stresses, at " + to_string(vertex) + ": " +
-         cause_of_imbalance(stress, is_moved, vertex, corners[0].distance(corners[3]));
+         cause_of_imbalance(stress, is_moved, vertex, solution.scene.geometry.diameter());
 }
 
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,

@@ -11,11 +11,6 @@ using namespace dealii;
 
 namespace
 {
-double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-{
-  return a[0] * b[1] - a[1] * b[0];
-}
-
 /**
  * Reference coordinates in [0,1]^2 of a point x of a cell, `x = a + b xi + c eta + e xi eta`: xi solves
  * `(x - a - b xi) x (c + e xi) = 0`, with slope -det J.
@@ -113,13 +108,7 @@ Fields fields_of(const MacroStressElement &element, const unsigned int f, const 
   }
   if (scene.has_body_force())
     for (const Point<2> &x : result.points)
-    {
-      Tensor<1, 2> F;
-      for (unsigned int c = 0; c < 2; ++c)
-        if (scene.body_force[c])
-          F[c] = scene.body_force[c]->value(x);
-      result.force.push_back(F);
-    }
+      result.force.push_back(load_at<2>(scene.body_force, x));
   return result;
 }
 
@@ -185,7 +174,7 @@ void append(const MacroStressElement &element, const unsigned int f, const doubl
 /** |sigma - q|^2 and |F - Pi F|^2 on a triangle, over its area in the reference triangle, from moments n x 5. */
 std::array<double, 2> missed(const Fields &fields, const TriangleTable &table,
                              const std::vector<double> &moments, const double h,
-                             const unsigned int n_lower, const Material &material)
+                             const unsigned int n_lower, const HookesLaw<2> &law)
 {
   const unsigned int n_points = table.points.size(), n = table.values.size() / n_points;
   std::vector<double> values(5 * n_points);
@@ -193,15 +182,13 @@ std::array<double, 2> missed(const Fields &fields, const TriangleTable &table,
            values.data(), n_points);
   multiply('T', 'N', n_points, 2, n_lower, 1., {table.values.data(), n}, {&moments[3 * n], n}, 0.,
            &values[3 * n_points], n_points);
-  const double mu = material.mu(), lambda = material.lambda(2), nu = lambda / (2 * (lambda + mu));
   std::array<double, 2> result{};
   for (unsigned int q = 0; q < n_points; ++q)
   {
-    const double xx = fields.sigma[q][0] - values[q],
-                 yy = fields.sigma[q][1] - values[n_points + q],
-                 xy = fields.sigma[q][2] - values[2 * n_points + q];
-    result[0] += table.weights[q] * (xx * xx + yy * yy + 2 * xy * xy - nu * (xx + yy) * (xx + yy)) /
-                 (2 * mu);
+    SymmetricTensor<2, 2> s; // by xx, yy, xy
+    for (unsigned int k = 0; k < 3; ++k)
+      s.access_raw_entry(k) = fields.sigma[q][k] - values[k * n_points + q];
+    result[0] += table.weights[q] * law.complementary_product(s, s);
     for (unsigned int c = 0; c < 2 && !fields.force.empty(); ++c)
       result[1] +=
           table.weights[q] * std::pow(fields.force[q][c] + values[(3 + c) * n_points + q] / h, 2);
@@ -256,13 +243,13 @@ void MacroStresses::set_cell(const unsigned int index)
     n_gauss = std::max(n_gauss, solution.spaces->loads->body_force(iterator, p).most_points + 2);
   const TriangleTable &table = cache.triangles.table(k, n_gauss);
   const Gradient gradient(solution, index, cache.legendre);
-  const Material &material = solution.scene.material_of(iterator);
+  const HookesLaw<2> law(solution.scene.material_of(iterator));
   MacroStressElement::Data by_vertex(4);
   cell.data.columns = 1;
   for (unsigned int f = 0; f < 4; ++f)
   {
-    const Fields fields = fields_of(*cell.element, f, cell.h, map, table, gradient,
-                                    HookesLaw<2>(material), solution.scene);
+    const Fields fields =
+        fields_of(*cell.element, f, cell.h, map, table, gradient, law, solution.scene);
     const std::vector<double> moments = moments_of(fields, map, cell.h, table);
     std::vector<double> sum(5 * n);
     for (unsigned int i = 0; i < moments.size(); ++i)
@@ -271,7 +258,7 @@ void MacroStresses::set_cell(const unsigned int index)
       append(*cell.element, f, &moments[5 * n * v], by_vertex);
     append(*cell.element, f, sum.data(), cell.data);
     const auto [stress, force] =
-        missed(fields, table, sum, cell.h, cell.element->triangle.n_divergence / 2, material);
+        missed(fields, table, sum, cell.h, cell.element->triangle.n_divergence / 2, law);
     const double area = std::pow(cell.element->piece(f).scale * cell.h, 2);
     cell.remainder += area * stress;
     cell.missed_force += area * force;

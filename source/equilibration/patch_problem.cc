@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/numerical_failure.h>
 #include <hpvi/equilibration/patch_problem.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace hpvi
 {
@@ -12,13 +10,7 @@ using namespace dealii;
 
 namespace
 {
-/** Throws NumericalFailure unless a local matrix is positive definite. */
-void require_regular(const bool is_positive_definite)
-{
-  if (!is_positive_definite)
-    throw NumericalFailure("round-off spoils the tractions of a patch of cells, as where it is "
-                           "many thousand times as long as wide");
-}
+constexpr char tractions[] = "the tractions of a patch of cells";
 
 constexpr unsigned int none = numbers::invalid_unsigned_int;
 
@@ -73,6 +65,7 @@ public:
 private:
   unsigned int place(unsigned int edge) const;
   std::vector<Block> blocks_of(const PatchCell &cell) const;
+  void add_places(const PatchCell &cell, EquilibrationCache::Signature &key) const;
   EquilibrationCache::Signature signature() const;
   EquilibrationCache::Signature form(const std::vector<unsigned int> &present) const;
   void factorise(PatchFactor &factor) const;
@@ -130,6 +123,16 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
   return result;
 }
 
+/** Which edges of the patch a cell has, and which part of them. */
+void PatchProblem::add_places(const PatchCell &cell, EquilibrationCache::Signature &key) const
+{
+  for (unsigned int face = 0; face < 4; ++face)
+  {
+    const unsigned int e = place(cell.cell->edges[face]);
+    key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
+  }
+}
+
 /** Two patches of the same signature have the same matrices. */
 EquilibrationCache::Signature PatchProblem::signature() const
 {
@@ -145,11 +148,7 @@ EquilibrationCache::Signature PatchProblem::signature() const
   {
     key.push_back(reinterpret_cast<long>(cell.element.G.entries));
     key.push_back(std::lround(1e6 * std::log2(cell.area / cells[0].area)));
-    for (unsigned int face = 0; face < 4; ++face)
-    {
-      const unsigned int e = place(cell.cell->edges[face]);
-      key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
-    }
+    add_places(cell, key);
   }
   return key;
 }
@@ -214,11 +213,7 @@ EquilibrationCache::Signature PatchProblem::form(const std::vector<unsigned int>
     for (const StressEdge::Component &component : edge.edge->components)
       key.push_back(component.is_unknown ? -1 - long(std::min(component.n, 4U)) : -1);
   for (const PatchCell &cell : cells)
-    for (unsigned int face = 0; face < 4; ++face)
-    {
-      const unsigned int e = place(cell.cell->edges[face]);
-      key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
-    }
+    add_places(cell, key);
   return key;
 }
 
@@ -273,12 +268,12 @@ void PatchProblem::factorise(PatchFactor &factor) const
     add_conditions(cells[k], blocks[k], first, factor);
     first += cells[k].element.n_conditions;
   }
-  require_regular(cholesky(n, factor.H.data(), n));
+  require_regular(cholesky(n, factor.H.data(), n), tractions);
   const auto [known, is_new] = cache.independent_conditions.try_emplace(form(factor.present));
   if (!is_new && choose(known->second, factor))
     return;
   known->second = independent_conditions(factor);
-  require_regular(choose(known->second, factor));
+  require_regular(choose(known->second, factor), tractions);
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
@@ -374,20 +369,6 @@ PatchDefect PatchProblem::solve()
   return result;
 }
 } // namespace
-
-void EquilibrationCache::drop_unused()
-{
-  const auto drop = [](auto &map)
-  {
-    for (auto entry = map.begin(); entry != map.end();)
-      if (std::exchange(entry->second.is_used, false))
-        ++entry;
-      else
-        entry = map.erase(entry);
-  };
-  drop(macro_elements);
-  drop(patches); // whose signatures hold addresses of elements
-}
 
 TractionEnergy traction_energy(const StressElement &element)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/mpi.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/scene/data_scale.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace hpvi
@@ -16,16 +18,14 @@ using namespace dealii;
 namespace
 {
 /** Slip in one direction next to slip in the other differs; without friction any slip goes on. */
-template <int dim>
-bool differ(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
+bool differ(const ContactPoint<2> &a, const ContactPoint<2> &b)
 {
   return a.mode() != b.mode() || (a.mode() == ContactMode::slip && a.friction_bound != 0. &&
                                   b.friction_bound != 0. && a.lambda * b.lambda < 0.);
 }
 
 /** Does contact end between the two? */
-template <int dim>
-bool opens(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
+bool opens(const ContactPoint<2> &a, const ContactPoint<2> &b)
 {
   return a.is_open != b.is_open;
 }
@@ -35,13 +35,12 @@ bool opens(const ContactPoint<dim> &a, const ContactPoint<dim> &b)
  * odd number of changes within two edges counts as one, in their middle, an even one as none. Each end
  * of contact counts, however small the contact.
  */
-template <int dim>
-std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>> &points)
+std::vector<Point<2>> transitions_between(const std::vector<ContactPoint<2>> &points)
 {
-  std::vector<Point<dim>> result;
+  std::vector<Point<2>> result;
   for (unsigned int k = 1; k < points.size();)
   {
-    Point<dim> sum;
+    Point<2> sum;
     unsigned int n_changes = 0, last = k;
     for (unsigned int i = k; i < points.size(); ++i)
       if (differ(points[i - 1], points[i]))
@@ -50,7 +49,7 @@ std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>>
                               points[i].x.distance(points[last].x) >
                                   2 * std::max(points[i].face_length, points[last].face_length)))
           break;
-        sum += 0.5 * (points[i - 1].x + Tensor<1, dim>(points[i].x));
+        sum += 0.5 * (points[i - 1].x + Tensor<1, 2>(points[i].x));
         ++n_changes;
         last = i;
         if (opens(points[i - 1], points[i]))
@@ -66,12 +65,11 @@ std::vector<Point<dim>> transitions_between(const std::vector<ContactPoint<dim>>
 }
 
 /** What most points between two places do, for those near a cut may still alternate: of equally many the first mode. */
-template <int dim>
-ContactMode mode_between(const std::vector<ContactPoint<dim>> &points, const Point<dim> &begin,
-                         const Point<dim> &end)
+ContactMode mode_between(const std::vector<ContactPoint<2>> &points, const Point<2> &begin,
+                         const Point<2> &end)
 {
   std::array<unsigned int, 3> n_points{}; // by mode
-  for (const ContactPoint<dim> &point : points)
+  for (const ContactPoint<2> &point : points)
     if ((point.x - begin) * (end - point.x) > 0)
       ++n_points[static_cast<unsigned int>(point.mode())];
   return static_cast<ContactMode>(std::max_element(n_points.begin(), n_points.end()) -
@@ -79,14 +77,12 @@ ContactMode mode_between(const std::vector<ContactPoint<dim>> &points, const Poi
 }
 
 /** From end to end of the boundary, cut at its transitions; points and transitions follow the tangent. */
-template <int dim>
-std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Point<dim> &begin,
-                                       const Point<dim> &end)
+std::vector<ContactZone<2>> zones_of(const ContactState<2> &state)
 {
-  std::vector<Point<dim>> cuts = {begin};
+  std::vector<Point<2>> cuts = {state.begin};
   cuts.insert(cuts.end(), state.transitions.begin(), state.transitions.end());
-  cuts.push_back(end);
-  std::vector<ContactZone<dim>> zones;
+  cuts.push_back(state.end);
+  std::vector<ContactZone<2>> zones;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
   {
     const ContactMode mode = mode_between(state.points, cuts[k], cuts[k + 1]);
@@ -98,131 +94,227 @@ std::vector<ContactZone<dim>> zones_of(const ContactState<dim> &state, const Poi
   return zones;
 }
 
-/** Is there no pressure at s in [0,1]: of the unknown there, or of those on both sides of it? */
-template <int dim>
-bool is_open(const ContactFace<dim> &face, const Vector<double> &z, const double s,
-             const double negligible)
-{
-  if (!face.condition->is_unilateral())
-    return false;
-  const std::vector<double> &points = face.normal_points;
-  const unsigned int after =
-      std::lower_bound(points.begin(), points.end(), s - 1e-12) - points.begin();
-  const auto presses = [&](const unsigned int k)
-  { return k < points.size() && z[face.pressures[k]] > negligible; };
-  if (after < points.size() && std::abs(points[after] - s) <= 1e-12)
-    return !presses(after);
-  return !presses(after) && !(after > 0 && presses(after - 1));
-}
-
 /** A pressure that is round-off beside the largest of all, or beside the data, is none. */
 template <int dim>
-double negligible_pressure(const Solution<dim> &solution, const DataScale &data)
+double negligible_pressure(const Field<dim> &field, const DataScale &data)
 {
   double largest = 0;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    for (const unsigned int unknown : face.pressures)
-      largest = std::max(largest, solution.z[unknown]);
-  return std::max(1e-10 * largest, round_off_of_data * data.stress);
+  for (const FieldFace<dim> &face : field.faces())
+    for (const PressureValue<dim> &unknown : field.pressures(face))
+      largest = std::max(largest, unknown.pressure);
+  return std::max(1e-10 * Utilities::MPI::max(largest, field.communicator()),
+                  round_off_of_data * data.stress);
 }
 
-/** The Gauss points of a face's multiplier, along the tangent. */
-template <int dim>
-std::vector<ContactPoint<dim>> points_of(const ContactFace<dim> &face,
-                                         const Solution<dim> &solution, const double negligible)
+/** Do the coordinates of a face in the plane run against the tangent? */
+bool runs_backwards(const FieldFace<2> &face)
 {
-  const bool has_friction = face.n_multipliers > 0, has_pressure = face.condition->has_pressure();
-  const unsigned int n = std::max(face.n_points, 1U);
-  const ContactTraces<dim> traces(face, n, solution);
-  std::vector<ContactPoint<dim>> points;
-  for (unsigned int q = 0; q < n; ++q)
+  const auto at = [&](const double s) { return point_on_face<2>(face.face_no, Point<1>(s)); };
+  return face.frame(at(0.5)).tangents[0] * (face.map.point(at(1.)) - face.map.point(at(0.))) < 0;
+}
+
+/** What happens on the faces of this process. */
+template <int dim>
+class OwnContact
+{
+public:
+  explicit OwnContact(const Field<dim> &field)
+      : field(field), data(data_scale(field.scene)), negligible(negligible_pressure(field, data))
   {
-    const double s = solution.tables.gauss(n).point(q)[0];
-    const ContactFrame<dim> frame = face.frame(s);
-    const Tensor<1, dim> u = traces.displacement(q);
-    const double g =
-        has_friction ? solution.contact_space.bound(face.first_multiplier + q, solution.z) : 0.;
-    const double z = has_friction ? solution.z[face.first_multiplier + q] : 0.;
-    const double lambda = g == 0. ? 0. : z / g;
-    points.push_back(
-        {frame.x, face.length, g, lambda, g == 0. || std::abs(lambda) >= 1. - slip_tolerance,
-         is_open(face, solution.z, s, negligible),
-         face.condition->gap_at(frame.x) - frame.normal * u, frame.normal * u, frame.tangent * u,
-         has_pressure ? 0. - solution.contact_space.pressure(face, solution.z, s)
-                      : traces.normal_traction(q),
-         0. - z, // never -0
-         frame.tangent * u - face.past_slip(frame.x)});
   }
-  if (face.frame(0.5).tangent * (face.point(1.) - face.point(0.)) < 0)
-    std::reverse(points.begin(), points.end());
-  return points;
+
+  std::vector<ContactState<dim>> states() const;
+
+private:
+  void add_points(const FieldFace<dim> &face, ContactState<dim> &state) const;
+  void add_normal_traction(const FieldFace<dim> &face, ContactState<dim> &state) const;
+
+  const Field<dim> &field;
+  const DataScale data;
+  const double negligible;
+};
+
+/** The points of the face's multipliers, and the friction that they carry. */
+template <int dim>
+void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &state) const
+{
+  const ContactTraces<dim> traces(face, field.multiplier_table(face), field);
+  const std::vector<MultiplierPoint<dim>> multipliers = field.multiplier_points(face, negligible);
+  const double area = face.area();
+  std::vector<ContactPoint<dim>> points;
+  for (unsigned int q = 0; q < multipliers.size(); ++q)
+  {
+    const MultiplierPoint<dim> &multiplier = multipliers[q];
+    const FaceFrame<dim> frame = face.frame(multiplier.reference);
+    const Tensor<1, dim> u = traces.displacement(q);
+    const double g = multiplier.bound;
+    const Tangential<dim> z = frame.tangential(multiplier.traction.friction);
+    ContactPoint<dim> point;
+    point.x = frame.x;
+    point.area = multiplier.area;
+    point.face_length = dim == 2 ? area : std::sqrt(area);
+    point.friction_bound = g;
+    point.lambda = g == 0. ? Tangential<dim>() : Tangential<dim>(z / g);
+    point.slips = g == 0. || size_of(point.lambda) >= 1. - slip_tolerance;
+    point.is_open = multiplier.is_open;
+    point.gap = face.condition->gap_at(frame.x) - frame.normal * u;
+    point.normal_displacement = frame.normal * u;
+    point.tangential_displacement = frame.tangential(u);
+    point.normal_traction = face.condition->has_pressure() ? 0. - multiplier.traction.pressure
+                                                           : traces.normal_traction(q);
+    point.tangential_traction = Tangential<dim>() - z; // never -0
+    point.slip = point.tangential_displacement - field.past_slip(face, frame.x);
+    points.push_back(point);
+
+    const Tangential<dim> force = multiplier.area * z;
+    state.friction_resultant -= force;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      state.friction_force -= multiplier.area * multiplier.traction.friction[s] * frame.tangents[s];
+    state.absolute_friction += size_of(force);
+    state.open_friction += point.is_open ? size_of(force) : 0.;
+    state.open_area += point.mode() == ContactMode::open ? point.area : 0.;
+    state.slipping_area += point.mode() == ContactMode::slip ? point.area : 0.;
+  }
+  if constexpr (dim == 2)
+    if (runs_backwards(face))
+      std::reverse(points.begin(), points.end());
+  state.points.insert(state.points.end(), points.begin(), points.end());
 }
 
-/** Resultant and largest values of T_n and u_n - u_0, as far as they exceed the round-off of @p data. */
+/** Takes the place of @p largest where it is larger and no round-off. */
 template <int dim>
-void add_normal_traction(const ContactFace<dim> &face, const Solution<dim> &solution,
-                         const DataScale &data, ContactState<dim> &state)
+void compare(const double value, const Point<dim> &x, const double round_off, double &largest,
+             Point<dim> &where)
 {
-  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
-  const bool has_pressure = face.condition->has_pressure();
-  const ContactTraces<dim> traces(face, gauss.size(), solution);
-  const std::vector<PressurePoint<dim>> pressures = pressure_points(face, solution);
-  for (unsigned int q = 0; q < gauss.size(); ++q)
+  if (value > std::max(largest, round_off))
   {
-    const double s = gauss.point(q)[0];
-    const ContactFrame<dim> frame = face.frame(s);
+    largest = value;
+    where = x;
+  }
+}
+
+/** Resultant and largest values of T_n and u_n - u_0, as far as they exceed the round-off of the data. */
+template <int dim>
+void OwnContact<dim>::add_normal_traction(const FieldFace<dim> &face,
+                                          ContactState<dim> &state) const
+{
+  const ShapeTable<dim> &table = field.tables.face(face.degree(), face.face_no, face.degree() + 1);
+  const ContactTraces<dim> traces(face, table, field);
+  const std::vector<PressurePoint<dim>> pressures = pressure_points(face, field);
+  const double no_stress = round_off_of_data * data.stress;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const FaceFrame<dim> frame = face.frame(table.points[q]);
     const double traction = -pressures[q].pressure;
-    state.normal_resultant += gauss.weight(q) * frame.measure * traction;
-    state.tension += gauss.weight(q) * frame.measure * std::max(traction, 0.);
-    if (traction > std::max(state.highest_tension, round_off_of_data * data.stress))
-    {
-      state.highest_tension = traction;
-      state.highest_tension_point = frame.x;
-    }
+    state.normal_resultant += table.weights[q] * frame.measure * traction;
+    state.tension += table.weights[q] * frame.measure * std::max(traction, 0.);
+    compare(traction, frame.x, no_stress, state.highest_tension, state.highest_tension_point);
     const double u_n = frame.normal * traces.displacement(q),
-                 depth = face.condition->is_unilateral() ? u_n - face.condition->gap_at(frame.x)
-                         : has_pressure                  ? std::abs(u_n)
-                                                         : 0.;
-    if (depth > std::max(state.deepest_penetration, round_off_of_data * data.displacement))
-    {
-      state.deepest_penetration = depth;
-      state.deepest_penetration_point = frame.x;
-    }
+                 depth = face.condition->is_unilateral()  ? u_n - face.condition->gap_at(frame.x)
+                         : face.condition->has_pressure() ? std::abs(u_n)
+                                                          : 0.;
+    compare(depth, frame.x, round_off_of_data * data.displacement, state.deepest_penetration,
+            state.deepest_penetration_point);
   }
   for (const PressurePoint<dim> &point : pressures)
-    if (point.pressure > std::max(state.highest_pressure, round_off_of_data * data.stress))
-    {
-      state.highest_pressure = point.pressure;
-      state.highest_pressure_point = point.x;
-    }
+    compare(point.pressure, point.x, no_stress, state.highest_pressure,
+            state.highest_pressure_point);
 }
 
+/** One for each boundary that this process has faces of. */
 template <int dim>
-void add_friction(const ContactFace<dim> &face, const Solution<dim> &solution,
-                  const double negligible, ContactState<dim> &state)
+std::vector<ContactState<dim>> OwnContact<dim>::states() const
 {
-  for (unsigned int i = 0; i < face.n_multipliers; ++i)
+  std::vector<ContactState<dim>> states;
+  for (const FieldFace<dim> &face : field.faces())
   {
-    const double s = solution.tables.gauss(face.n_multipliers).point(i)[0];
-    const unsigned int unknown = face.first_multiplier + i;
-    const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[unknown];
-    const double force = multiplier.weight * solution.z[unknown];
-    state.friction_resultant -= force;
-    state.friction_force -= force * multiplier.direction;
-    state.absolute_friction += std::abs(force);
-    if (is_open(face, solution.z, s, negligible))
-      state.open_friction += std::abs(force);
+    const bool is_new = states.empty() || states.back().boundary != face.condition->id;
+    if (is_new)
+      states.emplace_back().boundary = face.condition->id;
+    ContactState<dim> &state = states.back();
+    if constexpr (dim == 2)
+    {
+      const bool backwards = runs_backwards(face);
+      const auto end = [&](const double s)
+      { return face.map.point(point_on_face<2>(face.face_no, Point<1>(s))); };
+      if (is_new)
+        state.begin = end(backwards ? 1. : 0.);
+      state.end = end(backwards ? 0. : 1.);
+    }
+    state.area += face.area();
+    add_points(face, state);
+    add_normal_traction(face, state);
   }
+  return states;
 }
 
-/** The ends of a face, along the tangent. */
-template <int dim>
-std::pair<Point<dim>, Point<dim>> ends_of(const ContactFace<dim> &face)
+/** Along the contact of @p state, whose boundary is straight. */
+bool is_before(const Point<2> &a, const Point<2> &b, const ContactState<2> &state)
 {
-  std::pair<Point<dim>, Point<dim>> ends(face.point(0.), face.point(1.));
-  if (face.frame(0.5).tangent * (ends.second - ends.first) < 0)
-    std::swap(ends.first, ends.second);
-  return ends;
+  return (b - a) * (state.end - state.begin) > 0;
+}
+
+bool is_before(const Point<3> &a, const Point<3> &b, const ContactState<3> &)
+{
+  return std::lexicographical_compare(a.begin_raw(), a.end_raw(), b.begin_raw(), b.end_raw());
+}
+
+/** Adds what another process knows of the same boundary. */
+template <int dim>
+void add(const ContactState<dim> &other, ContactState<dim> &state)
+{
+  if (is_before(other.begin, state.begin, state))
+    state.begin = other.begin;
+  if (is_before(state.end, other.end, state))
+    state.end = other.end;
+  for (const auto sum :
+       {&ContactState<dim>::area, &ContactState<dim>::open_area, &ContactState<dim>::slipping_area,
+        &ContactState<dim>::normal_resultant, &ContactState<dim>::absolute_friction,
+        &ContactState<dim>::open_friction, &ContactState<dim>::tension})
+    state.*sum += other.*sum;
+  state.friction_resultant += other.friction_resultant;
+  state.friction_force += other.friction_force;
+  compare(other.highest_tension, other.highest_tension_point, 0., state.highest_tension,
+          state.highest_tension_point);
+  compare(other.highest_pressure, other.highest_pressure_point, 0., state.highest_pressure,
+          state.highest_pressure_point);
+  compare(other.deepest_penetration, other.deepest_penetration_point, 0., state.deepest_penetration,
+          state.deepest_penetration_point);
+  state.points.insert(state.points.end(), other.points.begin(), other.points.end());
+}
+
+/** Those of all processes as one, by boundary; points are known to the first process alone. */
+template <int dim>
+std::vector<ContactState<dim>> gathered(std::vector<ContactState<dim>> own, MPI_Comm communicator)
+{
+  std::vector<std::vector<ContactPoint<dim>>> points;
+  for (ContactState<dim> &state : own)
+    points.push_back(std::exchange(state.points, {}));
+  const auto all = Utilities::MPI::all_gather(communicator, own);
+  const auto all_points = n_processes(communicator) == 1
+                              ? std::vector<std::vector<std::vector<ContactPoint<dim>>>>{points}
+                              : Utilities::MPI::gather(communicator, points);
+  std::map<types::boundary_id, ContactState<dim>> by_boundary;
+  for (unsigned int rank = 0; rank < all.size(); ++rank)
+    for (unsigned int k = 0; k < all[rank].size(); ++k)
+    {
+      ContactState<dim> state = all[rank][k];
+      if (!all_points.empty())
+        state.points = all_points[rank][k];
+      const auto [known, is_new] = by_boundary.emplace(state.boundary, state);
+      if (!is_new)
+        add(state, known->second);
+    }
+  std::vector<ContactState<dim>> states;
+  for (auto &[boundary, state] : by_boundary)
+  {
+    if (dim == 3 || all.size() > 1)
+      std::sort(state.points.begin(), state.points.end(),
+                [&state = state](const ContactPoint<dim> &a, const ContactPoint<dim> &b)
+                { return is_before(a.x, b.x, state); });
+    states.push_back(std::move(state));
+  }
+  return states;
 }
 } // namespace
 
@@ -240,33 +332,19 @@ std::string mode_name(const ContactMode mode)
 }
 
 template <int dim>
-std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution)
+std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
 {
-  const DataScale data = data_scale(solution.scene);
-  const double negligible = negligible_pressure(solution, data);
-  std::vector<ContactState<dim>> states;
-  std::vector<std::pair<Point<dim>, Point<dim>>> ends;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-  {
-    const auto [begin, end] = ends_of(face);
-    if (states.empty() || states.back().boundary != face.condition->id)
-    {
-      states.emplace_back().boundary = face.condition->id;
-      ends.emplace_back(begin, end);
-    }
-    ends.back().second = end;
-    ContactState<dim> &state = states.back();
-    state.length += face.length;
-    for (const ContactPoint<dim> &point : points_of(face, solution, negligible))
-      state.points.push_back(point);
-    add_normal_traction(face, solution, data, state);
-    add_friction(face, solution, negligible, state);
-  }
-  for (unsigned int k = 0; k < states.size(); ++k)
-  {
-    states[k].transitions = transitions_between(states[k].points);
-    states[k].zones = zones_of(states[k], ends[k].first, ends[k].second);
-  }
+  std::vector<ContactState<dim>> own;
+  const OwnContact<dim> contact(field);
+  together(field.communicator(), [&]() { own = contact.states(); });
+  std::vector<ContactState<dim>> states = gathered(std::move(own), field.communicator());
+  if constexpr (dim == 2)
+    for (ContactState<dim> &state : states)
+      if (!state.points.empty())
+      {
+        state.transitions = transitions_between(state.points);
+        state.zones = zones_of(state);
+      }
   return states;
 }
 
@@ -279,6 +357,8 @@ std::vector<Point<dim>> transitions(const std::vector<ContactState<dim>> &states
   return result;
 }
 
-template std::vector<ContactState<2>> contact_states(const Solution<2> &);
+template std::vector<ContactState<2>> contact_states(const Field<2> &);
+template std::vector<ContactState<3>> contact_states(const Field<3> &);
 template std::vector<Point<2>> transitions(const std::vector<ContactState<2>> &);
+template std::vector<Point<3>> transitions(const std::vector<ContactState<3>> &);
 } // namespace hpvi

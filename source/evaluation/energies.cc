@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/energies.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -48,41 +51,146 @@ std::vector<double> zeros(const F &function, const unsigned int n_samples)
 }
 
 /** int g |u_t| over one face: the pieces of its rule are cut further where u_t changes sign. */
-template <int dim>
-double friction_work(const ContactFace<dim> &face, const Solution<dim> &solution,
-                     const EdgeDisplacement<dim> &u_t, const QGauss<1> &gauss)
+double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
 {
-  std::vector<double> cuts = zeros(u_t, 8 * face.degree);
-  cuts.insert(cuts.end(), face.friction.cuts.begin(), face.friction.cuts.end());
+  const std::vector<double> jumps = field.friction_cuts(face);
+  if (jumps.empty())
+    return 0.;
+  EdgeDisplacement<2> u_t(face, field, true);
+  u_t.subtract_past(face, field);
+  std::vector<double> cuts = zeros(u_t, 8 * face.degree());
+  cuts.insert(cuts.end(), jumps.begin(), jumps.end());
   std::sort(cuts.begin(), cuts.end());
+  const QGauss<1> &gauss = field.tables.gauss(face.degree() + 2);
   double sum = 0;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      sum += width * gauss.weight(q) * solution.contact_space.bound(face, solution.z, s) *
-             std::abs(u_t(s));
+      sum += width * gauss.weight(q) *
+             field.bound(face, point_on_face<2>(face.face_no, Point<1>(s))) * std::abs(u_t(s));
     }
-  return face.length * sum;
+  return face.area() * sum;
+}
+
+/**
+ * g |u_t| on a face in space. |u_t| has a kink where u_t vanishes, at points or along curves, and g may jump:
+ * squares are cut into four until that changes nothing any more.
+ */
+class FrictionWork
+{
+public:
+  FrictionWork(const FieldFace<3> &face, const Field<3> &field)
+      : face(face), field(field), gauss(field.tables.gauss(face.degree() + 1)),
+        basis(field.tables.gauss_lagrange(gauss.size()))
+  {
+    const ShapeTable<3> table = tabulate<3>(face.degree(), nodes(), {}, false);
+    const std::vector<double> u = evaluate(table.values, field.coefficients(face.cell));
+    for (unsigned int k = 0; k < table.points.size(); ++k)
+    {
+      const FaceFrame<3> frame = face.frame(table.points[k]);
+      Tensor<1, 3> value;
+      for (unsigned int c = 0; c < 3; ++c)
+        value[c] = u[c * table.points.size() + k];
+      slip.push_back(frame.tangential(value) - field.past_slip(face, frame.x));
+    }
+  }
+
+  /** On the face, up to @p tolerance on it as a whole. */
+  double integral(const double tolerance) const
+  {
+    return integral(Point<2>(), 1., on_square(Point<2>(), 1.), tolerance, 7);
+  }
+
+private:
+  std::vector<Point<3>> nodes() const
+  {
+    std::vector<Point<3>> result;
+    for (const Point<1> &b : gauss.get_points())
+      for (const Point<1> &a : gauss.get_points())
+        result.push_back(point_on_face<3>(face.face_no, Point<2>(a[0], b[0])));
+    return result;
+  }
+
+  /** By one Gauss rule on the square with its first corner at @p corner. */
+  double on_square(const Point<2> &corner, const double width) const
+  {
+    const unsigned int n = gauss.size();
+    std::array<std::vector<double>, 2> values; // of the basis at the points in each direction
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int q = 0; q < n; ++q)
+        for (unsigned int i = 0; i < n; ++i)
+          values[d].push_back(basis[i].value(corner[d] + width * gauss.point(q)[0]));
+    double sum = 0;
+    for (unsigned int r = 0; r < n; ++r)
+      for (unsigned int q = 0; q < n; ++q)
+      {
+        Tensor<1, 3> u;
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            u += values[0][q * n + i] * values[1][r * n + j] * slip[j * n + i];
+        const Point<3> reference =
+            point_on_face<3>(face.face_no, Point<2>(corner[0] + width * gauss.point(q)[0],
+                                                    corner[1] + width * gauss.point(r)[0]));
+        sum += gauss.weight(q) * gauss.weight(r) * face.frame(reference).measure *
+               field.bound(face, reference) * u.norm();
+      }
+    return width * width * sum;
+  }
+
+  double integral(const Point<2> &corner, const double width, const double whole,
+                  const double tolerance, const unsigned int levels) const
+  {
+    std::array<double, 4> parts;
+    const auto corner_of = [&](const unsigned int k) -> Point<2> {
+      return {corner[0] + (k % 2) * width / 2, corner[1] + (k / 2) * width / 2};
+    };
+    double sum = 0;
+    for (unsigned int k = 0; k < 4; ++k)
+      sum += parts[k] = on_square(corner_of(k), width / 2);
+    if (levels == 0 || std::abs(sum - whole) <= tolerance)
+      return sum;
+    sum = 0;
+    for (unsigned int k = 0; k < 4; ++k)
+      sum += integral(corner_of(k), width / 2, parts[k], tolerance / 2, levels - 1);
+    return sum;
+  }
+
+  const FieldFace<3> &face;
+  const Field<3> &field;
+  const QGauss<1> &gauss;
+  const std::vector<Polynomials::Polynomial<double>> &basis;
+  std::vector<Tensor<1, 3>> slip; ///< at nodes()
+};
+
+double friction_work(const FieldFace<3> &face, const Field<3> &field, const double tolerance)
+{
+  return FrictionWork(face, field).integral(tolerance);
+}
+
+/** Over all contact; @p tolerance is that of each face in space. */
+template <int dim>
+double friction_work(const Field<dim> &field, const double tolerance)
+{
+  return sum_together(field.communicator(),
+                      [&]()
+                      {
+                        double sum = 0;
+                        for (const FieldFace<dim> &face : field.faces())
+                          if (face.condition->friction)
+                            sum += friction_work(face, field, tolerance);
+                        return sum;
+                      });
 }
 } // namespace
 
 template <int dim>
-Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system, const double a)
+Energies energies(const Field<dim> &field, const double a, const double work)
 {
-  double friction = 0;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    if (face.n_multipliers > 0)
-    {
-      EdgeDisplacement<dim> slip(face, solution, &ContactFrame<dim>::tangent);
-      slip.subtract_past(face, solution.tables);
-      friction += friction_work(face, solution, slip, solution.tables.gauss(face.degree + 2));
-    }
-  const Vector<double> moments = solution.spaces->contact_operator.moments(solution.u);
-  double coupling = 0;
-  for (unsigned int i = 0; i < moments.size(); ++i)
-    coupling += solution.z[i] * (moments[i] - solution.contact_space.multipliers()[i].gap);
-  const double potential = 0.5 * a - system.work(solution.u);
+  const double infinity = std::numeric_limits<double>::infinity(),
+               roughly = dim == 2 ? 0. : friction_work(field, infinity),
+               friction = friction_work(field, 1e-8 * roughly), coupling = field.contact_work();
+  const double potential = 0.5 * a - work;
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
   return {potential + coupling, potential + friction, norm, friction - coupling};
@@ -166,5 +274,6 @@ Work work_from_rest(const Solution<dim> &next, const Vector<double> &loads)
 
 template Work work(const Solution<2> &, const Solution<2> &, const Vector<double> &);
 template Work work_from_rest(const Solution<2> &, const Vector<double> &);
-template Energies energies(const Solution<2> &, const ElasticSystem<2> &, double);
+template Energies energies(const Field<2> &, double, double);
+template Energies energies(const Field<3> &, double, double);
 } // namespace hpvi

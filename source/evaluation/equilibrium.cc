@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/mpi.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/supports.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/evaluation/field.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>
@@ -24,98 +27,99 @@ Tensor<1, 3> moment_of(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
   return cross_product_3d(arm, force);
 }
 
-double size_of(const double moment)
-{
-  return std::abs(moment);
-}
-
-double size_of(const Tensor<1, 3> &moment)
-{
-  return moment.norm();
-}
-
-/** The numbers of a vector, or the one that it is. */
+/** The sum over all processes of each number of a vector, or of the one that it is. */
 template <class Numbers>
-void replace_all(Numbers &numbers, const std::function<double(double)> &total)
+Numbers total(Numbers numbers, MPI_Comm communicator)
 {
   if constexpr (std::is_same_v<Numbers, double>)
-    numbers = total(numbers);
+    return Utilities::MPI::sum(numbers, communicator);
   else
     for (unsigned int d = 0; d < Numbers::dimension; ++d)
-      numbers[d] = total(numbers[d]);
+      numbers[d] = Utilities::MPI::sum(numbers[d], communicator);
+  return numbers;
+}
+
+/** Adds up forces by boundary, and their absolute values. */
+template <int dim>
+struct Resultants
+{
+  const Point<dim> centre;
+  BoundaryForce<dim> loads{"loads", {}, {}};
+  std::vector<BoundaryForce<dim>> reactions; ///< by boundary id
+  double absolute_force = 0, absolute_moment = 0;
+
+  explicit Resultants(const Scene<dim> &scene) : centre(scene.geometry.centre())
+  {
+    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+      reactions.push_back({boundary.name, {}, {}});
+  }
+
+  void add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
+  {
+    const Tensor<1, dim> arm = x - centre;
+    sum.force += force;
+    sum.moment += moment_of(arm, force);
+    absolute_force += force.norm();
+    absolute_moment += arm.norm() * force.norm();
+  }
+
+  void sum_up(MPI_Comm communicator)
+  {
+    std::vector<BoundaryForce<dim> *> sums{&loads};
+    for (BoundaryForce<dim> &reaction : reactions)
+      sums.push_back(&reaction);
+    for (BoundaryForce<dim> *const sum : sums)
+    {
+      sum->force = total(sum->force, communicator);
+      sum->moment = total(sum->moment, communicator);
+    }
+    absolute_force = total(absolute_force, communicator);
+    absolute_moment = total(absolute_moment, communicator);
+  }
+};
+
+/** Without the boundaries that carry nothing. */
+template <int dim>
+Equilibrium<dim> balance_of(const Resultants<dim> &sums, const Scene<dim> &scene)
+{
+  Equilibrium<dim> result;
+  result.centre = sums.centre;
+  result.loads = sums.loads;
+  Tensor<1, dim> force = sums.loads.force;
+  Moment<dim> moment = sums.loads.moment;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    const BoundaryForce<dim> &reaction = sums.reactions[boundary.id];
+    force += reaction.force;
+    moment += reaction.moment;
+    if (boundary.has_displacement() || boundary.has_contact())
+      result.reactions.push_back(reaction);
+  }
+  const double size = scene.geometry.diameter(),
+               none = round_off_of_data * data_scale(scene).stress * std::pow(size, dim - 1);
+  result.force_imbalance = sums.absolute_force > none ? force.norm() / sums.absolute_force : 0.;
+  result.moment_imbalance =
+      sums.absolute_moment > none * size ? size_of(moment) / sums.absolute_moment : 0.;
+  return result;
 }
 } // namespace
 
 template <int dim>
-Resultants<dim>::Resultants(const Scene<dim> &scene, const Point<dim> &centre) : scene(scene)
+Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &forces,
+                             MPI_Comm communicator)
 {
-  result.centre = centre;
-  result.loads.boundary = "loads";
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    result.reactions.push_back({boundary.name, {}, {}});
-}
-
-template <int dim>
-void Resultants<dim>::add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
-{
-  const Tensor<1, dim> arm = x - result.centre;
-  sum.force += force;
-  sum.moment += moment_of(arm, force);
-  absolute_force += force.norm();
-  absolute_moment += arm.norm() * force.norm();
-}
-
-template <int dim>
-void Resultants<dim>::add_load(const unsigned int component, const double value,
-                               const Point<dim> &x)
-{
-  Tensor<1, dim> force;
-  force[component] = value;
-  add(result.loads, force, x);
-}
-
-template <int dim>
-void Resultants<dim>::add_reaction(const types::boundary_id boundary, const Tensor<1, dim> &force,
-                                   const Point<dim> &x)
-{
-  add(result.reactions[boundary], force, x);
-}
-
-template <int dim>
-void Resultants<dim>::replace(const std::function<double(double)> &total)
-{
-  std::vector<BoundaryForce<dim> *> sums{&result.loads};
-  for (BoundaryForce<dim> &reaction : result.reactions)
-    sums.push_back(&reaction);
-  for (BoundaryForce<dim> *const sum : sums)
+  Resultants<dim> sums(scene);
+  for (const auto &load : forces.loads)
   {
-    replace_all(sum->force, total);
-    replace_all(sum->moment, total);
+    Tensor<1, dim> force;
+    force[load.component] = load.value;
+    sums.add(sums.loads, force, load.x);
   }
-  absolute_force = total(absolute_force);
-  absolute_moment = total(absolute_moment);
-}
-
-template <int dim>
-Equilibrium<dim> Resultants<dim>::finish()
-{
-  Tensor<1, dim> force = result.loads.force;
-  Moment<dim> moment = result.loads.moment;
-  std::vector<BoundaryForce<dim>> supporting;
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-  {
-    const BoundaryForce<dim> &reaction = result.reactions[boundary.id];
-    force += reaction.force;
-    moment += reaction.moment;
-    if (boundary.has_displacement() || boundary.has_contact())
-      supporting.push_back(reaction);
-  }
-  result.reactions = supporting;
-  const Corners<dim> &corners = scene.geometry.corners;
-  const double size = corners.front().distance(corners.back()),
-               none = round_off_of_data * data_scale(scene).stress * std::pow(size, dim - 1);
-  result.force_imbalance = absolute_force > none ? force.norm() / absolute_force : 0.;
-  result.moment_imbalance = absolute_moment > none * size ? size_of(moment) / absolute_moment : 0.;
+  for (const auto &reaction : forces.reactions)
+    sums.add(sums.reactions[reaction.boundary], reaction.force, reaction.x);
+  sums.sum_up(communicator);
+  Equilibrium<dim> result;
+  together(communicator, [&]() { result = balance_of(sums, scene); });
   return result;
 }
 
@@ -200,15 +204,15 @@ ReactionWork reaction_work(const Solution<dim> &solution, const Vector<double> &
 }
 
 template <int dim>
-Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system)
+NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem<dim> &system)
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ShapeTables<dim> &tables = solution.tables;
   const Nodes<dim> nodes(space);
-  Resultants<dim> resultants(solution.scene, centre_of(solution.scene.geometry));
+  NodalForces<dim> result;
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (system.loads()[dof] != 0.)
-      resultants.add_load(nodes.component[dof], system.loads()[dof], nodes.x[dof]);
+      result.loads.push_back({nodes.component[dof], system.loads()[dof], nodes.x[dof]});
 
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
@@ -220,7 +224,7 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
         {
           Tensor<1, dim> force;
           force[nodes.component[dof]] = -friction[dof];
-          resultants.add_reaction(boundary.id, force, nodes.x[dof]);
+          result.reactions.push_back({boundary.id, force, nodes.x[dof]});
         }
     }
 
@@ -232,15 +236,15 @@ Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<
       force[c] = reactions[node.dofs[c]];
     const std::vector<double> shares = node.split(force);
     for (unsigned int k = 0; k < shares.size(); ++k)
-      resultants.add_reaction(node.conditions[k].boundary, shares[k] * node.conditions[k].direction,
-                              node.x);
+      result.reactions.push_back(
+          {node.conditions[k].boundary, shares[k] * node.conditions[k].direction, node.x});
   }
-  return resultants.finish();
+  return result;
 }
 
-template class Resultants<2>;
-template class Resultants<3>;
-template Equilibrium<2> equilibrium(const Solution<2> &, const ElasticSystem<2> &);
+template Equilibrium<2> equilibrium(const Scene<2> &, const NodalForces<2> &, MPI_Comm);
+template Equilibrium<3> equilibrium(const Scene<3> &, const NodalForces<3> &, MPI_Comm);
+template NodalForces<2> nodal_forces(const Solution<2> &, const ElasticSystem<2> &);
 template ReactionWork reaction_work(const Solution<2> &, const Vector<double> &,
                                     const Vector<double> &);
 } // namespace hpvi

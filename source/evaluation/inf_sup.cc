@@ -4,7 +4,7 @@
 #include <hpvi/base/one_thread.h>
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/evaluation/inf_sup.h>
-#include <hpvi/solver/quadratic_program.h>
+#include <hpvi/quadratic/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,12 +102,7 @@ reference_schur_complement(const Scene<dim> &scene, const Triangulation<dim> &tr
   // Rows hold no g, but faces without friction have none: here both halves of a face want theirs.
   Scene<dim> rough(scene);
   for (BoundaryCondition<dim> &boundary : rough.boundaries)
-  {
-    if (boundary.friction.bound)
-      boundary.friction.bound = expression<dim>(1.);
-    if (boundary.friction.coefficient)
-      boundary.friction.coefficient = expression<dim>(1.);
-  }
+    boundary.friction = boundary.friction.everywhere();
   const Laboratory<dim> fine(rough, mesh, fine_degrees, tables);
   const ConditionRows &rows = fine.discretisation.contact_rows;
   const FullMatrix<double> T = embedding(coarse, fine.discretisation.spaces->contact_space);

@@ -8,15 +8,15 @@
 //
 // The print of (4.51) sums $\eta_K$ for $\eta_K^2$. Two parts of the weights are theory, one is
 // practice: where $p$ is high the indicator overestimates, by a factor that grows with $p$.
-#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/residual_estimator.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 
 namespace hpvi
 {
@@ -47,27 +47,51 @@ double ErrorEstimate::total() const
   return std::sqrt(sum);
 }
 
+EstimateNorms norms(const ErrorEstimate &estimate, MPI_Comm communicator)
+{
+  const auto root = [&](const double sum)
+  { return std::sqrt(Utilities::MPI::sum(sum, communicator)); };
+  EstimateNorms result;
+  double all = 0;
+  const auto add = [&](const std::vector<double> &part)
+  {
+    all = std::accumulate(part.begin(), part.end(), all);
+    return root(std::accumulate(part.begin(), part.end(), 0.));
+  };
+  result.volume = add(estimate.volume);
+  result.jumps = add(estimate.jumps);
+  result.neumann = add(estimate.neumann);
+  result.contact = add(estimate.contact);
+  result.normal = add(estimate.normal);
+  result.penetration = add(estimate.penetration);
+  result.tension = add(estimate.tension);
+  result.excess = add(estimate.excess);
+  result.total = root(all);
+  return result;
+}
+
 // @sect3{One pass over the cells}
 //
 // The parts are kept apart: which one dominates says what is missing.
 namespace
 {
-/** One pass over the cells of a solution. */
+/** One pass over the cells of a field. */
 template <int dim>
 class Residuals
 {
 public:
-  using Cell = typename DoFHandler<dim>::active_cell_iterator;
+  using Cell = typename Field<dim>::Cell;
 
-  Residuals(const Solution<dim> &solution);
+  explicit Residuals(const Field<dim> &field);
   ErrorEstimate compute();
 
 private:
   void add_volume(const Cell &cell);
+  bool sees_jump(const Cell &cell, unsigned int face) const;
   void add_jump(const Cell &cell, unsigned int face);
   void add_boundary(const Cell &cell, unsigned int face);
-  void add_contact(const ContactFace<dim> &face);
-  double penetration(const ContactFace<dim> &face) const;
+  void add_contact(const FieldFace<dim> &face);
+  double penetration(const FieldFace<dim> &face) const;
 
   /** Outer normals and weights times ds at the points of a table on a face. */
   struct FacePoints
@@ -80,9 +104,10 @@ private:
                                         const std::vector<Tensor<1, dim>> &normals) const;
   double weight(unsigned int cell) const; ///< h_K/p_K
 
-  const Solution<dim> &solution;
+  const Field<dim> &field;
+  const Scene<dim> &scene;
   const ShapeTables<dim> &tables;
-  const Degrees &degrees;
+  std::vector<unsigned int> degrees;             ///< p_K, by active cell index
   std::vector<std::vector<double>> coefficients; ///< of u_N, by active cell index
   std::vector<double> sizes;                     ///< h_K, the longest edge
   std::vector<CellMap<dim>> maps;
@@ -90,22 +115,26 @@ private:
 };
 
 template <int dim>
-Residuals<dim>::Residuals(const Solution<dim> &solution)
-    : solution(solution), tables(solution.tables), degrees(solution.displacement_space.degrees())
+Residuals<dim>::Residuals(const Field<dim> &field)
+    : field(field), scene(field.scene), tables(field.tables)
 {
-  const unsigned int n_cells = degrees.size();
+  const unsigned int n_cells = field.dof_handler.get_triangulation().n_active_cells();
   for (auto *part : {&result.volume, &result.jumps, &result.neumann, &result.contact})
     part->assign(n_cells, 0.);
-  if (solution.scene.has_pressure())
+  if (scene.has_pressure())
     for (auto *part : {&result.normal, &result.penetration, &result.tension})
       part->assign(n_cells, 0.);
-  if (solution.scene.has_coulomb_friction())
+  if (scene.has_coulomb_friction())
     result.excess.assign(n_cells, 0.);
   coefficients.resize(n_cells);
-  for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  degrees.resize(n_cells);
+  for (const Cell &cell : field.dof_handler.active_cell_iterators())
   {
     if (!cell->is_artificial())
-      coefficients[cell->active_cell_index()] = solution.coefficients(cell->active_cell_index());
+    {
+      degrees[cell->active_cell_index()] = field.degree(cell);
+      coefficients[cell->active_cell_index()] = field.coefficients(cell);
+    }
     maps.push_back(map_of<dim>(cell));
     sizes.push_back(maps.back().longest_edge());
   }
@@ -144,7 +173,7 @@ template <int dim>
 void Residuals<dim>::add_volume(const Cell &cell)
 {
   const unsigned int index = cell->active_cell_index(), p = degrees[index];
-  const HookesLaw<dim> law(solution.scene.material_of(cell));
+  const HookesLaw<dim> law(scene.material_of(cell));
   const ShapeTable<dim> &table = tables.cell(p, p + 1);
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   const unsigned int n_rows = table.derivatives.m();
@@ -175,12 +204,12 @@ void Residuals<dim>::add_volume(const Cell &cell)
       second[c] = transpose(inverse) * reference * inverse;
     }
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
-    if (solution.scene.has_body_force())
+    if (scene.has_body_force())
     {
       const Point<dim> x = maps[index].point(table.points[q]);
       for (unsigned int c = 0; c < dim; ++c)
-        if (solution.scene.body_force[c])
-          residual[c] -= solution.scene.body_force[c]->value(x);
+        if (scene.body_force[c])
+          residual[c] -= scene.body_force[c]->value(x);
     }
     sum += table.weights[q] * std::abs(determinant(J)) * residual.norm_square();
   }
@@ -216,7 +245,7 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
                           const std::vector<Tensor<1, dim>> &normals) const
 {
   const unsigned int index = cell->active_cell_index();
-  const HookesLaw<dim> law(solution.scene.material_of(cell));
+  const HookesLaw<dim> law(scene.material_of(cell));
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   std::vector<Tensor<1, dim>> result(table.points.size());
   Tensor<2, dim> inverse;
@@ -234,7 +263,20 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
 // @sect3{Between cells}
 //
 // Against the neighbour's traction: half the jump (4.45), and both cells get it with their own
-// weights. At a hanging node each half of the long edge counts as an edge.
+// weights. At a hanging node each half of the long edge counts as an edge, and likewise each quarter of
+// a face. Beside a cell of another process both look at the face, each for its own cell.
+/** Is it seen from @p cell, its finer or first side, and does it matter to this process? */
+template <int dim>
+bool Residuals<dim>::sees_jump(const Cell &cell, const unsigned int face) const
+{
+  if (cell->face(face)->has_children())
+    return false;
+  const auto neighbor = cell->neighbor(face);
+  return (cell->is_locally_owned() || neighbor->is_locally_owned()) &&
+         (cell->neighbor_is_coarser(face) ||
+          cell->active_cell_index() < neighbor->active_cell_index());
+}
+
 /** Half the jump of the traction over an interior edge, seen from its finer or first side. */
 template <int dim>
 void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
@@ -258,8 +300,9 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     sum += points.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
-  result.jumps[index] += weight(index) * sum;
-  result.jumps[other] += weight(other) * sum;
+  for (const Cell &side : {cell, neighbor})
+    if (side->is_locally_owned())
+      result.jumps[side->active_cell_index()] += weight(side->active_cell_index()) * sum;
 }
 
 // @sect3{Under loads}
@@ -270,7 +313,7 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
 template <int dim>
 void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
 {
-  const auto &condition = solution.scene.boundaries[cell->face(face)->boundary_id()];
+  const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
   const FacePoints points = face_points(cell, face, table);
@@ -293,40 +336,41 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
 // Against the multiplier: $\sigma_t + g\lambda_N$ (4.45). For unilateral contact the normal
 // traction is compared with the pressure, and what the discrete conditions leave between their
 // points is added: penetration, pressures below zero, friction beyond its cone. Penetration is a
-// displacement and not a traction, so it is weighted the other way round, with $\mu^2 p_K/h_K$.
+// displacement and not a traction, so it is weighted the other way round, with $\mu^2 p_K/h_K$, $\mu$ the weight of its material.
 /**
- * What the body's traction sigma n - G misses of that of the contact: along the tangent z_N, along the
+ * What the body's traction sigma n - G misses of that of the contact: along the tangents z_N, along the
  * normal the pressure of unilateral contact, or nothing where only friction acts.
  */
 template <int dim>
-void Residuals<dim>::add_contact(const ContactFace<dim> &face)
+void Residuals<dim>::add_contact(const FieldFace<dim> &face)
 {
-  const unsigned int index = face.cell->active_cell_index(), n_gauss = face.degree + 1;
-  const auto &condition = solution.scene.boundaries[face.condition->id];
-  const ShapeTable<dim> &table = tables.face(face.degree, face.face_no, n_gauss);
+  const unsigned int index = face.cell->active_cell_index();
+  const auto &condition = *face.condition;
+  const ShapeTable<dim> &table = tables.face(face.degree(), face.face_no, face.degree() + 1);
   const auto own = tractions(face.cell, table, face_points(face.cell, face.face_no, table).normals);
   double tangential = 0, normal = 0, tension = 0, excess = 0;
-  for (unsigned int q = 0; q < n_gauss; ++q)
+  for (unsigned int q = 0; q < own.size(); ++q)
   {
-    const double s = tables.gauss(n_gauss).point(q)[0];
-    const ContactFrame<dim> frame = face.frame(s);
-    const double pressure = solution.contact_space.pressure(face, solution.z, s),
-                 friction = solution.contact_space.value(face, solution.z, s);
-    double along = own[q] * frame.tangent + friction, across = own[q] * frame.normal + pressure;
+    const FaceFrame<dim> frame = face.frame(table.points[q]);
+    const ContactTraction<dim> contact = field.traction(face, table.points[q]);
+    const double ds = table.weights[q] * frame.measure;
+    double across = own[q] * frame.normal + contact.pressure;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+    {
+      double along = own[q] * frame.tangents[s] + contact.friction[s];
+      for (unsigned int c = 0; c < dim; ++c)
+        if (condition.traction[c])
+          along -= frame.tangents[s][c] * condition.traction[c]->value(frame.x);
+      tangential += ds * along * along;
+    }
     for (unsigned int c = 0; c < dim; ++c)
       if (condition.traction[c])
-      {
-        const double load = condition.traction[c]->value(frame.x);
-        along -= frame.tangent[c] * load;
-        across -= frame.normal[c] * load;
-      }
-    const double ds = tables.gauss(n_gauss).weight(q) * frame.measure;
-    tangential += ds * along * along;
+        across -= frame.normal[c] * condition.traction[c]->value(frame.x);
     normal += ds * across * across;
-    tension += condition.is_unilateral() ? ds * std::pow(std::min(pressure, 0.), 2) : 0.;
-    if (condition.friction.coefficient)
-      excess += ds * std::pow(std::max(0., std::abs(friction) -
-                                               solution.contact_space.bound(face, solution.z, s)),
+    tension += condition.is_unilateral() ? ds * std::pow(std::min(contact.pressure, 0.), 2) : 0.;
+    if (condition.friction.knows_pressure())
+      excess += ds * std::pow(std::max(0., size_of(frame.tangential(contact.friction)) -
+                                               field.bound(face, table.points[q])),
                               2);
   }
   result.contact[index] += weight(index) * tangential;
@@ -336,30 +380,30 @@ void Residuals<dim>::add_contact(const ContactFace<dim> &face)
     return;
   result.normal[index] += weight(index) * normal;
   result.tension[index] += weight(index) * tension;
-  if (condition.friction.coefficient)
+  if (condition.friction.knows_pressure())
     result.excess[index] += weight(index) * excess;
   result.penetration[index] += penetration(face) / weight(index);
 }
 
-/** `mu^2 |max(u_n - u_0, 0)|^2`, seen at twice as many points as u_N has nodes. */
+/** `weight^2 |max(u_n - u_0, 0)|^2`, seen at twice as many points in a direction as u_N has nodes. */
 template <int dim>
-double Residuals<dim>::penetration(const ContactFace<dim> &face) const
+double Residuals<dim>::penetration(const FieldFace<dim> &face) const
 {
-  const unsigned int index = face.cell->active_cell_index(), n = 2 * (face.degree + 1);
-  const auto &condition = solution.scene.boundaries[face.condition->id];
-  const double mu = solution.scene.material_of(face.cell).mu();
+  const ShapeTable<dim> &table = tables.face(face.degree(), face.face_no, 2 * (face.degree() + 1));
+  const unsigned int n = table.points.size();
+  const double weight = scene.material_of(face.cell).weight();
   const std::vector<double> u =
-      evaluate(tables.face(face.degree, face.face_no, n).values, coefficients[index]);
+      evaluate(table.values, coefficients[face.cell->active_cell_index()]);
   double sum = 0;
   for (unsigned int q = 0; q < n; ++q)
   {
-    const ContactFrame<dim> frame = face.frame(tables.gauss(n).point(q)[0]);
-    double depth = -condition.gap_at(frame.x);
+    const FaceFrame<dim> frame = face.frame(table.points[q]);
+    double depth = -face.condition->gap_at(frame.x);
     for (unsigned int c = 0; c < dim; ++c)
       depth += frame.normal[c] * u[c * n + q];
-    if (condition.is_unilateral())
+    if (face.condition->is_unilateral())
       depth = std::max(depth, 0.);
-    sum += tables.gauss(n).weight(q) * frame.measure * std::pow(mu * depth, 2);
+    sum += table.weights[q] * frame.measure * std::pow(weight * depth, 2);
   }
   return sum;
 }
@@ -367,32 +411,34 @@ double Residuals<dim>::penetration(const ContactFace<dim> &face) const
 template <int dim>
 ErrorEstimate Residuals<dim>::compute()
 {
-  for (const Cell &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  for (const Cell &cell : field.dof_handler.active_cell_iterators())
   {
-    if (!cell->is_locally_owned())
+    if (cell->is_artificial())
       continue;
-    add_volume(cell);
+    if (cell->is_locally_owned())
+      add_volume(cell);
     for (const unsigned int face : cell->face_indices())
-      if (cell->at_boundary(face))
+      if (!cell->at_boundary(face))
       {
-        if (!solution.scene.boundaries[cell->face(face)->boundary_id()].has_contact())
-          add_boundary(cell, face);
+        if (sees_jump(cell, face))
+          add_jump(cell, face);
       }
-      else if (!cell->face(face)->has_children() &&
-               (cell->neighbor_is_coarser(face) ||
-                cell->active_cell_index() < cell->neighbor(face)->active_cell_index()))
-        add_jump(cell, face);
+      else if (cell->is_locally_owned() &&
+               !scene.boundaries[cell->face(face)->boundary_id()].has_contact())
+        add_boundary(cell, face);
   }
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  for (const FieldFace<dim> &face : field.faces())
     add_contact(face);
   return std::move(result);
 }
 } // namespace
 
 template <int dim>
-ErrorEstimate estimate_error(const Solution<dim> &solution)
+ErrorEstimate estimate_error(const Field<dim> &field)
 {
-  return Residuals<dim>(solution).compute();
+  ErrorEstimate result;
+  together(field.communicator(), [&]() { result = Residuals<dim>(field).compute(); });
+  return result;
 }
 
 // @sect3{What round-off makes of it}
@@ -401,9 +447,9 @@ ErrorEstimate estimate_error(const Solution<dim> &solution)
 // some day that of round-off, and stops falling whatever is refined. How large that is, is measured
 // and not estimated: by the indicator of a random displacement as large as the last bits are.
 template <int dim>
-double round_off_of_estimate(const Solution<dim> &solution)
+double round_off_of_estimate(const Field<dim> &field)
 {
-  Scene<dim> unloaded = solution.scene;
+  Scene<dim> unloaded = field.scene;
   unloaded.body_force = {};
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
   {
@@ -411,22 +457,11 @@ double round_off_of_estimate(const Solution<dim> &solution)
     if (boundary.is_unilateral()) // too far away to touch
       boundary.gap = expression<dim>(std::numeric_limits<double>::max());
   }
-  const DisplacementSpace<dim> &space = solution.displacement_space;
-  std::mt19937 random;
-  std::uniform_real_distribution<double> uniform(-1., 1.);
-  Vector<double> u(space.n_dofs());
-  for (unsigned int cell = 0; cell < space.degrees().size(); ++cell)
-  {
-    double largest = 0;
-    for (const auto dof : space.cell_dofs(cell))
-      largest = std::max(largest, std::abs(solution.u[dof]));
-    for (const auto dof : space.cell_dofs(cell))
-      u[dof] = std::numeric_limits<double>::epsilon() * largest * uniform(random);
-  }
-  return estimate_error<dim>({unloaded, solution.spaces, u, Vector<double>(solution.z.size())})
-      .total();
+  return norms(estimate_error(*field.last_bits(unloaded)), field.communicator()).total;
 }
 
-template ErrorEstimate estimate_error(const Solution<2> &);
-template double round_off_of_estimate(const Solution<2> &);
+template ErrorEstimate estimate_error(const Field<2> &);
+template ErrorEstimate estimate_error(const Field<3> &);
+template double round_off_of_estimate(const Field<2> &);
+template double round_off_of_estimate(const Field<3> &);
 } // namespace hpvi

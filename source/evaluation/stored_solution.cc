@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/file_format.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/stored_solution.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -79,7 +83,7 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
     CellRecord record;
     if (!(in >> record.degree) || record.degree == 0 || record.degree > 100)
       format.reject(file, "not a reference solution");
-    record.coefficients.resize(dim * Utilities::fixed_power<2>(record.degree + 1));
+    record.coefficients.resize(dim * std::lround(std::pow(record.degree + 1, dim)));
     for (double &value : record.coefficients)
       if (!(in >> value))
         format.reject(file, "the reference solution is incomplete");
@@ -90,42 +94,30 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
 } // namespace
 
 template <int dim>
-StoredSolution<dim>::StoredSolution(const Solution<dim> &solution, const double energy)
-    : mesh(&solution.displacement_space.triangulation()),
-      problem(entries_of(solution.scene.effective_parameters(), belongs_to_problem)),
-      energy_value(energy), degrees(solution.displacement_space.degrees())
-{
-  for (unsigned int cell = 0; cell < degrees.size(); ++cell)
-    cell_coefficients.push_back(solution.coefficients(cell));
-}
-
-template <int dim>
 StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &file)
-    : mesh(&own_mesh)
 {
-  static_assert(dim == 2, "the number of coefficients of a cell");
   std::istringstream content(content_of(file));
-  problem = read_problem(content, file, energy_value);
+  const std::vector<std::string> problem = read_problem(content, file, energy_value);
   format.check_entries(file, problem, entries_of(scene.effective_parameters(), belongs_to_problem));
   const std::map<std::string, CellRecord> records = read_records(content, file, dim);
-  make_mesh(scene, own_mesh);
+  make_mesh(scene, mesh);
   // Bisect every cell that is not in the file until all active cells are.
   for (bool complete = false; !complete;)
   {
     complete = true;
-    for (const auto &cell : own_mesh.active_cell_iterators())
+    for (const auto &cell : mesh.active_cell_iterators())
       if (records.count(path<dim>(cell)) == 0)
       {
-        if (own_mesh.n_active_cells() > records.size())
+        if (mesh.n_active_cells() > records.size())
           format.reject(file, "the reference solution has another coarse mesh");
         cell->set_refine_flag();
         complete = false;
       }
-    own_mesh.execute_coarsening_and_refinement();
+    mesh.execute_coarsening_and_refinement();
   }
-  if (own_mesh.n_active_cells() != records.size())
+  if (mesh.n_active_cells() != records.size())
     format.reject(file, "the reference solution has another coarse mesh");
-  for (const auto &cell : own_mesh.active_cell_iterators())
+  for (const auto &cell : mesh.active_cell_iterators())
   {
     const CellRecord &record = records.at(path<dim>(cell));
     degrees.push_back(record.degree);
@@ -134,21 +126,31 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
 }
 
 template <int dim>
-void StoredSolution<dim>::write(std::ostream &out) const
+void write_solution(std::ostream &out, const Field<dim> &field, const double energy)
 {
   std::ostringstream content;
   content.precision(17);
-  for (const std::string &entry : problem)
-    content << entry << '\n';
-  content << "J(u) = " << energy_value << '\n';
-  for (const auto &cell : mesh->active_cell_iterators())
+  if (rank_of(field.communicator()) == 0)
   {
-    content << path<dim>(cell) << ' ' << degrees[cell->active_cell_index()];
-    for (const double value : cell_coefficients[cell->active_cell_index()])
+    for (const std::string &entry :
+         entries_of(field.scene.effective_parameters(), belongs_to_problem))
+      content << entry << '\n';
+    content << "J(u) = " << energy << '\n';
+  }
+  for (const auto &cell : field.dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    content << path<dim>(cell) << ' ' << field.degree(cell);
+    for (const double value : field.coefficients(cell))
       content << ' ' << value;
     content << '\n';
   }
-  format.write(out, content.str());
+  std::string text;
+  for (const std::string &part : Utilities::MPI::all_gather(field.communicator(), content.str()))
+    text += part;
+  if (rank_of(field.communicator()) == 0)
+    format.write(out, text);
 }
 
 template <int dim>
@@ -160,7 +162,7 @@ double StoredSolution<dim>::energy() const
 template <int dim>
 const Triangulation<dim> &StoredSolution<dim>::triangulation() const
 {
-  return *mesh;
+  return mesh;
 }
 
 template <int dim>
@@ -176,4 +178,7 @@ const std::vector<double> &StoredSolution<dim>::coefficients(const unsigned int 
 }
 
 template class StoredSolution<2>;
+template class StoredSolution<3>;
+template void write_solution(std::ostream &, const Field<2> &, double);
+template void write_solution(std::ostream &, const Field<3> &, double);
 } // namespace hpvi

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/true_error.h>
 
 #include <algorithm>
@@ -93,7 +95,7 @@ template <int dim>
 struct LocalField
 {
   unsigned int degree;
-  const std::vector<double> &coefficients;
+  std::vector<double> coefficients;
   CellMap<dim> map;
 
   /** Values at Gauss points of a part of the cell. */
@@ -123,6 +125,12 @@ struct LocalField
 };
 
 template <int dim>
+LocalField<dim> local_field(const Field<dim> &field, const typename Field<dim>::Cell &cell)
+{
+  return {field.degree(cell), field.coefficients(cell), map_of<dim>(cell)};
+}
+
+template <int dim>
 void add_squares(const HookesLaw<dim> &law, const Values<dim> &field, const Values<dim> &truth,
                  const double weight, Squares &sums)
 {
@@ -132,24 +140,29 @@ void add_squares(const HookesLaw<dim> &law, const Values<dim> &field, const Valu
   sums.norm += weight * law.energy_product(truth.gradient);
 }
 
-/** Walks through two meshes that descend from one coarse mesh. */
+/** Over all processes. */
+Squares total(const Squares &own, MPI_Comm communicator)
+{
+  return {Utilities::MPI::sum(own.energy, communicator), Utilities::MPI::sum(own.l2, communicator),
+          Utilities::MPI::sum(own.norm, communicator)};
+}
+
+/** Walks through the cells of this process and another mesh that descends from the same coarse mesh. */
 template <int dim>
 class CommonRefinement
 {
 public:
   using Cell = typename Triangulation<dim>::cell_iterator;
 
-  CommonRefinement(const Scene<dim> &scene, const StoredSolution<dim> &solution,
-                   const StoredSolution<dim> &reference)
-      : scene(scene), solution(solution), reference(reference)
+  CommonRefinement(const Field<dim> &field, const StoredSolution<dim> &reference)
+      : field(field), mesh(field.dof_handler.get_triangulation()), reference(reference)
   {
   }
 
   Squares integrate()
   {
     auto other = reference.triangulation().begin(0);
-    for (auto cell = solution.triangulation().begin(0); cell != solution.triangulation().end(0);
-         ++cell, ++other)
+    for (auto cell = mesh.begin(0); cell != mesh.end(0); ++cell, ++other)
       descend(cell, {}, other, {});
     return sums;
   }
@@ -157,6 +170,8 @@ public:
 private:
   void descend(const Cell &a, const Box<dim> &in_a, const Cell &b, const Box<dim> &in_b)
   {
+    if (!a->has_children() && !a->is_locally_owned())
+      return;
     if (!a->has_children() && !b->has_children())
       integrate_over_leaf(a, in_a, b, in_b);
     else
@@ -167,23 +182,25 @@ private:
 
   void integrate_over_leaf(const Cell &a, const Box<dim> &in_a, const Cell &b, const Box<dim> &in_b)
   {
-    const unsigned int i = a->active_cell_index(), j = b->active_cell_index();
-    const LocalField<dim> field{solution.degree(i), solution.coefficients(i), map_of<dim>(a)};
+    const unsigned int j = b->active_cell_index();
+    const LocalField<dim> own = local_field(
+        field, typename Field<dim>::Cell(&mesh, a->level(), a->index(), &field.dof_handler));
     const LocalField<dim> truth{reference.degree(j), reference.coefficients(j), map_of<dim>(b)};
     // One point more than affine cells need, for those that are not.
-    const QGauss<dim> gauss(std::max(field.degree, truth.degree) + 2);
-    const auto field_values = field.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
+    const QGauss<dim> gauss(std::max(own.degree, truth.degree) + 2);
+    const auto field_values = own.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
     const double share = in_a.volume();
-    const HookesLaw<dim> law(scene.material_of(a));
+    const HookesLaw<dim> law(field.scene.material_of(a));
     for (unsigned int q = 0; q < gauss.size(); ++q)
       add_squares(law, field_values[q], truth_values[q],
                   gauss.weight(q) * share *
-                      std::abs(determinant(field.map.jacobian(in_a.point(gauss.point(q))))),
+                      std::abs(determinant(own.map.jacobian(in_a.point(gauss.point(q))))),
                   sums);
   }
 
-  const Scene<dim> &scene;
-  const StoredSolution<dim> &solution, &reference;
+  const Field<dim> &field;
+  const Triangulation<dim> &mesh;
+  const StoredSolution<dim> &reference;
   Squares sums;
 };
 
@@ -253,22 +270,22 @@ template <int dim>
 TrueError<dim>::~TrueError() = default;
 
 template <int dim>
-TrueErrors TrueError<dim>::measure(const Solution<dim> &solution,
+TrueErrors TrueError<dim>::measure(const Field<dim> &field,
                                    const std::vector<ContactState<dim>> &contact) const
 {
   TrueErrors errors;
   if (scene.exact_solution)
-    compare_with_exact(solution, contact, errors);
+    compare_with_exact(field, contact, errors);
   else if (reference)
-    compare_with_reference(solution, errors);
+    compare_with_reference(field, errors);
   return errors;
 }
 
 template <int dim>
-void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const
+void TrueError<dim>::compare_with_reference(const Field<dim> &field, TrueErrors &errors) const
 {
-  const StoredSolution<dim> field(solution);
-  const Squares sums = CommonRefinement<dim>(scene, field, *reference).integrate();
+  const Squares sums =
+      total(CommonRefinement<dim>(field, *reference).integrate(), field.communicator());
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
@@ -277,82 +294,124 @@ void TrueError<dim>::compare_with_reference(const Solution<dim> &solution, TrueE
 
 namespace
 {
-/** int f(s, x) over the straight edge from @p a to @p b, graded towards singular points of @p exact. */
-template <int dim, class F>
-double integrate_along(const Point<dim> &a, const Point<dim> &b, const ExactSolution<dim> &exact,
-                       const unsigned int n_gauss, const F &f)
+/** A face with straight edges and right angles between them. */
+template <int dim>
+struct FlatFace
 {
-  const double length = a.distance(b);
-  const CellMap<1>::Vertices ends{{Point<1>(0.), Point<1>(length)}};
-  std::vector<Point<1>> singular;
+  Point<dim> origin;
+  std::array<Tensor<1, dim>, dim - 1> edges;
+  Tensor<1, dim> normal; ///< outer unit normal
+  unsigned int face_no;
+
+  FlatFace(const CellMap<dim> &map, const unsigned int face_no)
+      : origin(map.point(point_on_face<dim>(face_no, Point<dim - 1>()))), face_no(face_no)
+  {
+    Point<dim - 1> middle;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+    {
+      edges[s] = map.point(point_on_face<dim>(face_no, Point<dim - 1>::unit_vector(s))) - origin;
+      middle[s] = 0.5;
+    }
+    normal = map.normal(face_no, point_on_face<dim>(face_no, middle));
+  }
+
+  CellMap<dim - 1> map() const ///< in coordinates along its edges
+  {
+    typename CellMap<dim - 1>::Vertices vertices;
+    for (unsigned int v = 0; v < vertices.size(); ++v)
+      for (unsigned int s = 0; s < dim - 1; ++s)
+        vertices[v][s] = (v >> s) & 1 ? edges[s].norm() : 0.;
+    return CellMap<dim - 1>(vertices);
+  }
+};
+
+/** int f(reference, x) over @p face, graded towards singular points of @p exact. */
+template <int dim, class F>
+double integrate_over(const FlatFace<dim> &face, const ExactSolution<dim> &exact,
+                      const unsigned int n_gauss, const F &f)
+{
+  double area = 1;
+  for (const Tensor<1, dim> &edge : face.edges)
+    area *= edge.norm();
+  std::vector<Point<dim - 1>> singular;
   for (const Point<dim> &x : exact.singularities())
-    singular.emplace_back((x - a) * (b - a) / length);
-  std::vector<Box<1>> boxes;
-  add_graded_boxes<1>(CellMap<1>(ends), {}, singular, 40, boxes);
-  const QGauss<1> gauss(n_gauss);
+  {
+    Point<dim - 1> along;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      along[s] = (x - face.origin) * face.edges[s] / face.edges[s].norm();
+    singular.push_back(along);
+  }
+  std::vector<Box<dim - 1>> boxes;
+  add_graded_boxes<dim - 1>(face.map(), {}, singular, 40, boxes);
+  const QGauss<dim - 1> gauss(n_gauss);
   double sum = 0;
-  for (const Box<1> &box : boxes)
+  for (const Box<dim - 1> &box : boxes)
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      const double s = box.point(gauss.point(q))[0];
-      sum += gauss.weight(q) * box.volume() * length * f(s, a + s * (b - a));
+      const Point<dim - 1> s = box.point(gauss.point(q));
+      Point<dim> x = face.origin;
+      for (unsigned int d = 0; d < dim - 1; ++d)
+        x += s[d] * face.edges[d];
+      sum += gauss.weight(q) * box.volume() * area * f(point_on_face<dim>(face.face_no, s), x);
     }
   return sum;
 }
 
 /** |lambda - z_N/g|^2 over one contact face. */
-template <int dim>
-double multiplier_square(const Solution<dim> &solution, const ContactFace<dim> &face,
-                         const ExactSolution<dim> &exact)
+double multiplier_square(const Field<2> &field, const FieldFace<2> &face,
+                         const ExactSolution<2> &exact)
 {
-  return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
-                         [&](const double s, const Point<dim> &x)
-                         {
-                           const double g = solution.contact_space.bound(face, solution.z, s);
-                           const double difference =
-                               exact.multiplier(x) -
-                               (g == 0. ? 0.
-                                        : solution.contact_space.value(face, solution.z, s) / g);
-                           return difference * difference;
-                         });
+  return integrate_over(FlatFace<2>(face.map, face.face_no), exact, face.degree() + 8,
+                        [&](const Point<2> &reference, const Point<2> &x)
+                        {
+                          const double g = field.bound(face, reference);
+                          const double difference =
+                              exact.multiplier(x) -
+                              (g == 0. ? 0. : field.traction(face, reference).friction[0] / g);
+                          return difference * difference;
+                        });
+}
+
+/** An exact solution says of lambda in space how large it is, which is no error of a vector. */
+double multiplier_square(const Field<3> &, const FieldFace<3> &, const ExactSolution<3> &)
+{
+  return TrueErrors::unknown;
 }
 
 /** |p - lambda_Nn|^2 over one contact face. */
 template <int dim>
-double pressure_square(const Solution<dim> &solution, const ContactFace<dim> &face,
+double pressure_square(const Field<dim> &field, const FieldFace<dim> &face,
                        const ExactSolution<dim> &exact)
 {
-  return integrate_along(face.point(0.), face.point(1.), exact, face.degree + 8,
-                         [&](const double s, const Point<dim> &x)
-                         {
-                           const double difference =
-                               exact.pressure(x) -
-                               solution.contact_space.pressure(face, solution.z, s);
-                           return difference * difference;
-                         });
+  return integrate_over(FlatFace<dim>(face.map, face.face_no), exact, face.degree() + 8,
+                        [&](const Point<dim> &reference, const Point<dim> &x)
+                        {
+                          const double difference =
+                              exact.pressure(x) - field.traction(face, reference).pressure;
+                          return difference * difference;
+                        });
 }
 
-/** -L(u) + int g |u_t| of the exact solution on one edge of the boundary. */
+/** -L(u) + int g |u_t| of the exact solution on one face of the boundary. */
 template <int dim>
-double boundary_potential(const BoundaryCondition<dim> &boundary, const Point<dim> &a,
-                          const Point<dim> &b, const Tensor<1, dim> &normal,
+double boundary_potential(const BoundaryCondition<dim> &boundary, const FlatFace<dim> &face,
                           const ExactSolution<dim> &exact)
 {
-  if (!boundary.has_traction() && !boundary.friction.bound)
+  if (!boundary.has_traction() && !boundary.friction)
     return 0.;
-  return integrate_along(a, b, exact, 12,
-                         [&](double, const Point<dim> &x)
-                         {
-                           const Tensor<1, dim> u = exact.displacement(x);
-                           double density = 0;
-                           for (unsigned int c = 0; c < dim; ++c)
-                             if (boundary.traction[c])
-                               density -= boundary.traction[c]->value(x) * u[c];
-                           if (boundary.friction.bound)
-                             density += boundary.friction.bound->value(x) *
-                                        (u - (u * normal) * normal).norm();
-                           return density;
-                         });
+  return integrate_over(face, exact, 12,
+                        [&](const Point<dim> &, const Point<dim> &x)
+                        {
+                          const Tensor<1, dim> u = exact.displacement(x);
+                          double density = 0;
+                          for (unsigned int c = 0; c < dim; ++c)
+                            if (boundary.traction[c])
+                              density -= boundary.traction[c]->value(x) * u[c];
+                          if (boundary.friction)
+                            density += boundary.friction.limit(x, 0.) *
+                                       (u - (u * face.normal) * face.normal).norm();
+                          return density;
+                        });
 }
 
 /** Largest distance of an exact transition to the nearest one of u_N; NaN where there is none. */
@@ -372,74 +431,98 @@ double transition_error(const std::vector<Point<dim>> &found, const ExactSolutio
   }
   return largest;
 }
+
+/** Squares on one cell; @p body_work gets `int F u` of the exact solution. */
+template <int dim>
+Squares compare_cell(const Field<dim> &field, const typename Field<dim>::Cell &cell,
+                     const ExactSolution<dim> &exact, double &body_work)
+{
+  const Scene<dim> &scene = field.scene;
+  const LocalField<dim> own = local_field(field, cell);
+  // Boxes shrink to about 1e-8 of the body: what a stress like r^{-1/2} leaves out there is far
+  // below round-off of the sum.
+  const unsigned int levels = std::max(1, 27 - cell->level());
+  std::vector<Box<dim>> boxes;
+  add_graded_boxes<dim>(own.map, {}, exact.singularities(), levels, boxes);
+  const QGauss<dim> gauss(own.degree + 5);
+  const HookesLaw<dim> law(scene.material_of(cell));
+  Squares sums;
+  for (const Box<dim> &box : boxes)
+  {
+    const auto field_values = own.at(box, gauss);
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const Point<dim> reference_point = box.point(gauss.point(q));
+      const Point<dim> x = own.map.point(reference_point);
+      const double weight =
+          gauss.weight(q) * box.volume() * std::abs(determinant(own.map.jacobian(reference_point)));
+      const Tensor<1, dim> u = exact.displacement(x);
+      add_squares(law, field_values[q], {u, exact.gradient(x)}, weight, sums);
+      for (unsigned int c = 0; c < dim; ++c)
+        if (scene.body_force[c])
+          body_work += weight * scene.body_force[c]->value(x) * u[c];
+    }
+  }
+  return sums;
+}
 } // namespace
 
 template <int dim>
-void TrueError<dim>::compare_with_exact(const Solution<dim> &solution,
+void TrueError<dim>::compare_with_exact(const Field<dim> &field,
                                         const std::vector<ContactState<dim>> &contact,
                                         TrueErrors &errors) const
 {
   const ExactSolution<dim> &exact = *scene.exact_solution;
-  const StoredSolution<dim> stored(solution);
-  Squares sums;
-  errors.of_cells.resize(stored.triangulation().n_active_cells());
-  for (const auto &cell : stored.triangulation().active_cell_iterators())
-  {
-    if (!cell->is_locally_owned())
-      continue;
-    const unsigned int index = cell->active_cell_index();
-    const LocalField<dim> field{stored.degree(index), stored.coefficients(index),
-                                map_of<dim>(cell)};
-    // Boxes shrink to about 1e-8 of the body: what a stress like r^{-1/2} leaves out there is far
-    // below round-off of the sum.
-    const unsigned int levels = std::max(1, 27 - cell->level());
-    std::vector<Box<dim>> boxes;
-    add_graded_boxes<dim>(field.map, {}, exact.singularities(), levels, boxes);
-    const QGauss<dim> gauss(field.degree + 5);
-    const HookesLaw<dim> law(scene.material_of(cell));
-    Squares own;
-    for (const Box<dim> &box : boxes)
-    {
-      const auto field_values = field.at(box, gauss);
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-      {
-        const Point<dim> reference_point = box.point(gauss.point(q));
-        const Point<dim> x = field.map.point(reference_point);
-        add_squares(law, field_values[q], {exact.displacement(x), exact.gradient(x)},
-                    gauss.weight(q) * box.volume() *
-                        std::abs(determinant(field.map.jacobian(reference_point))),
-                    own);
-      }
-    }
-    errors.of_cells[index] = own.energy;
-    sums += own;
-  }
+  Squares own;
+  double potential = 0, friction = 0, pressure = 0;
+  errors.of_cells.resize(field.dof_handler.get_triangulation().n_active_cells());
+  bool has_multipliers = false;
+  together(field.communicator(),
+           [&]()
+           {
+             double body_work = 0;
+             for (const auto &cell : field.dof_handler.active_cell_iterators())
+               if (cell->is_locally_owned())
+               {
+                 const Squares here = compare_cell<dim>(field, cell, exact, body_work);
+                 errors.of_cells[cell->active_cell_index()] = here.energy;
+                 own += here;
+               }
+             potential = 0.5 * own.norm - body_work;
+             for (const auto &cell : field.dof_handler.active_cell_iterators())
+               for (const unsigned int f : cell->face_indices())
+                 if (cell->is_locally_owned() && cell->at_boundary(f))
+                   potential += boundary_potential(scene.boundaries[cell->face(f)->boundary_id()],
+                                                   FlatFace<dim>(map_of<dim>(cell), f), exact);
+             for (const FieldFace<dim> &face : field.faces())
+             {
+               has_multipliers = has_multipliers || !field.friction_cuts(face).empty() ||
+                                 !field.pressures(face).empty();
+               errors.of_faces.push_back(
+                   scene.has_friction() ? multiplier_square(field, face, exact) : 0.);
+               friction += errors.of_faces.back();
+               pressure +=
+                   face.condition->has_pressure() ? pressure_square(field, face, exact) : 0.;
+             }
+           });
+  const MPI_Comm all = field.communicator();
+  const Squares sums = total(own, all);
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
-  errors.reference_energy = 0.5 * sums.norm;
-  for (const auto &cell : stored.triangulation().active_cell_iterators())
-    for (const unsigned int f : cell->face_indices())
-      if (cell->is_locally_owned() && cell->at_boundary(f))
-        errors.reference_energy += boundary_potential(
-            scene.boundaries[cell->face(f)->boundary_id()], cell->face(f)->vertex(0),
-            cell->face(f)->vertex(1),
-            map_of<dim>(cell).normal(f, point_on_face<dim>(f, Point<dim - 1>(0.5))), exact);
-  if (solution.contact_space.n_multipliers() == 0)
+  errors.reference_energy = Utilities::MPI::sum(potential, all);
+  friction = Utilities::MPI::sum(friction, all);
+  pressure = Utilities::MPI::sum(pressure, all);
+  if (Utilities::MPI::max(has_multipliers ? 1 : 0, all) == 0)
     return;
-  double friction = 0, pressure = 0;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-  {
-    errors.of_faces.push_back(scene.has_friction() ? multiplier_square(solution, face, exact) : 0.);
-    friction += errors.of_faces.back();
-    pressure += face.condition->has_pressure() ? pressure_square(solution, face, exact) : 0.;
-  }
   if (scene.has_friction())
     errors.multiplier_l2 = std::sqrt(friction);
   if (scene.has_pressure())
     errors.pressure_l2 = std::sqrt(pressure);
-  errors.transition = transition_error(transitions(contact), exact);
+  errors.transition =
+      Utilities::MPI::all_gather(all, transition_error(transitions(contact), exact)).front();
 }
 
 template class TrueError<2>;
+template class TrueError<3>;
 } // namespace hpvi

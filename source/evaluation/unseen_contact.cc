@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/deformation.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/evaluation/solution_field.h>
 #include <hpvi/evaluation/unseen_contact.h>
 
 #include <boost/math/tools/minima.hpp>
@@ -24,9 +25,10 @@ bool presses(const ContactFace<dim> &face, const Vector<double> &z)
 
 /** The deepest point of one face. */
 template <int dim>
-UnseenContact<dim> deepest_point(const ContactFace<dim> &face, const Solution<dim> &solution)
+UnseenContact<dim> deepest_point(const ContactFace<dim> &face, const FieldFace<dim> &field_face,
+                                 const Field<dim> &field)
 {
-  const EdgeDisplacement<dim> u_n(face, solution, &ContactFrame<dim>::normal);
+  const EdgeDisplacement<dim> u_n(field_face, field, false);
   const auto gap = [&](const double s) { return face.condition->gap_at(face.point(s)) - u_n(s); };
   const unsigned int n_samples = 4 * (face.degree + 1);
   std::vector<double> samples;
@@ -53,6 +55,7 @@ template <int dim>
 std::vector<UnseenContact<dim>> unseen_contacts(const Solution<dim> &solution)
 {
   const std::vector<ContactFace<dim>> &faces = solution.contact_space.faces();
+  const SolutionField<dim> field(solution);
   const double negligible = 1e-10 * solution.u.linfty_norm();
   const auto is_next_to = [&](const ContactFace<dim> &face, const unsigned int other)
   {
@@ -63,7 +66,7 @@ std::vector<UnseenContact<dim>> unseen_contacts(const Solution<dim> &solution)
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (faces[k].condition->is_unilateral() && !presses(faces[k], solution.z) &&
         !is_next_to(faces[k], k + 1) && !(k > 0 && is_next_to(faces[k], k - 1)))
-      if (const UnseenContact<dim> deepest = deepest_point(faces[k], solution);
+      if (const UnseenContact<dim> deepest = deepest_point(faces[k], field.faces()[k], field);
           deepest.depth > negligible)
         result.push_back(deepest);
   return result;
@@ -89,14 +92,15 @@ std::vector<double> condition_points(const ContactFace<dim> &face, const ShapeTa
 /** The place where the gap is missed most, by more than @p negligible; none without a face. */
 template <int dim>
 UnseenGap<dim> missed_gap(const ContactFace<dim> &face, const Solution<dim> &solution,
-                          const double negligible)
+                          const SolutionField<dim> &field, const double negligible)
 {
   const auto gap = [&](const double s) { return face.condition->gap_at(face.point(s)); };
   const std::vector<double> points = condition_points(face, solution.tables);
   std::vector<double> values;
   for (const double s : points)
     values.push_back(gap(s));
-  const EdgeDisplacement<dim> u_n(face, solution, &ContactFrame<dim>::normal);
+  const EdgeDisplacement<dim> u_n(field.faces()[&face - &solution.contact_space.faces().front()],
+                                  field, false);
   UnseenGap<dim> worst{nullptr, {}, 0., 0.};
   double most = negligible;
   for (const double value : values)
@@ -118,14 +122,16 @@ UnseenGap<dim> missed_gap(const ContactFace<dim> &face, const Solution<dim> &sol
 } // namespace
 
 template <int dim>
-double deformation(const Solution<dim> &solution)
+double deformation(const Field<dim> &field)
 {
   Deformation<dim> deformation;
-  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  for (const auto &cell : field.dof_handler.active_cell_iterators())
   {
+    if (!cell->is_locally_owned())
+      continue;
     const CellMap<dim> map = map_of<dim>(cell);
     const auto &nodes = cell->get_fe().base_element(0).get_unit_support_points();
-    const std::vector<double> u = solution.coefficients(cell->active_cell_index());
+    const std::vector<double> u = field.coefficients(cell);
     for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       Tensor<1, dim> value;
@@ -134,29 +140,30 @@ double deformation(const Solution<dim> &solution)
       deformation.add(map.point(nodes[i]), value);
     }
   }
-  return deformation.largest();
+  return deformation.largest(field.communicator());
 }
 
 template <int dim>
 std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution)
 {
-  const Geometry<dim> &geometry = solution.scene.geometry;
-  const double shortest = 1e-6 * geometry.corners[0].distance(geometry.corners[3]);
+  const double shortest = 1e-6 * solution.scene.geometry.diameter();
   const auto &faces = solution.contact_space.faces();
   const auto may_miss = [&](const ContactFace<dim> &face)
   { return face.condition->is_unilateral() && face.condition->gap && face.length > shortest; };
   std::vector<UnseenGap<dim>> result;
   if (std::none_of(faces.begin(), faces.end(), may_miss))
     return result;
-  const double negligible = 1e-3 * deformation(solution);
+  const SolutionField<dim> field(solution);
+  const double negligible = 1e-3 * deformation(field);
   for (const ContactFace<dim> &face : faces)
     if (may_miss(face))
-      if (const UnseenGap<dim> missed = missed_gap(face, solution, negligible); missed.face)
+      if (const UnseenGap<dim> missed = missed_gap(face, solution, field, negligible); missed.face)
         result.push_back(missed);
   return result;
 }
 
 template std::vector<UnseenContact<2>> unseen_contacts(const Solution<2> &);
-template double deformation(const Solution<2> &);
+template double deformation(const Field<2> &);
+template double deformation(const Field<3> &);
 template std::vector<UnseenGap<2>> unseen_gaps(const Solution<2> &);
 } // namespace hpvi

@@ -207,15 +207,6 @@ std::string quoted(const std::string &name)
   return "\"" + name + "\"";
 }
 
-/** a, b @p conjunction c. */
-std::string listed(const std::vector<std::string> &names, const std::string &conjunction)
-{
-  std::string result;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    result += (k == 0 ? "" : k + 1 == names.size() ? " " + conjunction + " " : ", ") + names[k];
-  return result;
-}
-
 /** May @p written be a slip of the pen for @p known? Word by word, for "Boundary low" is not meant for "Boundary top". */
 bool is_near(const std::string &written, const std::string &known)
 {
@@ -279,6 +270,17 @@ std::string Parameters::hint(const std::string &word) const
   return {};
 }
 
+/** Of several sections that begin with the same word as @p section: "left" and "top" of "Boundary left", "Boundary top". */
+std::string Parameters::names_of_kind(const std::string &section) const
+{
+  const std::string kind = section.substr(0, section.find(' ') + 1);
+  std::vector<std::string> names;
+  for (const std::string &known : sections())
+    if (!kind.empty() && known.rfind(kind, 0) == 0)
+      names.push_back(known.substr(kind.size()));
+  return names.size() > 1 ? listed(names, "and") : "";
+}
+
 std::string Parameters::instead_of_section(const std::string &section) const
 {
   if (const std::string remedy = hint(section); !remedy.empty())
@@ -287,6 +289,8 @@ std::string Parameters::instead_of_section(const std::string &section) const
     return "this is an entry: set " + entry;
   if (const std::string near = nearest(section, sections()); !near.empty())
     return "the nearest known one is " + quoted(near);
+  if (const std::string names = names_of_kind(section); !names.empty())
+    return "this scene has: " + names;
   return "there are " + listed(sections(), "and");
 }
 

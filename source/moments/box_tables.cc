@@ -14,54 +14,59 @@ using namespace dealii;
 namespace
 {
 template <int dim>
+std::vector<std::array<unsigned int, dim>> numbers_of(const FiniteElement<dim> &fe)
+{
+  std::vector<std::array<unsigned int, dim>> numbers(fe.dofs_per_cell / dim);
+  for (unsigned int k = 0; k < fe.dofs_per_cell; ++k)
+  {
+    const auto [component, shape] = fe.system_to_component_index(k);
+    numbers[shape][component] = k;
+  }
+  return numbers;
+}
+
+template <int dim>
 BoxTable<dim> tabulate(const FiniteElement<dim> &fe, const std::vector<Point<dim>> &points,
-                       const std::vector<double> &weights, const bool second)
+                       const std::vector<double> &weights)
 {
   BoxTable<dim> table;
   table.points = points;
   table.weights = weights;
   table.values.reinit(points.size(), fe.dofs_per_cell);
   for (unsigned int a = 0; a < dim; ++a)
-  {
     table.gradients[a].reinit(points.size(), fe.dofs_per_cell);
-    for (unsigned int b = 0; second && b < dim; ++b)
-      table.second[a][b].reinit(points.size(), fe.dofs_per_cell);
-  }
   for (unsigned int q = 0; q < points.size(); ++q)
     for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
     {
       table.values(q, i) = fe.shape_value(i, points[q]);
+      const Tensor<1, dim> gradient = fe.shape_grad(i, points[q]);
       for (unsigned int a = 0; a < dim; ++a)
-      {
-        table.gradients[a](q, i) = fe.shape_grad(i, points[q])[a];
-        for (unsigned int b = 0; second && b < dim; ++b)
-          table.second[a][b](q, i) = fe.shape_grad_grad(i, points[q])[a][b];
-      }
+        table.gradients[a](q, i) = gradient[a];
     }
   return table;
 }
 
-/** @p rule on the part of a face that begins at @p begin and has edges of length @p length. */
+/** @p rule on a face. */
 template <int dim>
 BoxTable<dim> tabulate_face(const FiniteElement<dim> &fe, const Quadrature<dim - 1> &rule,
-                            const unsigned int face, const Point<dim> &begin, const double length)
+                            const unsigned int face)
 {
   const auto axes = tangents<dim>(face);
-  std::vector<Point<dim>> points(rule.size(), begin);
+  std::vector<Point<dim>> points(rule.size());
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
     points[q][face / 2] = face % 2;
     for (unsigned int s = 0; s < dim - 1; ++s)
-      points[q][axes[s]] += length * rule.point(q)[s];
+      points[q][axes[s]] = rule.point(q)[s];
   }
-  return tabulate(fe, points, rule.get_weights(), false);
+  return tabulate(fe, points, rule.get_weights());
 }
 
 template <int dim>
 BoxTable<dim> tabulate_cell(const FiniteElement<dim> &fe, const unsigned int n_gauss)
 {
   const QGauss<dim> rule(n_gauss);
-  return tabulate(fe, rule.get_points(), rule.get_weights(), true);
+  return tabulate(fe, rule.get_points(), rule.get_weights());
 }
 } // namespace
 
@@ -74,23 +79,15 @@ FE_Q<dim> BoxTables<dim>::scalar() const
 template <int dim>
 BoxTables<dim>::BoxTables(const unsigned int degree)
     : degree(degree), fe(FE_Q<dim>(degree), dim), n_shapes(fe.dofs_per_cell / dim),
-      cell(tabulate_cell(scalar(), degree + 1))
+      numbers(numbers_of(fe)), cell(tabulate_cell(scalar(), degree + 1))
 {
   const FE_Q<dim> element = scalar();
   const QGauss<dim - 1> rule(degree + 1);
   for (const unsigned int face : GeometryInfo<dim>::face_indices())
   {
-    faces.push_back(tabulate_face(element, rule, face, Point<dim>(), 1));
-    for (unsigned int part = 0; part < GeometryInfo<dim>::max_children_per_face; ++part)
-    {
-      Point<dim> begin;
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        begin[tangents<dim>(face)[s]] = 0.5 * ((part >> s) & 1U);
-      quarters.push_back(tabulate_face(element, rule, face, begin, 0.5));
-    }
+    faces.push_back(tabulate_face(element, rule, face));
     if (degree > 1)
-      moment_points.push_back(
-          tabulate_face(element, QGauss<dim - 1>(degree - 1), face, Point<dim>(), 1));
+      moment_points.push_back(tabulate_face(element, QGauss<dim - 1>(degree - 1), face));
   }
   for (unsigned int a = 0; a < dim; ++a)
     for (unsigned int b = 0; b < dim; ++b)
@@ -164,22 +161,6 @@ void BoxTables<dim>::make_moments()
 }
 
 template <int dim>
-unsigned int BoxTables<dim>::part(const unsigned int face, const std::array<bool, dim> &above)
-{
-  const auto axes = tangents<dim>(face);
-  unsigned int part = 0;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    part += static_cast<unsigned int>(above[axes[s]]) << s;
-  return face * GeometryInfo<dim>::max_children_per_face + part;
-}
-
-template <int dim>
-BoxTable<dim> BoxTables<dim>::face_table(const unsigned int face, const unsigned int n_gauss) const
-{
-  return tabulate_face(scalar(), QGauss<dim - 1>(n_gauss), face, Point<dim>(), 1);
-}
-
-template <int dim>
 double BoxTables<dim>::psi(const unsigned int k, const unsigned int face, const Point<dim> &x) const
 {
   double product = 1;
@@ -208,8 +189,7 @@ FullMatrix<double> BoxTables<dim>::stiffness(const HookesLaw<dim> &law,
       { return products[a][b](i, j) * volume / (size[a] * size[b]); };
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int d = 0; d < dim; ++d)
-          K(fe.component_to_system_index(c, i), fe.component_to_system_index(d, j)) =
-              law.stiffness(P, c, d);
+          K(numbers[i][c], numbers[j][d]) = law.stiffness(P, c, d);
     }
   return K;
 }
@@ -224,8 +204,7 @@ FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &mom
     {
       if (!moments[dim * face + c])
         continue;
-      const auto number = [&](const unsigned int shape)
-      { return fe.component_to_system_index(c, shape); };
+      const auto number = [&](const unsigned int shape) { return numbers[shape][c]; };
       for (unsigned int r = 0; r < n_moments(); ++r)
       {
         const unsigned int row = number(inner[face][r]);
@@ -254,21 +233,10 @@ Tensor<2, dim> gradient(const BoxTable<dim> &table, const unsigned int q,
   return result;
 }
 
-template <int dim>
-Tensor<1, dim> value(const BoxTable<dim> &table, const unsigned int q, const CellField<dim> &field)
-{
-  Tensor<1, dim> result;
-  for (unsigned int i = 0; i < field.size(); ++i)
-    result += table.values(q, i) * field[i];
-  return result;
-}
-
 template class BoxTables<2>;
 template class BoxTables<3>;
 template Tensor<2, 2> gradient(const BoxTable<2> &, unsigned int, const CellField<2> &,
                                const Tensor<1, 2> &);
 template Tensor<2, 3> gradient(const BoxTable<3> &, unsigned int, const CellField<3> &,
                                const Tensor<1, 3> &);
-template Tensor<1, 2> value(const BoxTable<2> &, unsigned int, const CellField<2> &);
-template Tensor<1, 3> value(const BoxTable<3> &, unsigned int, const CellField<3> &);
 } // namespace hpvi

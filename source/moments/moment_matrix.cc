@@ -113,9 +113,8 @@ std::vector<double> MomentMatrix<dim>::rigid_motions() const
 {
   const unsigned int n = space.owned.n_elements();
   const FESystem<dim> &fe = space.tables.fe;
-  const Corners<dim> &corners = space.scene.geometry.corners;
-  const Point<dim> centre = corners.front() + 0.5 * (corners.back() - corners.front());
-  const double length = corners.back().distance(centre);
+  const Point<dim> centre = space.scene.geometry.centre();
+  const double length = space.scene.geometry.radius();
   std::vector<double> result(n * n_motions<dim>, 0.);
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
   for (const auto &cell : space.dof_handler.active_cell_iterators())

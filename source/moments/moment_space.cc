@@ -44,33 +44,6 @@ private:
 } // namespace
 
 template <int dim>
-ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) const
-{
-  ContactVector<dim> result;
-  if (is_friction())
-    result = z / std::max(1., z.norm());
-  else
-    result[0] = std::max(0., z[0]);
-  return result;
-}
-
-template <int dim>
-bool ContactMoment<dim>::holds(const ContactVector<dim> &z) const
-{
-  return is_friction() ? z.norm() <= 1 : z[0] > 0;
-}
-
-template <int dim>
-std::vector<unsigned int> MomentFace<dim>::axes() const
-{
-  std::vector<unsigned int> result;
-  for (unsigned int c = 0; c < dim; ++c)
-    if (c == face / 2 ? has_pressure() : has_friction())
-      result.push_back(c);
-  return result;
-}
-
-template <int dim>
 MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
     : scene(scene), tables(tables), dof_handler(mesh)
@@ -121,12 +94,13 @@ void MomentSpace<dim>::constrain()
 {
   constraints.reinit(relevant);
   DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     ComponentMask mask(dim, false);
     for (unsigned int c = 0; c < dim; ++c)
       mask.set(c, boundary.displacement[c] != nullptr ||
-                      (boundary.holds_normal() && c == boundary.id / 2));
+                      (boundary.holds_normal() && c == sides[boundary.id].axis));
     if (mask.n_selected_components() > 0)
       VectorTools::interpolate_boundary_values(
           dof_handler, boundary.id, PrescribedDisplacement<dim>(boundary), constraints, mask);
@@ -147,10 +121,16 @@ void MomentSpace<dim>::find_contact()
           continue;
         const BoundaryCondition<dim> &boundary = condition(cell, number);
         MomentFace<dim> face{cell, number};
-        if (boundary.has_contact() && boundary.friction.bound)
-          add_friction(face, dofs);
+        if (boundary.has_contact() && boundary.friction)
+        {
+          face.friction = contact.size();
+          add_moments(face, ContactMoment<dim>::Kind::friction, dofs);
+        }
         if (boundary.is_unilateral())
-          add_pressures(face, dofs);
+        {
+          face.pressure = contact.size();
+          add_moments(face, ContactMoment<dim>::Kind::pressure, dofs);
+        }
         if (!face.has_friction() && !face.has_pressure())
           continue;
         face_numbers[{cell->active_cell_index(), number}] = faces.size();
@@ -160,44 +140,33 @@ void MomentSpace<dim>::find_contact()
 }
 
 template <int dim>
-void MomentSpace<dim>::add_friction(MomentFace<dim> &face,
-                                    const std::vector<types::global_dof_index> &dofs)
+void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
+                                   const typename ContactMoment<dim>::Kind kind,
+                                   const std::vector<types::global_dof_index> &dofs)
 {
-  face.friction = contact.size();
   const BoxTable<dim> &table = tables.moment_points[face.face];
   for (unsigned int k = 0; k < tables.n_moments(); ++k)
   {
-    ContactMoment<dim> disc;
-    disc.kind = ContactMoment<dim>::Kind::friction;
-    disc.x = point_of(face.cell, table.points[k]);
-    disc.area = table.weights[k] * face.cell->face(face.face)->measure();
-    disc.bound = condition(face.cell, face.face).friction.bound->value(disc.x);
-    disc.weight = disc.bound * disc.area;
-    for (unsigned int s = 0; s < dim - 1; ++s)
-      disc.unknowns[s] = owned.index_within_set(
-          dof(dofs, tables.inner[face.face][k], tangents<dim>(face.face)[s]));
-    contact.push_back(disc);
-  }
-}
-
-template <int dim>
-void MomentSpace<dim>::add_pressures(MomentFace<dim> &face,
-                                     const std::vector<types::global_dof_index> &dofs)
-{
-  face.pressure = contact.size();
-  const BoxTable<dim> &table = tables.moment_points[face.face];
-  for (unsigned int k = 0; k < tables.n_moments(); ++k)
-  {
-    ContactMoment<dim> pressure;
-    pressure.kind = ContactMoment<dim>::Kind::pressure;
-    pressure.x = point_of(face.cell, table.points[k]);
-    pressure.area = table.weights[k] * face.cell->face(face.face)->measure();
-    pressure.weight = pressure.area;
-    pressure.gap[0] = moment_of_gap(face, k);
-    pressure.sign = face.face % 2 == 0 ? -1. : 1.;
-    pressure.unknowns.fill(
-        owned.index_within_set(dof(dofs, tables.inner[face.face][k], face.face / 2)));
-    contact.push_back(pressure);
+    const auto unknown = [&](const unsigned int component)
+    { return owned.index_within_set(dof(dofs, tables.inner[face.face][k], component)); };
+    ContactMoment<dim> moment;
+    moment.kind = kind;
+    moment.x = point_of(face.cell, table.points[k]);
+    moment.area = table.weights[k] * face.cell->face(face.face)->measure();
+    if (moment.is_friction())
+    {
+      moment.bound = condition(face.cell, face.face).friction.limit(moment.x, 0.);
+      for (unsigned int s = 0; s < dim - 1; ++s)
+        moment.unknowns[s] = unknown(tangents<dim>(face.face)[s]);
+    }
+    else
+    {
+      moment.gap[0] = moment_of_gap(face, k);
+      moment.sign = face.face % 2 == 0 ? -1. : 1.;
+      moment.unknowns.fill(unknown(face.face / 2));
+    }
+    moment.weight = moment.bound * moment.area;
+    contact.push_back(moment);
   }
 }
 
@@ -235,7 +204,7 @@ types::global_dof_index MomentSpace<dim>::dof(const std::vector<types::global_do
                                               const unsigned int shape,
                                               const unsigned int component) const
 {
-  return dofs[tables.fe.component_to_system_index(component, shape)];
+  return dofs[tables.numbers[shape][component]];
 }
 
 template <int dim>
@@ -387,9 +356,8 @@ MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
       continue;
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
-      result[dim * face + c] = c == face / 2
-                                   ? boundary.is_unilateral()
-                                   : boundary.has_contact() && boundary.friction.bound != nullptr;
+      result[dim * face + c] = c == face / 2 ? boundary.is_unilateral()
+                                             : boundary.has_contact() && bool(boundary.friction);
   }
   return result;
 }
@@ -402,10 +370,6 @@ const MomentFace<dim> *MomentSpace<dim>::moment_face(const Cell &cell,
   return found == face_numbers.end() ? nullptr : &faces[found->second];
 }
 
-template struct ContactMoment<2>;
-template struct ContactMoment<3>;
-template struct MomentFace<2>;
-template struct MomentFace<3>;
 template class MomentSpace<2>;
 template class MomentSpace<3>;
 } // namespace hpvi

@@ -73,7 +73,7 @@ void PrimalSystem<dim>::assemble()
       const CellField<dim> loads = load(cell);
       for (unsigned int i = 0; i < loads.size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
-          nodal[fe.component_to_system_index(c, i)] = loads[i][c];
+          nodal[space.tables.numbers[i][c]] = loads[i][c];
       const std::vector<bool> moment_components = space.moment_components(cell);
       if (std::find(moment_components.begin(), moment_components.end(), true) ==
           moment_components.end())

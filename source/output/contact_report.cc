@@ -48,6 +48,23 @@ double largest_force(const Equilibrium<dim> &equilibrium)
   return largest;
 }
 
+std::string moment_text(const double moment)
+{
+  return text(moment, digits);
+}
+
+std::string moment_text(const Tensor<1, 3> &moment)
+{
+  return point_text(moment);
+}
+
+/** As in "moment 3 about (0.5 0.5)". */
+template <int dim>
+std::string moment_text(const BoundaryForce<dim> &force, const Equilibrium<dim> &equilibrium)
+{
+  return "moment " + moment_text(force.moment) + " about " + point_text<dim>(equilibrium.centre);
+}
+
 /** Without the round-off of a component. */
 template <int dim>
 Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
@@ -86,6 +103,22 @@ std::string in_words(const std::string &name, const Scene<dim> &scene,
          labelled(stress.beyond, scene.length_unit) + " from there";
 }
 
+/** In the plane a force has a line; in space in general none, but a moment. */
+std::string acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
+                   const ContactState<2> &state, const double scale)
+{
+  if (const auto line = line_of_action(force, equilibrium.centre, state, scale))
+    return "force " + point_text(clean(force.force, scale)) + " through " +
+           point_text<2>(clean<2>(*line, state.area));
+  return "no force";
+}
+
+std::string acting(const BoundaryForce<3> &force, const Equilibrium<3> &equilibrium,
+                   const ContactState<3> &, const double scale)
+{
+  return "force " + point_text(clean(force.force, scale)) + ", " + moment_text(force, equilibrium);
+}
+
 template <int dim>
 std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
                      const Equilibrium<dim> &equilibrium,
@@ -94,12 +127,8 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
   const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
   const double scale = largest_force(equilibrium);
-  std::string words = "\ncontact " + boundary.name + ": ";
-  if (const auto line = line_of_action(force, equilibrium.centre, state, scale))
-    words += "force " + point_text(clean(force.force, scale)) + " through " +
-             point_text<dim>(clean<dim>(*line, state.length));
-  else
-    words += "no force";
+  std::string words =
+      "\ncontact " + boundary.name + ": " + acting(force, equilibrium, state, scale);
   for (const UnboundedStress<dim> &stress : unbounded)
     words += "\n  " + in_words("pressure", scene, stress);
   if (state.highest_pressure > 0 && unbounded.empty())
@@ -109,6 +138,12 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
     words += "\n  " + mode_name(zone.mode) + " from " + point_text<dim>(zone.begin) + " to " +
              point_text<dim>(zone.end) + ", length " +
              labelled(zone.begin.distance(zone.end), scene.length_unit);
+  if constexpr (dim == 3)
+    words +=
+        "\n  open " + text(state.open_area, digits) + ", slip " +
+        text(state.slipping_area, digits) + " of " + text(state.area, digits) +
+        (scene.length_unit.empty() || scene.length_unit == "1" ? ""
+                                                               : " " + scene.length_unit + "^2");
   if (state.deepest_penetration > 0)
     words += "\n  penetration between points up to " +
              labelled(state.deepest_penetration, scene.length_unit) + " at " +
@@ -151,26 +186,61 @@ std::string json(const std::vector<UnboundedStress<dim>> &unbounded)
   return "[" + list + (list.empty() ? "]" : "\n      ]");
 }
 
+/** A number or a vector. */
+std::string json_value(const double value)
+{
+  return json_number(value);
+}
+
+std::string json_value(const Tensor<1, 3> &value)
+{
+  return json_point<3>(value);
+}
+
+/** In space a force has a moment in the place of a line. */
+std::string json_acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
+                        const ContactState<2> &state)
+{
+  const auto line = line_of_action(force, equilibrium.centre, state, largest_force(equilibrium));
+  return ",\n      \"through\": " + (line ? json_point<2>(*line) : "null");
+}
+
+std::string json_acting(const BoundaryForce<3> &force, const Equilibrium<3> &,
+                        const ContactState<3> &)
+{
+  return ",\n      \"moment\": " + json_value(force.moment);
+}
+
+/** In the plane alone: where its modes begin and end. */
+template <int dim>
+std::string json_zones(const ContactState<dim> &state)
+{
+  if (dim == 3)
+    return "";
+  std::string zones;
+  for (const ContactZone<dim> &zone : state.zones)
+    zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
+  return ",\n      \"length\": " + json_number(state.area) + ",\n      \"zones\": [" + zones +
+         "\n      ]";
+}
+
 template <int dim>
 std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
                  const Equilibrium<dim> &equilibrium,
                  const std::vector<UnboundedStress<dim>> &unbounded)
 {
   const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
-  const auto line = line_of_action(force, equilibrium.centre, state, largest_force(equilibrium));
-  std::string zones;
-  for (const ContactZone<dim> &zone : state.zones)
-    zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
   return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
-         ",\n      \"through\": " + (line ? json_point<dim>(*line) : "null") +
+         json_acting(force, equilibrium, state) +
          ",\n      \"normal_resultant\": " + json_number(state.normal_resultant) +
-         ",\n      \"friction_resultant\": " + json_number(state.friction_resultant) +
+         ",\n      \"friction_resultant\": " + json_value(state.friction_resultant) +
          json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
          ",\n      \"unbounded_pressure\": " + json(unbounded) +
          json_extreme("largest_penetration", state.deepest_penetration,
                       state.deepest_penetration_point) +
-         ",\n      \"length\": " + json_number(state.length) + ",\n      \"zones\": [" + zones +
-         "\n      ]\n    }";
+         json_zones(state) + ",\n      \"area\": " + json_number(state.area) +
+         ",\n      \"open_area\": " + json_number(state.open_area) +
+         ",\n      \"slipping_area\": " + json_number(state.slipping_area) + "\n    }";
 }
 } // namespace
 
@@ -194,8 +264,8 @@ std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
     return std::nullopt;
   const auto cross = [](const Tensor<1, dim> &a, const Tensor<1, dim> &b)
   { return a[0] * b[1] - a[1] * b[0]; };
-  const Point<dim> &begin = contact.zones.front().begin;
-  const Tensor<1, dim> edge = contact.zones.back().end - begin;
+  const Point<dim> &begin = contact.begin;
+  const Tensor<1, dim> edge = contact.end - begin;
   // (begin + s edge - c) x F = M
   if (std::abs(cross(edge, F)) > 1e-6 * edge.norm() * F.norm())
     return begin + (boundary.moment - cross(begin - centre, F)) / cross(edge, F) * edge;
@@ -218,9 +288,8 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
                      { return scene.boundaries[state.boundary].name == reaction.boundary; }))
     {
       words += (first ? "\nsupport " : "support ") + reaction.boundary + ": force " +
-               point_text(clean(reaction.force, scale)) + ", moment " +
-               text(reaction.moment, digits) + " about " + point_text<dim>(equilibrium.centre) +
-               "\n";
+               point_text(clean(reaction.force, scale)) + ", " +
+               moment_text(reaction, equilibrium) + "\n";
       first = false;
     }
   for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
@@ -254,21 +323,11 @@ std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
 
 namespace
 {
-std::string json_moment(const double moment)
-{
-  return json_number(moment);
-}
-
-std::string json_moment(const Tensor<1, 3> &moment)
-{
-  return json_point<3>(moment);
-}
-
 template <int dim>
 std::string json_force(const BoundaryForce<dim> &force)
 {
   return json_string(force.boundary) + ": {\"force\": " + json_point<dim>(force.force) +
-         ", \"moment\": " + json_moment(force.moment) + "}";
+         ", \"moment\": " + json_value(force.moment) + "}";
 }
 } // namespace
 
@@ -299,7 +358,7 @@ std::string loads_in_words(const Scene<2> &scene)
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>()).sum();
-  const double size = scene.geometry.corners[0].distance(scene.geometry.corners[3]);
+  const double size = scene.geometry.diameter();
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
          text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +
          " about " + point_text<2>(sum.centre) + "\n";
@@ -327,6 +386,13 @@ template std::string contact_in_words(const Scene<2> &, const std::vector<Contac
                                       const std::vector<UnboundedStress<2>> &);
 template std::string contact_json(const Scene<2> &, const std::vector<ContactState<2>> &,
                                   const Equilibrium<2> &, const std::vector<UnboundedStress<2>> &);
+template std::string contact_in_words(const Scene<3> &, const std::vector<ContactState<3>> &,
+                                      const Equilibrium<3> &,
+                                      const std::vector<UnboundedStress<3>> &);
+template std::string contact_json(const Scene<3> &, const std::vector<ContactState<3>> &,
+                                  const Equilibrium<3> &, const std::vector<UnboundedStress<3>> &);
 template std::string von_mises_json(const std::vector<StressSample<2>> &,
                                     const std::vector<UnboundedStress<2>> &);
+template std::string von_mises_json(const std::vector<StressSample<3>> &,
+                                    const std::vector<UnboundedStress<3>> &);
 } // namespace hpvi

@@ -84,11 +84,11 @@ private:
   void draw_legend();
 
   const StepReport<2> &step;
-  const DisplacementSpace<2> &space;
+  const Triangulation<2> &mesh;
   const BoundingBox<2> box;
   const double scale; ///< pixels per length
   const double width, height, bottom;
-  unsigned int p_min, p_max;
+  const unsigned int p_min, p_max;
   std::ostringstream out;
 
   static constexpr double longest = 800., left = 80., top = 64., right = 30., below = 112.;
@@ -96,14 +96,12 @@ private:
 };
 
 MeshPicture::MeshPicture(const StepReport<2> &step)
-    : step(step), space(step.solution.displacement_space),
-      box(GridTools::compute_bounding_box(space.triangulation())),
+    : step(step), mesh(step.field.dof_handler.get_triangulation()),
+      box(GridTools::compute_bounding_box(mesh)),
       scale(longest / std::max(box.side_length(0), box.side_length(1))),
-      width(scale * box.side_length(0)), height(scale * box.side_length(1)), bottom(top + height)
+      width(scale * box.side_length(0)), height(scale * box.side_length(1)), bottom(top + height),
+      p_min(step.size.p_min()), p_max(step.size.p_max())
 {
-  const auto extremes = std::minmax_element(space.degrees().begin(), space.degrees().end());
-  p_min = *extremes.first;
-  p_max = *extremes.second;
 }
 
 Point<2> MeshPicture::page(const Point<2> &x) const
@@ -132,7 +130,7 @@ void MeshPicture::draw_line(const double x1, const double y1, const double x2, c
 /** A cell in its colour and its degree in the middle; @p size is the shorter side on the page. */
 void MeshPicture::draw_cell(const Cell &cell, const double size)
 {
-  const unsigned int degree = space.degrees()[cell->active_cell_index()];
+  const unsigned int degree = step.field.degree(cell);
   out << "<path d=\"M";
   for (const unsigned int v : {0, 1, 3, 2})
     out << (v > 0 ? "L" : "") << coordinates(page(cell->vertex(v)));
@@ -148,7 +146,7 @@ void MeshPicture::draw_cell(const Cell &cell, const double size)
 void MeshPicture::draw_cells()
 {
   std::vector<std::pair<double, Cell>> cells;
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  for (const auto &cell : step.field.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       cells.emplace_back(scale * cell->measure() / map_of<2>(cell).longest_edge(), cell);
   std::stable_sort(cells.begin(), cells.end(),
@@ -163,11 +161,13 @@ void MeshPicture::draw_cells()
 void MeshPicture::draw_contact()
 {
   std::string path;
-  for (const auto &face : step.solution.contact_space.faces())
+  for (const auto &face : step.field.faces())
   {
-    const Tensor<1, 2> outward = 4. / scale * face.frame(0.5).normal;
-    path += 'M' + coordinates(page(face.point(0.) + outward)) + 'L' +
-            coordinates(page(face.point(1.) + outward));
+    const auto edge = face.cell->face(face.face_no);
+    const Tensor<1, 2> outward =
+        4. / scale * face.map.normal(face.face_no, /*middle of the cell*/ Point<2>(0.5, 0.5));
+    path += 'M' + coordinates(page(edge->vertex(0) + outward)) + 'L' +
+            coordinates(page(edge->vertex(1) + outward));
   }
   if (!path.empty())
     out << "<path d=\"" << path << "\" stroke=\"#c4161c\" stroke-width=\"4\" fill=\"none\"/>\n";
@@ -177,7 +177,7 @@ void MeshPicture::draw_contact()
 void MeshPicture::draw_axes()
 {
   constexpr double gap = 14., tick = 5.;
-  const std::string unit = step.solution.scene.length_unit;
+  const std::string unit = step.scene.length_unit;
   const Point<2> offset(axis_offset(box.lower_bound(0), box.upper_bound(0)),
                         axis_offset(box.lower_bound(1), box.upper_bound(1)));
   draw_line(left, bottom + gap, left + width, bottom + gap);
@@ -217,7 +217,7 @@ void MeshPicture::draw_legend()
     draw_label(x + swatch / 2, y + 15, text(p),
                std::string(" text-anchor=\"middle\" fill=\"") + text_colour(p) + '"');
   }
-  if (!step.solution.contact_space.faces().empty())
+  if (!step.field.faces().empty())
   {
     out << "<path d=\"M" << text(x + 24, 6) << ' ' << text(y + 11, 6)
         << "h30\" stroke=\"#c4161c\" stroke-width=\"4\"/>\n";
@@ -227,7 +227,7 @@ void MeshPicture::draw_legend()
 
 std::string MeshPicture::svg()
 {
-  const std::string title = step.solution.scene.title;
+  const std::string title = step.scene.title;
   // as wide as its widest line: a bold letter of this size takes about 9 pixels
   const double legend = 56 + swatch * (p_max - p_min + 1) + 190;
   const double page_width = left + std::max({width, legend, 9. * title.size(), 7. * 50}) + right;
@@ -237,8 +237,8 @@ std::string MeshPicture::svg()
       << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   draw_label(left, 24, title, " font-size=\"15\" font-weight=\"bold\"");
   draw_label(left, 44,
-             "step " + text(step.number) + ": " + text(space.triangulation().n_active_cells()) +
-                 " elements, " + text(space.n_free_dofs()) + " free unknowns");
+             "step " + text(step.number) + ": " + text(step.size.n_cells) + " elements, " +
+                 text(step.size.n_free) + " free unknowns");
   draw_cells();
   draw_contact();
   draw_axes();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_table.h>
@@ -6,34 +8,73 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/vtu.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <sstream>
 
 namespace hpvi
 {
+using namespace dealii;
+
 namespace
 {
 /** As the ResultDirectory wants them. */
 template <int dim>
-std::string names_written(const Scene<dim> &scene)
+std::string names_written(const Scene<dim> &scene, const unsigned int n_processes)
 {
   const OutputSettings &output = scene.output;
   return results::always + (scene.has_load_history() ? "|" + results::loading : "") +
          (output.contact && scene.has_contact() ? "|" + results::contact : "") +
-         (output.mesh_picture ? "|" + results::mesh : "") + (output.vtu ? "|" + results::vtu : "") +
+         (dim == 2 && output.mesh_picture ? "|" + results::mesh : "") +
+         (!output.vtu        ? ""
+          : n_processes == 1 ? "|" + results::vtu
+                             : "|" + results::pieces) +
          (output.reference ? "|" + results::reference : "");
+}
+
+/** together(), where what goes wrong is that something cannot be written. */
+void write_together(MPI_Comm communicator, const std::function<void()> &work)
+{
+  try
+  {
+    together(communicator, work);
+  }
+  catch (const InputError &)
+  {
+    throw;
+  }
+  catch (const std::runtime_error &error)
+  {
+    throw OutputFailure(error.what());
+  }
 }
 } // namespace
 
 template <int dim>
-Output<dim>::Output(const Scene<dim> &scene, const std::string &path)
-    : scene(scene),
-      directory(path, names_written(scene),
-                {scene.parameters ? scene.parameters->file_name() : "", scene.reference_solution})
+Output<dim>::Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator)
+    : scene(scene), path(path), communicator(communicator), is_first(rank_of(communicator) == 0),
+      n_processes(hpvi::n_processes(communicator))
 {
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (is_first)
+                     open(path);
+                 });
+}
+
+template <int dim>
+void Output<dim>::open(const std::string &path)
+{
+  directory = std::make_unique<ResultDirectory>(
+      path, names_written(scene, n_processes),
+      std::vector<std::string>{scene.parameters ? scene.parameters->file_name() : "",
+                               scene.reference_solution});
+  summary.processes = n_processes;
   try
   {
     write_summary(); // names the files of earlier runs as long as there are any
-    directory.remove_earlier();
+    directory->remove_earlier();
     if (scene.parameters)
     {
       announce({"scene.prm"});
@@ -53,7 +94,7 @@ void Output<dim>::announce(const std::vector<std::string> &names)
 {
   bool any_new = false;
   for (const std::string &name : names)
-    any_new = directory.add(name) || any_new;
+    any_new = directory->add(name) || any_new;
   if (any_new)
     write_summary();
 }
@@ -61,30 +102,34 @@ void Output<dim>::announce(const std::vector<std::string> &names)
 template <int dim>
 void Output<dim>::write(const std::string &name, const std::string &content) const
 {
-  check(name, directory.write(name, content));
+  check(name, directory->write(name, content));
 }
 
 template <int dim>
 void Output<dim>::update(const std::string &name, const GrowingText &content)
 {
-  check(name, directory.update(name, content.text, content.same));
+  check(name, directory->update(name, content.text, content.same));
 }
 
+/** Pieces are written by processes that have no directory. */
 template <int dim>
 void Output<dim>::check(const std::string &name, const std::error_code &error) const
 {
   if (!error)
     return;
   const std::string reason = name + " cannot be written: " + error.message();
-  if (!is_usable)
-    directory.reject(reason);
-  throw OutputFailure(directory.name() + ": " + reason + "; " + safe_steps());
+  if (directory && !is_usable)
+    directory->reject(reason);
+  throw OutputFailure(
+      (directory ? directory->name() : "output directory '" + printable(path) + "'") + ": " +
+      reason + "; " + safe_steps());
 }
 
 template <int dim>
 std::string Output<dim>::replaced_scene() const
 {
-  return directory.other_scene(scene.parameters ? scene.parameters->file_name() : "");
+  return directory ? directory->other_scene(scene.parameters ? scene.parameters->file_name() : "")
+                   : "";
 }
 
 template <int dim>
@@ -94,77 +139,151 @@ std::string Output<dim>::safe_steps() const
     return "no step is finished";
   const bool one = summary.steps == 1;
   return (one ? "step 1" : "steps 1 to " + std::to_string(summary.steps)) +
-         (directory.is_gone() ? (one ? " has" : " have") + std::string(" vanished with it")
-                              : (one ? " is" : " are") + std::string(" safe"));
+         (directory && directory->is_gone()
+              ? (one ? " has" : " have") + std::string(" vanished with it")
+              : (one ? " is" : " are") + std::string(" safe"));
 }
 
-/** The files with the number of the step; their names. */
+/** The solution: of one process a file, of several a piece of each, which the first one announces and then names. */
 template <int dim>
-std::vector<std::string> Output<dim>::write_pictures(const StepReport<dim> &step)
+void Output<dim>::write_pieces(const StepReport<dim> &step)
+{
+  std::vector<std::string> pieces;
+  for (unsigned int k = 0; k < n_processes; ++k)
+    pieces.push_back(numbered("solution", step.number, "." + std::to_string(k) + ".vtu"));
+  const Vtu content = vtu(step, pieces);
+  const std::string index = numbered("solution", step.number, ".pvtu");
+  pictures.insert(pictures.end(), pieces.begin(), pieces.end());
+  pictures.push_back(index); // last: it names no piece that is missing
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (is_first)
+                     announce(pictures);
+                 });
+  const std::string &own = pieces[rank_of(communicator)];
+  write_together(communicator,
+                 [&]()
+                 {
+                   check(own,
+                         write_whole(std::filesystem::path(path) / own, content.piece,
+                                     ".hpvi." + std::to_string(rank_of(communicator)) + ".tmp"));
+                 });
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (is_first)
+                     write(index, content.index);
+                 });
+}
+
+/** The files with the number of the step that one process writes by itself. */
+template <int dim>
+void Output<dim>::write_pictures(const StepReport<dim> &step)
 {
   const OutputSettings &output = scene.output;
   const std::string contact_name = numbered("contact", step.number, ".csv"),
                     mesh_name = numbered("mesh", step.number, ".svg"),
                     vtu_name = numbered("solution", step.number, ".vtu");
+  const bool has_contact = output.contact && scene.has_contact(),
+             has_mesh = dim == 2 && output.mesh_picture && n_processes == 1,
+             has_vtu = output.vtu && n_processes == 1;
   std::vector<std::string> names;
-  if (output.contact && scene.has_contact())
-    names.push_back(contact_name);
-  if (output.mesh_picture)
-    names.push_back(mesh_name);
-  if (output.vtu)
-    names.push_back(vtu_name);
+  for (const auto &[name, is_there] :
+       {std::make_pair(contact_name, has_contact), {mesh_name, has_mesh}, {vtu_name, has_vtu}})
+    if (is_there)
+      names.push_back(name);
   announce(names);
-  if (output.contact && scene.has_contact())
+  if (has_contact)
     write(contact_name, contact_table(scene, step.contact));
-  if (output.mesh_picture)
-    write(mesh_name, mesh_picture(step));
-  if (output.vtu)
-    write(vtu_name, vtu(step));
-  return names;
+  if constexpr (dim == 2)
+    if (has_mesh)
+      write(mesh_name, mesh_picture(step));
+  if (has_vtu)
+    write(vtu_name, vtu(step, {vtu_name}).piece);
+  pictures.insert(pictures.begin(), names.begin(), names.end());
+}
+
+/** A history is that of its load steps. */
+template <int dim>
+void Output<dim>::add_to_collection(const StepReport<dim> &step)
+{
+  const bool is_history = scene.has_load_history();
+  if (!scene.output.vtu || (is_history && step.stopped_by.empty()))
+    return;
+  if (scene.output.steps == OutputSteps::last && !is_history)
+    pvd = {};
+  add_to_pvd(pvd, is_history ? step.load.t : step.number, pictures.back());
+  announce({"solution.pvd"});
+  update("solution.pvd", pvd);
 }
 
 template <int dim>
-void Output<dim>::write_step(const StepReport<dim> &step)
+void Output<dim>::write_reference(const StepReport<dim> &step)
 {
-  const bool only_last = scene.output.steps == OutputSteps::last,
-             is_last = !step.stopped_by.empty(), is_history = scene.has_load_history();
-  announce({"convergence.csv", "degrees.csv"});
-  const std::vector<std::string> pictures = write_pictures(step);
-  if (scene.output.vtu && (is_last || !is_history)) // a history is that of its load steps
-  {
-    if (only_last && !is_history)
-      pvd = {};
-    add_to_pvd(pvd, is_history ? step.load.t : step.number, pictures.back());
-    announce({"solution.pvd"});
-    update("solution.pvd", pvd);
-  }
-  if (scene.output.reference && is_last)
-  {
-    std::ostringstream file;
-    StoredSolution<dim>(step.solution, step.energies.energy).write(file);
-    announce({"reference.dat"});
-    write("reference.dat", file.str());
-  }
-  tables.add(step); // last: the tables name no step whose files are missing
+  std::ostringstream file;
+  write_solution(file, step.field, step.energies.energy);
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (!is_first)
+                     return;
+                   announce({"reference.dat"});
+                   write("reference.dat", file.str());
+                 });
+}
+
+/** Last: the tables name no step whose files are missing. */
+template <int dim>
+void Output<dim>::write_tables(const StepReport<dim> &step)
+{
+  const bool is_last = !step.stopped_by.empty();
+  tables.add(step);
   update("convergence.csv", tables.convergence());
   update("degrees.csv", tables.degrees());
-  if (is_history && is_last)
+  if (scene.has_load_history() && is_last)
   {
     announce({"loading.csv"});
     update("loading.csv", tables.loading());
   }
   summary.add(step, tables.last_row());
   for (const std::string &name : superseded)
-    directory.remove(name);
-  superseded = only_last && !is_last ? pictures : std::vector<std::string>();
+    directory->remove(name);
+  superseded =
+      scene.output.steps == OutputSteps::last && !is_last ? pictures : std::vector<std::string>();
   write_summary();
+}
+
+template <int dim>
+void Output<dim>::write_step(const StepReport<dim> &step)
+{
+  pictures.clear();
+  if (scene.output.vtu && n_processes > 1)
+    write_pieces(step);
+  if (scene.output.reference && !step.stopped_by.empty())
+    write_reference(step);
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (!is_first)
+                     return;
+                   announce({"convergence.csv", "degrees.csv"});
+                   write_pictures(step);
+                   add_to_collection(step);
+                   write_tables(step);
+                 });
 }
 
 template <int dim>
 void Output<dim>::finish()
 {
   summary.status = "done";
-  write_summary();
+  write_together(communicator,
+                 [&]()
+                 {
+                   if (is_first)
+                     write_summary();
+                 });
 }
 
 template <int dim>
@@ -172,21 +291,16 @@ void Output<dim>::give_up(const std::string &status, const std::string &message)
 {
   summary.status = status;
   summary.message = message;
-  try
-  {
-    write_summary();
-  }
-  catch (const std::runtime_error &)
-  {
-    // the message itself is what the user has to hear of
-  }
+  if (directory) // where it cannot be written, the message itself is what the user has to hear of
+    directory->write("summary.json", summary.json(scene, directory->files()));
 }
 
 template <int dim>
 void Output<dim>::write_summary() const
 {
-  write("summary.json", summary.json(scene, directory.files()));
+  write("summary.json", summary.json(scene, directory->files()));
 }
 
 template class Output<2>;
+template class Output<3>;
 } // namespace hpvi

@@ -2,10 +2,10 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 #include <hpvi/input/parameters.h>
-#include <hpvi/input/scene_entries.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/reader/scene_entries.h>
 
 namespace hpvi
 {
@@ -65,8 +65,10 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   last_row = row;
   times += step.times;
   stopped_by = step.stopped_by;
-  warnings = step.warnings;
-  loads = step.solution.spaces->loads->sum();
+  warnings = texts(step.warnings);
+  if constexpr (dim == 2)
+    if (step.reduced)
+      loads = step.solution().spaces->loads->sum();
   ending = {};
   if (stopped_by.empty())
     return;
@@ -75,8 +77,7 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   ending.no_error_bound = known(step.bound ? "" : step.no_bound);
   ending.forces = forces_json(step.equilibrium);
   ending.balance = balance_json(step.equilibrium);
-  ending.contact =
-      contact_json(step.solution.scene, step.contact, step.equilibrium, step.unbounded);
+  ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.von_mises = von_mises_json(step.peaks, step.unbounded);
 }
 
@@ -116,6 +117,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
 }
 
 template void Summary::add(const StepReport<2> &, const Record &);
+template void Summary::add(const StepReport<3> &, const Record &);
 template std::string Summary::json(const Scene<2> &, const std::vector<std::string> &) const;
 template std::string Summary::json(const Scene<3> &, const std::vector<std::string> &) const;
 } // namespace hpvi

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/output/tables.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace hpvi
@@ -20,11 +24,6 @@ Record stage_record(const StageTimes &times)
 
 namespace
 {
-/** Square root of the sum of one of the squared contributions to the estimate. */
-std::string root_of_sum(const std::vector<double> &squares)
-{
-  return text(std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.)));
-}
 /** Where stick meets slip: points separated by blanks, coordinates by slashes. */
 template <int dim>
 std::string transition_list(const std::vector<Point<dim>> &points)
@@ -39,87 +38,129 @@ std::string transition_list(const std::vector<Point<dim>> &points)
   return list;
 }
 
+std::string known(const double value)
+{
+  return std::isfinite(value) ? text(value) : "";
+}
+
 /** Directions are the same all along one contact boundary alone; else empty. */
 template <int dim>
 std::string resultant(const std::vector<ContactState<dim>> &contact,
-                      double ContactState<dim>::*const component)
+                      const std::function<double(const ContactState<dim> &)> &component)
 {
-  return contact.size() == 1 ? text(contact.front().*component) : "";
+  return contact.size() == 1 ? text(component(contact.front())) : "";
 }
 
-/** The row of convergence.csv. */
+/** What there is of every step, and of an iteration on the multipliers. */
 template <int dim>
-Record convergence_record(const StepReport<dim> &step)
+Record solution_record(const StepReport<dim> &step)
 {
-  const DisplacementSpace<dim> &space = step.solution.displacement_space;
-  const auto [p_min, p_max] = std::minmax_element(space.degrees().begin(), space.degrees().end());
-  const auto known = [](const double value) { return std::isfinite(value) ? text(value) : ""; };
-  const auto condition = [&](const double value) { return value == 0 ? "" : known(value); };
-  const bool coulomb = step.solution.scene.has_coulomb_friction();
-  Record record{
-      {"step", text(step.number)},
-      {"elements", text(space.triangulation().n_active_cells())},
-      {"dofs", text(space.n_dofs())},
-      {"dofs_free", text(space.n_free_dofs())},
-      {"multipliers", text(step.solution.contact_space.n_multipliers())},
-      {"p_min", text(*p_min)},
-      {"p_max", text(*p_max)},
-      {"estimate", text(step.estimate.total())},
-      {"lagrangian", text(step.energies.lagrangian)},
-      {"energy", text(step.energies.energy)},
-      {"slack", text(step.energies.slack)},
-      {"qp_multiplications", text(step.qp.multiplications)},
-      {"seconds", text(step.seconds, 6)},
-      {"estimate_volume", root_of_sum(step.estimate.volume)},
-      {"estimate_jumps", root_of_sum(step.estimate.jumps)},
-      {"estimate_neumann", root_of_sum(step.estimate.neumann)},
-      {"estimate_contact", root_of_sum(step.estimate.contact)},
-      {"qp_cg", text(step.qp.cg_steps)},
-      {"qp_expansion", text(step.qp.expansion_steps)},
-      {"qp_proportioning", text(step.qp.proportioning_steps)},
-      {"qp_dense_solves", text(step.qp.dense_solves)},
-      {"qp_fell_back", text(static_cast<unsigned int>(step.qp.fell_back))},
-      {"qp_projected_gradient", text(step.qp.projected_gradient)},
-      {"condition_raw", condition(step.condition_raw)},
-      {"condition_scaled", condition(step.condition_scaled)},
-      {"estimate_scaled", text(step.scaled_estimate)},
-      {"estimate_relative", known(step.relative_estimate)},
-      {"energy_norm", text(step.energies.norm)},
-      {"friction_resultant", resultant(step.contact, &ContactState<dim>::friction_resultant)},
-      {"error_energy", known(step.errors.energy)},
-      {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
-      {"error_l2", known(step.errors.l2)},
-      {"error_multiplier", known(step.errors.multiplier_l2)},
-      {"error_transition", known(step.errors.transition)},
-      {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
-      {"effectivity", known(step.scaled_estimate / step.errors.energy)},
-      {"transitions", transition_list(transitions(step.contact))},
-      {"normal_resultant", resultant(step.contact, &ContactState<dim>::normal_resultant)},
-      {"error_pressure", known(step.errors.pressure_l2)},
-      {"estimate_normal", root_of_sum(step.estimate.normal)},
-      {"estimate_penetration", root_of_sum(step.estimate.penetration)},
-      {"coulomb_newton", coulomb ? text(step.coulomb.newton_steps) : ""},
-      {"coulomb_fixed_point", coulomb ? text(step.coulomb.fixed_point_steps) : ""},
-      {"coulomb_contraction", coulomb ? condition(step.coulomb.contraction) : ""},
-      {"coulomb_method", step.coulomb.method},
-      {"estimate_tension", root_of_sum(step.estimate.tension)},
-      {"estimate_excess", root_of_sum(step.estimate.excess)},
-      {"coulomb_difference", step.coulomb.difference ? known(*step.coulomb.difference) : ""}};
+  const QpReport *const qp = step.reduced ? &step.reduced->qp : nullptr;
+  const auto of_qp = [&](const auto QpReport::*const count)
+  { return qp ? text(qp->*count) : std::string(); };
+  const auto condition = [](const double value) { return value == 0 ? "" : known(value); };
+  return {{"step", text(step.number)},
+          {"elements", text(step.size.n_cells)},
+          {"dofs", text(step.size.n_dofs)},
+          {"dofs_free", text(step.size.n_free)},
+          {"multipliers", text(step.size.n_multipliers)},
+          {"p_min", text(step.size.p_min())},
+          {"p_max", text(step.size.p_max())},
+          {"estimate", text(step.norms.total)},
+          {"lagrangian", text(step.energies.lagrangian)},
+          {"energy", text(step.energies.energy)},
+          {"slack", text(step.energies.slack)},
+          {"qp_multiplications", of_qp(&QpReport::multiplications)},
+          {"seconds", text(step.seconds, 6)},
+          {"estimate_volume", text(step.norms.volume)},
+          {"estimate_jumps", text(step.norms.jumps)},
+          {"estimate_neumann", text(step.norms.neumann)},
+          {"estimate_contact", text(step.norms.contact)},
+          {"qp_cg", of_qp(&QpReport::cg_steps)},
+          {"qp_expansion", of_qp(&QpReport::expansion_steps)},
+          {"qp_proportioning", of_qp(&QpReport::proportioning_steps)},
+          {"qp_dense_solves", of_qp(&QpReport::dense_solves)},
+          {"qp_fell_back", qp ? text(static_cast<unsigned int>(qp->fell_back)) : ""},
+          {"qp_projected_gradient", of_qp(&QpReport::projected_gradient)},
+          {"condition_raw", step.reduced ? condition(step.reduced->condition_raw) : ""},
+          {"condition_scaled", step.reduced ? condition(step.reduced->condition_scaled) : ""},
+          {"estimate_scaled", text(step.scaled_estimate)},
+          {"estimate_relative", known(step.relative_estimate)},
+          {"energy_norm", text(step.energies.norm)}};
+}
+
+/** In the plane, where it has one direction. */
+std::string tangential_resultant(const std::vector<ContactState<2>> &contact)
+{
+  return resultant<2>(contact, [](const auto &state) { return state.friction_resultant; });
+}
+
+std::string tangential_resultant(const std::vector<ContactState<3>> &)
+{
+  return {};
+}
+
+/** Contact, and errors where they are known. */
+template <int dim>
+Record contact_record(const StepReport<dim> &step)
+{
+  return {{"friction_resultant", tangential_resultant(step.contact)},
+          {"error_energy", known(step.errors.energy)},
+          {"error_relative", known(step.errors.energy / step.errors.energy_norm)},
+          {"error_l2", known(step.errors.l2)},
+          {"error_multiplier", known(step.errors.multiplier_l2)},
+          {"error_transition", known(step.errors.transition)},
+          {"energy_difference", known(step.energies.energy - step.errors.reference_energy)},
+          {"effectivity", known(step.scaled_estimate / step.errors.energy)},
+          {"transitions", transition_list(transitions(step.contact))},
+          {"normal_resultant",
+           resultant<dim>(step.contact, [](const auto &state) { return state.normal_resultant; })},
+          {"error_pressure", known(step.errors.pressure_l2)},
+          {"estimate_normal", text(step.norms.normal)},
+          {"estimate_penetration", text(step.norms.penetration)}};
+}
+
+/** Coulomb's law. */
+template <int dim>
+Record coulomb_record(const StepReport<dim> &step)
+{
+  const CoulombReport *const report =
+      step.reduced && step.scene.has_coulomb_friction() ? &step.reduced->coulomb : nullptr;
+  return {
+      {"coulomb_newton", report ? text(report->newton_steps) : ""},
+      {"coulomb_fixed_point", report ? text(report->fixed_point_steps) : ""},
+      {"coulomb_contraction", report && report->contraction != 0 ? known(report->contraction) : ""},
+      {"coulomb_method", report ? report->method : ""},
+      {"estimate_tension", text(step.norms.tension)},
+      {"estimate_excess", text(step.norms.excess)},
+      {"coulomb_difference", report && report->difference ? known(*report->difference) : ""}};
+}
+
+/** The guaranteed bound. */
+template <int dim>
+Record bound_record(const StepReport<dim> &step)
+{
   const auto bound = [&](double ErrorBound::*const part)
   { return step.bound ? text((*step.bound).*part) : ""; };
   // J(u) lies between the two; J(u_N) itself need not, where u_N penetrates the foundation.
-  const auto end = [&](const double J, const int sign, double ErrorBound::*const distance)
-  { return step.bound ? text(J + sign * (*step.bound).*distance) : ""; };
-  record.insert(record.end(),
-                {{"error_bound", bound(&ErrorBound::total)},
-                 {"error_bound_relative", known(step.relative_bound)},
-                 {"energy_low", end(step.energies.energy, -1, &ErrorBound::energy_below)},
-                 {"energy_high", end(step.energies.energy, 1, &ErrorBound::energy_above)},
-                 {"bound_stress", bound(&ErrorBound::stress)},
-                 {"bound_slip", bound(&ErrorBound::slip)},
-                 {"bound_oscillation", bound(&ErrorBound::oscillation)},
-                 {"bound_data", bound(&ErrorBound::data)},
-                 {"bound_imbalance", known(step.bound_imbalance)}});
+  const auto end = [&](const int sign, double ErrorBound::*const distance)
+  { return step.bound ? text(step.energies.energy + sign * (*step.bound).*distance) : ""; };
+  return {{"error_bound", bound(&ErrorBound::total)},
+          {"error_bound_relative", known(step.relative_bound)},
+          {"energy_low", end(-1, &ErrorBound::energy_below)},
+          {"energy_high", end(1, &ErrorBound::energy_above)},
+          {"bound_stress", bound(&ErrorBound::stress)},
+          {"bound_slip", bound(&ErrorBound::slip)},
+          {"bound_oscillation", bound(&ErrorBound::oscillation)},
+          {"bound_data", bound(&ErrorBound::data)},
+          {"bound_imbalance", known(step.bound_imbalance)}};
+}
+
+/** Seconds by stage and where a history stands. */
+template <int dim>
+Record time_record(const StepReport<dim> &step)
+{
+  Record record;
   for (const auto &[stage, seconds] : stage_record(step.times))
     record.emplace_back("seconds_" + stage, seconds);
   if (step.load.number > 0)
@@ -127,6 +168,45 @@ Record convergence_record(const StepReport<dim> &step)
     record.emplace_back("load_step", text(step.load.number));
     record.emplace_back("t", text(step.load.t));
   }
+  return record;
+}
+
+/** The primal path, and what it takes. */
+template <int dim>
+Record newton_record(const StepReport<dim> &step)
+{
+  const NewtonReport *const newton = step.primal ? &step.primal->newton : nullptr;
+  const auto of = [&](const auto NewtonReport::*const count)
+  { return newton ? text(newton->*count) : std::string(); };
+  Record record{
+      {"newton_steps", of(&NewtonReport::steps)},
+      {"newton_cg", of(&NewtonReport::cg_steps)},
+      {"newton_setups", of(&NewtonReport::setups)},
+      {"newton_fell_back", newton ? text(static_cast<unsigned int>(newton->fell_back)) : ""},
+      {"newton_line_searches", of(&NewtonReport::line_searches)},
+      {"newton_residual", of(&NewtonReport::residual)},
+      {"newton_error", of(&NewtonReport::error)},
+      {"augmented_steps", of(&NewtonReport::augmented_steps)},
+      {"slipping", of(&NewtonReport::n_slipping)},
+      {"pressing", of(&NewtonReport::n_pressing)},
+      {"peak_memory", text(step.peak_memory)},
+      {"processes", text(hpvi::n_processes(step.field.communicator()))}};
+  for (unsigned int d = 0; d < 3; ++d)
+    record.emplace_back(std::string("friction_resultant_") + "xyz"[d],
+                        d < dim ? resultant<dim>(step.contact, [d](const auto &state)
+                                                 { return state.friction_force[d]; })
+                                : "");
+  return record;
+}
+
+/** The row of convergence.csv, the same columns in the plane and in space, whichever backend solved. */
+template <int dim>
+Record convergence_record(const StepReport<dim> &step)
+{
+  Record record;
+  for (const Record &part : {solution_record(step), contact_record(step), coulomb_record(step),
+                             bound_record(step), time_record(step), newton_record(step)})
+    record.insert(record.end(), part.begin(), part.end());
   return record;
 }
 
@@ -155,8 +235,7 @@ Record loading_record(const StepReport<dim> &step)
       record.emplace_back("force_" + force.boundary + "_" + "xyz"[d], text(force.force[d]));
   for (const ContactState<dim> &state : step.contact)
     for (const ContactMode mode : {ContactMode::open, ContactMode::slip, ContactMode::stick})
-      record.emplace_back(mode_name(mode) + "_" +
-                              step.solution.scene.boundaries[state.boundary].name,
+      record.emplace_back(mode_name(mode) + "_" + step.scene.boundaries[state.boundary].name,
                           text(length(state, mode)));
   record.emplace_back("stopped_by", step.stopped_by);
   record.emplace_back("released_energy", text(step.load.released));
@@ -164,20 +243,6 @@ Record loading_record(const StepReport<dim> &step)
   return record;
 }
 
-/** Number of elements by degree; entry 0 stays empty. */
-template <int dim>
-std::vector<unsigned int> count_degrees(const DisplacementSpace<dim> &space)
-{
-  std::vector<unsigned int> count(1);
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const unsigned int degree = space.degrees()[cell->active_cell_index()];
-      count.resize(std::max<std::size_t>(count.size(), degree + 1));
-      ++count[degree];
-    }
-  return count;
-}
 } // namespace
 
 template <int dim>
@@ -185,7 +250,7 @@ void Tables<dim>::add(const StepReport<dim> &step)
 {
   row = convergence_record(step);
   add_row(rows, row);
-  elements.push_back(count_degrees(step.solution.displacement_space));
+  elements.push_back(step.size.cells_of_degree);
   add_degrees();
   if (step.load.number > 0 && !step.stopped_by.empty())
     add_row(load_steps, loading_record(step));
@@ -203,11 +268,12 @@ void Tables<dim>::add_degrees()
   }
   for (std::size_t k = grows ? 0 : elements.size() - 1; k < elements.size(); ++k)
   {
-    const std::vector<unsigned int> &count = elements[k];
-    Record record{{"step", std::to_string(k + 1)},
-                  {"elements", text(std::accumulate(count.begin(), count.end(), 0U))}};
+    const auto &count = elements[k];
+    Record record{
+        {"step", std::to_string(k + 1)},
+        {"elements", text(std::accumulate(count.begin(), count.end(), types::global_dof_index()))}};
     for (unsigned int p = 1; p < n_columns; ++p)
-      record.emplace_back("p" + text(p), text(p < count.size() ? count[p] : 0U));
+      record.emplace_back("p" + text(p), text(p < count.size() ? count[p] : 0));
     add_row(degree_rows, record);
   }
   if (grows)
@@ -239,4 +305,5 @@ const GrowingText &Tables<dim>::loading() const
 }
 
 template class Tables<2>;
+template class Tables<3>;
 } // namespace hpvi

@@ -3,14 +3,19 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/processes.h>
+#include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/peaks/stress_peak.h>
 
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace hpvi
 {
@@ -70,10 +75,39 @@ private:
   const Scene<dim> &scene;
 };
 
-/** As VTK reads it: one block that zlib has compressed, in base64 behind its sizes. */
-std::string encoded(const std::vector<double> &numbers)
+/** sigma_zz in the plane, a scalar field of its own: 0 in plane stress. */
+template <int dim>
+class TransverseStress : public DataPostprocessorScalar<dim>
 {
-  const uLong size = numbers.size() * sizeof(double);
+public:
+  explicit TransverseStress(const Scene<dim> &scene)
+      : DataPostprocessorScalar<dim>("sigma_zz", update_gradients), scene(scene)
+  {
+  }
+
+  void evaluate_vector_field(const DataPostprocessorInputs::Vector<dim> &inputs,
+                             std::vector<Vector<double>> &fields) const override
+  {
+    const Material &material = scene.material_of(inputs.template get_cell<dim>());
+    for (unsigned int q = 0; q < fields.size(); ++q)
+    {
+      Tensor<2, dim> gradient;
+      for (unsigned int c = 0; c < dim; ++c)
+        gradient[c] = inputs.solution_gradients[q][c];
+      if constexpr (dim == 2)
+        fields[q][0] = material.transverse_stress(HookesLaw<dim>(material).stress(gradient));
+    }
+  }
+
+private:
+  const Scene<dim> &scene;
+};
+
+/** As VTK reads it: one block that zlib has compressed, in base64 behind its sizes. */
+template <class Number>
+std::string encoded(const std::vector<Number> &numbers)
+{
+  const uLong size = numbers.size() * sizeof(Number);
   uLongf compressed_size = compressBound(size);
   std::vector<unsigned char> compressed(compressed_size);
   const int status = compress2(compressed.data(), &compressed_size,
@@ -87,19 +121,24 @@ std::string encoded(const std::vector<double> &numbers)
          Utilities::encode_base64(compressed);
 }
 
+/** Numbers that belong to cells, by active cell index. */
+using CellData = std::vector<std::pair<std::string, Vector<float>>>;
+
 /**
  * deal.II rounds coordinates to seven digits: far from the origin, or close to a transition, cells
- * would have no size. These have all digits.
+ * would have no size. These have all digits. It also writes at points what belongs to cells.
  */
 template <int dim>
 class PreciseDataOut : public DataOut<dim>
 {
 public:
-  std::string vtu() const
+  std::string vtu(const CellData &cell_data) const
   {
     std::ostringstream file;
     this->write_vtu(file);
-    const std::string text = file.str(), opening = "<Points>", closing = "</Points>";
+    std::string text = file.str();
+    text.insert(text.find("</Piece>"), of_cells(cell_data));
+    const std::string opening = "<Points>", closing = "</Points>";
     const std::size_t start = text.find(opening), end = text.find(closing);
     AssertThrow(start < end && end != std::string::npos, ExcInternalError());
     return text.substr(0, start + opening.size()) +
@@ -107,25 +146,64 @@ public:
            encoded(coordinates()) + "\n    </DataArray>\n  " + text.substr(end);
   }
 
+  /** Which names @p pieces. */
+  std::string pvtu(const CellData &cell_data, const std::vector<std::string> &pieces) const
+  {
+    std::ostringstream file;
+    this->write_pvtu_record(file, pieces);
+    std::string text = file.str();
+    text.erase(text.find("<!--"), text.find("-->") + 4 - text.find("<!--")); // it has a date
+    const std::string rounded = "\"Float32\" NumberOfComponents=\"3\"/>\n    </PPoints>";
+    const std::size_t place = text.find(rounded);
+    AssertThrow(place != std::string::npos, ExcInternalError());
+    text.replace(place, 9, "\"Float64\"");
+    std::string cells = "    <PCellData>\n";
+    for (const auto &[name, values] : cell_data)
+      cells += "    <PDataArray type=\"Float32\" Name=\"" + name + "\"/>\n";
+    return text.insert(text.find("    <PPoints>"), cells + "    </PCellData>\n");
+  }
+
 private:
+  /** Each patch is cut into cells that share its numbers. */
+  std::string of_cells(const CellData &cell_data) const
+  {
+    std::string text = "  <CellData>\n";
+    for (const auto &[name, values] : cell_data)
+    {
+      std::vector<float> of_parts;
+      auto patch = this->get_patches().begin();
+      for (const auto &cell : this->triangulation->active_cell_iterators())
+        if (cell->is_locally_owned())
+          of_parts.insert(of_parts.end(), std::lround(std::pow((patch++)->n_subdivisions, dim)),
+                          values[cell->active_cell_index()]);
+      text += "    <DataArray type=\"Float32\" Name=\"" + name + "\" format=\"binary\">\n" +
+              encoded(of_parts) + "\n    </DataArray>\n";
+    }
+    return text + "  </CellData>\n ";
+  }
+
   /** x, y, z of the points in deal.II's order: patch by patch, x runs fastest. */
   std::vector<double> coordinates() const
   {
-    static_assert(dim == 2, "patches are quadrilaterals");
     std::vector<double> result;
     for (const auto &patch : this->get_patches())
-      for (unsigned int j = 0; j <= patch.n_subdivisions; ++j)
-        for (unsigned int i = 0; i <= patch.n_subdivisions; ++i)
-        {
-          const Point<2> unit(double(i) / patch.n_subdivisions, double(j) / patch.n_subdivisions);
-          Point<2> x;
-          for (unsigned int v = 0; v < GeometryInfo<2>::vertices_per_cell; ++v)
-            x += GeometryInfo<2>::d_linear_shape_function(unit, v) * patch.vertices[v];
-          result.insert(result.end(), {x[0], x[1], 0.});
-        }
+    {
+      const unsigned int n = patch.n_subdivisions + 1;
+      for (unsigned int k = 0; k < std::pow(n, dim); ++k)
+      {
+        Point<dim> unit, x;
+        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
+          unit[d] = double(rest % n) / patch.n_subdivisions;
+        for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+          x += GeometryInfo<dim>::d_linear_shape_function(unit, v) * patch.vertices[v];
+        for (unsigned int d = 0; d < 3; ++d)
+          result.push_back(d < dim ? x[d] : 0.);
+      }
+    }
     return result;
   }
 };
+
 template <int dim>
 DataOutBase::VtkFlags vtk_flags(const Scene<dim> &scene, const StressFields<dim> &stress_fields,
                                 const unsigned int step)
@@ -144,57 +222,66 @@ DataOutBase::VtkFlags vtk_flags(const Scene<dim> &scene, const StressFields<dim>
 }
 } // namespace
 
-template <int dim>
-std::string vtu(const StepReport<dim> &step)
+namespace
 {
-  const Scene<dim> &scene = step.solution.scene;
-  const DisplacementSpace<dim> &space = step.solution.displacement_space;
-  Vector<float> degree(space.degrees().size()), estimate(space.degrees().size());
-  for (unsigned int k = 0; k < degree.size(); ++k)
+/** Degree and indicator; where there is contact the means of pressure -T_n and friction |T_t| over the faces of a cell. */
+template <int dim>
+CellData cell_data(const StepReport<dim> &step, const bool is_shared)
+{
+  const Field<dim> &field = step.field;
+  const unsigned int n = field.dof_handler.get_triangulation().n_active_cells();
+  Vector<float> degree(n), estimate(n), process(n), area(n), pressure(n), friction(n);
+  process = rank_of(field.communicator());
+  for (const auto &cell : field.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      degree[cell->active_cell_index()] = field.degree(cell);
+      estimate[cell->active_cell_index()] = step.estimate.indicator(cell->active_cell_index());
+    }
+  for (const FieldFace<dim> &face : field.faces())
   {
-    degree[k] = space.degrees()[k];
-    estimate[k] = step.estimate.indicator(k);
+    const unsigned int cell = face.cell->active_cell_index();
+    area[cell] += face.cell->face(face.face_no)->measure();
+    for (const PressurePoint<dim> &point : pressure_points(face, field))
+      pressure[cell] += point.weight * point.pressure;
+    for (const MultiplierPoint<dim> &point : field.multiplier_points(face, 0.))
+      friction[cell] += point.area * point.traction.friction.norm();
   }
-  const StressFields<dim> stress_fields(scene);
-  PreciseDataOut<dim> data_out;
-  data_out.set_flags(vtk_flags(scene, stress_fields, step.number));
-  data_out.attach_dof_handler(space.dof_handler());
-  data_out.add_data_vector(space.dof_handler(), step.solution.u,
-                           std::vector<std::string>(dim, "displacement"),
-                           std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-                               dim, DataComponentInterpretation::component_is_part_of_vector));
-  data_out.add_data_vector(space.dof_handler(), step.solution.u, stress_fields);
-  data_out.add_data_vector(degree, "degree", DataOut<dim>::type_cell_data);
-  data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
-  const unsigned int p_max = *std::max_element(space.degrees().begin(), space.degrees().end());
-  data_out.build_patches(std::min(p_max, 8U));
-  return data_out.vtu();
+  for (unsigned int cell = 0; cell < n; ++cell)
+    for (Vector<float> *const sum : {&pressure, &friction})
+      (*sum)[cell] = area[cell] > 0 ? (*sum)[cell] / area[cell] : 0.F;
+  CellData result{{"degree", degree}, {"estimate", estimate}};
+  if (is_shared)
+    result.emplace_back("process", process);
+  if (step.scene.has_contact())
+  {
+    result.emplace_back("contact_pressure", pressure);
+    result.emplace_back("contact_friction", friction);
+  }
+  return result;
 }
+} // namespace
 
 template <int dim>
-PrimalVtu vtu(const PrimalReport<dim> &step, const std::vector<std::string> &pieces)
+Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces)
 {
-  const MomentSpace<dim> &space = step.space;
-  const unsigned int n_cells = space.dof_handler.get_triangulation().n_active_cells();
-  Vector<float> estimate(n_cells), process(n_cells);
-  for (unsigned int k = 0; k < n_cells; ++k)
-    estimate[k] = step.estimate.indicator(k);
-  process = Utilities::MPI::this_mpi_process(space.communicator());
-  const StressFields<dim> stress_fields(space.scene);
-  DataOut<dim> data_out;
-  data_out.set_flags(vtk_flags(space.scene, stress_fields, step.number));
-  data_out.attach_dof_handler(space.dof_handler);
-  data_out.add_data_vector(space.dof_handler, step.u, std::vector<std::string>(dim, "displacement"),
-                           std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-                               dim, DataComponentInterpretation::component_is_part_of_vector));
-  data_out.add_data_vector(space.dof_handler, step.u, stress_fields);
-  data_out.add_data_vector(estimate, "estimate", DataOut<dim>::type_cell_data);
-  data_out.add_data_vector(process, "process", DataOut<dim>::type_cell_data);
-  data_out.build_patches(space.tables.degree);
-  std::ostringstream piece, index;
-  data_out.write_vtu(piece);
-  data_out.write_pvtu_record(index, pieces);
-  return {piece.str(), index.str()};
+  const bool is_shared = pieces.size() > 1;
+  const CellData cells = cell_data(step, is_shared);
+  const StressFields<dim> stress_fields(step.scene);
+  const TransverseStress<dim> transverse_stress(step.scene);
+  PreciseDataOut<dim> data_out;
+  data_out.set_flags(vtk_flags(step.scene, stress_fields, step.number));
+  data_out.attach_dof_handler(step.field.dof_handler);
+  step.field.attach(data_out);
+  step.field.attach(data_out, stress_fields);
+  if (dim == 2)
+  {
+    step.field.attach(data_out, transverse_stress);
+    for (unsigned int k = 0; k < 2; ++k) // where they have always stood, beside CellData
+      data_out.add_data_vector(cells[k].second, cells[k].first, DataOut<dim>::type_cell_data);
+  }
+  data_out.build_patches(std::min(step.size.p_max(), 8U));
+  return {data_out.vtu(cells), is_shared ? data_out.pvtu(cells, pieces) : ""};
 }
 
 void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
@@ -208,7 +295,6 @@ void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
               "\" part=\"0\" file=\"" + file + "\"/>\n" + end;
 }
 
-template std::string vtu(const StepReport<2> &);
-template PrimalVtu vtu(const PrimalReport<2> &, const std::vector<std::string> &);
-template PrimalVtu vtu(const PrimalReport<3> &, const std::vector<std::string> &);
+template Vtu vtu(const StepReport<2> &, const std::vector<std::string> &);
+template Vtu vtu(const StepReport<3> &, const std::vector<std::string> &);
 } // namespace hpvi

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/processes.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/peaks/stress_peak.h>
 
@@ -12,26 +13,25 @@ using namespace dealii;
 namespace
 {
 template <int dim>
-StressSample<dim> largest_pressure(const ContactFace<dim> &face, const Solution<dim> &solution)
+StressSample<dim> largest_pressure(const FieldFace<dim> &face, const Field<dim> &field)
 {
-  const auto points = pressure_points(face, solution);
+  const auto points = pressure_points(face, field);
   const auto &largest =
       *std::max_element(points.begin(), points.end(),
                         [](const auto &a, const auto &b) { return a.pressure < b.pressure; });
-  return {face.condition->id, largest.pressure, largest.x, face.length};
+  return {face.condition->id, largest.pressure, largest.x,
+          dim == 2 ? face.area() : std::sqrt(face.area())};
 }
 
 template <int dim>
-StressSample<dim> largest_von_mises(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                                    const Solution<dim> &solution)
+StressSample<dim> largest_von_mises(const typename Field<dim>::Cell &cell, const Field<dim> &field)
 {
-  const unsigned int index = cell->active_cell_index(),
-                     degree = solution.displacement_space.degrees()[index];
-  const Material &material = solution.scene.material_of(cell);
+  const unsigned int degree = field.degree(cell);
+  const Material &material = field.scene.material_of(cell);
   const HookesLaw<dim> law(material);
   const CellMap<dim> map = map_of<dim>(cell);
-  const ShapeTable<dim> &table = solution.tables.gradients(degree, degree / 2 + 2);
-  const std::vector<double> derivatives = evaluate(table.derivatives, solution.coefficients(index));
+  const ShapeTable<dim> &table = field.tables.gradients(degree, degree / 2 + 2);
+  const std::vector<double> derivatives = evaluate(table.derivatives, field.coefficients(cell));
   StressSample<dim> largest{numbers::invalid_boundary_id, -1., {}, map.longest_edge()};
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
@@ -50,6 +50,19 @@ StressSample<dim> largest_von_mises(const typename DoFHandler<dim>::active_cell_
   return largest;
 }
 
+template <int dim>
+std::vector<StressSample<dim>> own_stress_samples(const Field<dim> &field)
+{
+  std::vector<StressSample<dim>> result;
+  for (const FieldFace<dim> &face : field.faces())
+    if (const StressSample<dim> sample = largest_pressure(face, field); sample.value > 0)
+      result.push_back(sample);
+  for (const auto &cell : field.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      result.push_back(largest_von_mises<dim>(cell, field));
+  return result;
+}
+
 constexpr unsigned int most_peaks = 3;
 } // namespace
 
@@ -60,29 +73,30 @@ double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma)
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
       full[i][j] = sigma[i][j];
-  if (dim == 2 && material.plane == PlaneModel::strain)
-    full[2][2] = material.poisson * trace(sigma);
+  if constexpr (dim == 2)
+    full[2][2] = material.transverse_stress(sigma);
   return std::sqrt(1.5) * deviator(full).norm();
 }
 
 template <int dim>
-std::vector<StressSample<dim>> stress_samples(const Solution<dim> &solution)
+std::vector<StressSample<dim>> stress_samples(const Field<dim> &field)
 {
   std::vector<StressSample<dim>> result;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    if (const StressSample<dim> sample = largest_pressure(face, solution); sample.value > 0)
-      result.push_back(sample);
-  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned())
-      result.push_back(largest_von_mises<dim>(cell, solution));
+  together(field.communicator(), [&]() { result = own_stress_samples(field); });
+  if (n_processes(field.communicator()) == 1)
+    return result;
+  const auto all =
+      Utilities::MPI::all_gather(field.communicator(), stress_peaks(result, field.scene));
+  for (unsigned int rank = 0; rank < all.size(); ++rank)
+    if (rank != rank_of(field.communicator()))
+      result.insert(result.end(), all[rank].begin(), all[rank].end());
   return result;
 }
 
 template <int dim>
 double reach(const StressSample<dim> &peak, const Scene<dim> &scene)
 {
-  const auto &corners = scene.geometry.corners;
-  return std::max(0.01 * corners.front().distance(corners.back()), 2 * peak.length);
+  return std::max(0.01 * scene.geometry.diameter(), 2 * peak.length);
 }
 
 template <int dim>
@@ -110,8 +124,12 @@ std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>>
 
 template double von_mises(const Material &, const SymmetricTensor<2, 2> &);
 template double von_mises(const Material &, const SymmetricTensor<2, 3> &);
-template std::vector<StressSample<2>> stress_samples(const Solution<2> &);
+template std::vector<StressSample<2>> stress_samples(const Field<2> &);
+template std::vector<StressSample<3>> stress_samples(const Field<3> &);
 template double reach(const StressSample<2> &, const Scene<2> &);
+template double reach(const StressSample<3> &, const Scene<3> &);
 template std::vector<StressSample<2>> stress_peaks(const std::vector<StressSample<2>> &,
                                                    const Scene<2> &);
+template std::vector<StressSample<3>> stress_peaks(const std::vector<StressSample<3>> &,
+                                                   const Scene<3> &);
 } // namespace hpvi

@@ -4,6 +4,7 @@
 #include <hpvi/peaks/unbounded_stress.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace hpvi
 {
@@ -24,25 +25,33 @@ const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &peaks,
 
 /** Singularities stand at corners, ends and transitions, which meshes close in on with their vertices. */
 template <int dim>
-Point<dim> next_vertex(const StressSample<dim> &peak, const Solution<dim> &solution)
+Point<dim> next_vertex(const StressSample<dim> &peak, const Field<dim> &field)
 {
-  const Triangulation<dim> &mesh = solution.displacement_space.triangulation();
-  return mesh.get_vertices()[GridTools::find_closest_vertex(mesh, peak.where)];
+  const Triangulation<dim> &mesh = field.dof_handler.get_triangulation();
+  const Point<dim> own = mesh.get_vertices()[GridTools::find_closest_vertex(mesh, peak.where)];
+  const std::vector<Point<dim>> all = Utilities::MPI::all_gather(field.communicator(), own);
+  return *std::min_element(all.begin(), all.end(),
+                           [&](const Point<dim> &a, const Point<dim> &b)
+                           { return a.distance(peak.where) < b.distance(peak.where); });
 }
 
 /** Of the pressures on the edges within reach of the last cells. */
 template <int dim>
-double force_within(const StressSample<dim> &peak, const double radius,
-                    const Solution<dim> &solution)
+double force_within(const StressSample<dim> &peak, const double radius, const Field<dim> &field)
 {
+  const auto is_within = [&](const FieldFace<dim> &face)
+  {
+    for (const unsigned int v : face.cell->face(face.face_no)->vertex_indices())
+      if (face.cell->face(face.face_no)->vertex(v).distance(peak.where) > (1 + 1e-6) * radius)
+        return false;
+    return true;
+  };
   double force = 0;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
-    if (face.condition->id == peak.boundary &&
-        std::max(face.point(0.).distance(peak.where), face.point(1.).distance(peak.where)) <=
-            (1 + 1e-6) * radius)
-      for (const PressurePoint<dim> &point : pressure_points(face, solution))
+  for (const FieldFace<dim> &face : field.faces())
+    if (face.condition->id == peak.boundary && is_within(face))
+      for (const PressurePoint<dim> &point : pressure_points(face, field))
         force += point.weight * point.pressure;
-  return force;
+  return Utilities::MPI::sum(force, field.communicator());
 }
 } // namespace
 
@@ -68,7 +77,7 @@ growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps)
 template <int dim>
 std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
                                                      const std::vector<StressSample<dim>> &samples,
-                                                     const Solution<dim> &solution)
+                                                     const Field<dim> &field)
 {
   std::vector<UnboundedStress<dim>> result;
   for (const StressSample<dim> &peak : peaks)
@@ -79,19 +88,24 @@ std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSam
                          [&](const StressSample<dim> &other)
                          {
                            return other.boundary == sample.boundary &&
-                                  other.where.distance(sample.where) <=
-                                      reach(other, solution.scene);
+                                  other.where.distance(sample.where) <= reach(other, field.scene);
                          });
     };
-    UnboundedStress<dim> unbounded{peak, next_vertex(peak, solution), 2 * peak.length,
-                                   0.,   reach(peak, solution.scene), 0.,
-                                   {}};
-    unbounded.force = force_within(peak, unbounded.within, solution);
+    UnboundedStress<dim> unbounded{
+        peak, next_vertex(peak, field), 2 * peak.length, 0., reach(peak, field.scene), 0., {}};
+    unbounded.force = force_within(peak, unbounded.within, field);
     for (const StressSample<dim> &sample : samples)
       if (sample.boundary == peak.boundary && sample.value > unbounded.largest && !is_near(sample))
       {
         unbounded.largest = sample.value;
         unbounded.largest_point = sample.where;
+      }
+    for (const auto &[value, x] : Utilities::MPI::all_gather(
+             field.communicator(), std::make_pair(unbounded.largest, unbounded.largest_point)))
+      if (value > unbounded.largest)
+      {
+        unbounded.largest = value;
+        unbounded.largest_point = x;
       }
     result.push_back(unbounded);
   }
@@ -102,5 +116,10 @@ template std::vector<StressSample<2>>
 growing_peaks(const std::vector<std::vector<StressSample<2>>> &);
 template std::vector<UnboundedStress<2>> unbounded_stresses(const std::vector<StressSample<2>> &,
                                                             const std::vector<StressSample<2>> &,
-                                                            const Solution<2> &);
+                                                            const Field<2> &);
+template std::vector<StressSample<3>>
+growing_peaks(const std::vector<std::vector<StressSample<3>>> &);
+template std::vector<UnboundedStress<3>> unbounded_stresses(const std::vector<StressSample<3>> &,
+                                                            const std::vector<StressSample<3>> &,
+                                                            const Field<3> &);
 } // namespace hpvi

@@ -21,8 +21,7 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
                                               const std::vector<ContactVector<dim>> &start)
     : space(space), system(system), matrix(matrix), lambda(start)
 {
-  const Corners<dim> &corners = space.scene.geometry.corners;
-  growth = space.scene.materials[0].young / corners.back().distance(corners.front());
+  growth = space.scene.materials[0].modulus() / space.scene.geometry.diameter();
   for (unsigned int k = 0; k < lambda.size(); ++k)
     lambda[k] = space.contact[k].projected(lambda[k]);
 }

@@ -88,8 +88,7 @@ double size_of(const Tensor<1, dim> &x)
 template <int dim>
 LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
 {
-  for (const Point<dim> &corner : scene.geometry.corners)
-    centre += corner / double(scene.geometry.corners.size());
+  centre = scene.geometry.centre();
   Triangulation<dim> mesh;
   make_mesh(scene, mesh);
   const unsigned int n_gauss = scene.adaptivity.start_degree + 1;

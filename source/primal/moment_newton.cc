@@ -259,11 +259,14 @@ void MomentNewton<dim>::count(const std::vector<MomentState<dim>> &states,
                               NewtonReport &report) const
 {
   unsigned int slipping = 0, pressing = 0;
-  for (unsigned int k = 0; k < c.size(); ++k)
-    if (space.contact[k].is_friction())
-      slipping += !states[k].is_held;
-    else
-      pressing += states[k].is_held;
+  for (const MomentFace<dim> &face : space.faces)
+    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+    {
+      const bool presses = face.has_pressure() && states[face.pressure + k].is_held;
+      pressing += presses;
+      if (face.has_friction() && (presses || !face.has_pressure())) // else it is open
+        slipping += !states[face.friction + k].is_held;
+    }
   report.n_slipping = Utilities::MPI::sum(slipping, space.communicator());
   report.n_pressing = Utilities::MPI::sum(pressing, space.communicator());
 }

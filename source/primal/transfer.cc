@@ -13,60 +13,30 @@ constexpr unsigned int none = numbers::invalid_unsigned_int;
 }
 
 template <int dim>
-Transfer<dim>::Transfer(Mesh &mesh, const MomentSpace<dim> &space, const DistributedVector &u,
-                        const std::vector<ContactVector<dim>> &lambda)
-    : mesh(mesh)
+CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSpace<dim> &space,
+                     const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda)
 {
-  // First the nodal values, then lambda face by face, first its friction and then its pressure.
-  const auto pack = [&space, &u, &lambda](const Cell &cell, const auto)
-  {
-    const typename MomentSpace<dim>::Cell dof_cell(*cell, &space.dof_handler);
-    Vector<double> local(space.tables.fe.dofs_per_cell);
-    dof_cell->get_dof_values(u, local);
-    std::vector<double> data(local.begin(), local.end());
-    for (const unsigned int number : cell->face_indices())
-      if (const MomentFace<dim> *const face = space.moment_face(dof_cell, number))
-        for (const unsigned int first : {face->friction, face->pressure})
-          for (unsigned int k = 0; first != none && k < space.tables.n_moments(); ++k)
-            for (unsigned int s = 0; s < space.contact[first].n_unknowns(); ++s)
-              data.push_back(lambda[first + k][s]);
-    return Utilities::pack(data, false);
-  };
-  handle = mesh.register_data_attach(pack, true);
+  Vector<double> local(space.tables.fe.dofs_per_cell);
+  cell->get_dof_values(u, local);
+  CellValues result{{local.begin(), local.end()}, {}};
+  for (const unsigned int number : cell->face_indices())
+    if (const MomentFace<dim> *const face = space.moment_face(cell, number))
+      for (const unsigned int first : {face->friction, face->pressure})
+        for (unsigned int k = 0; first != none && k < space.tables.n_moments(); ++k)
+          for (unsigned int s = 0; s < space.contact[first].n_unknowns(); ++s)
+            result.lambda.push_back(lambda[first + k][s]);
+  return result;
 }
 
-template <int dim>
-void Transfer<dim>::unpack(const MomentSpace<dim> &space, DistributedVector &u,
-                           std::vector<ContactVector<dim>> &lambda)
+namespace
 {
-  u = space.ghosted_vector();
-  lambda.assign(space.contact.size(), ContactVector<dim>());
-  const unsigned int n = space.tables.fe.dofs_per_cell;
-  const auto take = [&](const Cell &cell, const auto status, const auto &range)
-  {
-    const auto data = Utilities::unpack<std::vector<double>>(range.begin(), range.end(), false);
-    Vector<double> local(data.begin(), data.begin() + n);
-    const std::vector<double> multiplier(data.begin() + n, data.end());
-    const typename DoFHandler<dim>::cell_iterator dof_cell(*cell, &space.dof_handler);
-    dof_cell->set_dof_values_by_interpolation(local, u);
-    const std::vector<bool> components = space.moment_components(cell);
-    if (status == parallel::distributed::Triangulation<dim>::CELL_PERSIST)
-      take_multiplier(space, cell, cell, components, multiplier, lambda);
-    else
-      for (const Cell &child : cell->child_iterators())
-        take_multiplier(space, child, cell, components, multiplier, lambda);
-  };
-  mesh.notify_ready_to_unpack(handle, take);
-  u.zero_out_ghost_values();
-  u.update_ghost_values();
-}
-
 /** lambda of the parent, a polynomial of degree p-2 on each face, at the moments of a cell. */
 template <int dim>
-void Transfer<dim>::take_multiplier(const MomentSpace<dim> &space, const Cell &cell,
-                                    const Cell &parent, const std::vector<bool> &parent_components,
-                                    const std::vector<double> &values,
-                                    std::vector<ContactVector<dim>> &lambda)
+void take_multiplier(const MomentSpace<dim> &space,
+                     const typename Triangulation<dim>::cell_iterator &cell,
+                     const typename Triangulation<dim>::cell_iterator &parent,
+                     const std::vector<bool> &parent_components, const std::vector<double> &values,
+                     std::vector<ContactVector<dim>> &lambda)
 {
   const unsigned int n = space.tables.n_moments();
   const Tensor<1, dim> size = MomentSpace<dim>::extent(parent);
@@ -94,6 +64,67 @@ void Transfer<dim>::take_multiplier(const MomentSpace<dim> &space, const Cell &c
     }
 }
 
+} // namespace
+
+template <int dim>
+void take_values(const typename Triangulation<dim>::cell_iterator &cell, const CellValues &values,
+                 const MomentSpace<dim> &space, DistributedVector &u,
+                 std::vector<ContactVector<dim>> &lambda)
+{
+  const typename DoFHandler<dim>::cell_iterator dof_cell(*cell, &space.dof_handler);
+  dof_cell->set_dof_values_by_interpolation(Vector<double>(values.u.begin(), values.u.end()), u);
+  const std::vector<bool> components = space.moment_components(cell);
+  if (cell->is_active())
+    take_multiplier(space, cell, cell, components, values.lambda, lambda);
+  else
+    for (const auto &child : cell->child_iterators())
+      take_multiplier(space, child, cell, components, values.lambda, lambda);
+}
+
+template <int dim>
+Transfer<dim>::Transfer(Mesh &mesh, const MomentSpace<dim> &space, const DistributedVector &u,
+                        const std::vector<ContactVector<dim>> &lambda)
+    : mesh(mesh)
+{
+  const auto pack = [&space, &u, &lambda](const Cell &cell, const auto)
+  {
+    const CellValues values =
+        values_on(typename MomentSpace<dim>::Cell(*cell, &space.dof_handler), space, u, lambda);
+    std::vector<double> data = values.u;
+    data.insert(data.end(), values.lambda.begin(), values.lambda.end());
+    return Utilities::pack(data, false);
+  };
+  handle = mesh.register_data_attach(pack, true);
+}
+
+template <int dim>
+void Transfer<dim>::unpack(const MomentSpace<dim> &space, DistributedVector &u,
+                           std::vector<ContactVector<dim>> &lambda)
+{
+  u = space.ghosted_vector();
+  lambda.assign(space.contact.size(), ContactVector<dim>());
+  const unsigned int n = space.tables.fe.dofs_per_cell;
+  const auto take = [&](const Cell &cell, const auto, const auto &range)
+  {
+    const auto data = Utilities::unpack<std::vector<double>>(range.begin(), range.end(), false);
+    const CellValues values{{data.begin(), data.begin() + n}, {data.begin() + n, data.end()}};
+    take_values(cell, values, space, u, lambda);
+  };
+  mesh.notify_ready_to_unpack(handle, take);
+  u.zero_out_ghost_values();
+  u.update_ghost_values();
+}
+
+template CellValues values_on(const typename MomentSpace<2>::Cell &, const MomentSpace<2> &,
+                              const DistributedVector &, const std::vector<ContactVector<2>> &);
+template CellValues values_on(const typename MomentSpace<3>::Cell &, const MomentSpace<3> &,
+                              const DistributedVector &, const std::vector<ContactVector<3>> &);
+template void take_values(const Triangulation<2>::cell_iterator &, const CellValues &,
+                          const MomentSpace<2> &, DistributedVector &,
+                          std::vector<ContactVector<2>> &);
+template void take_values(const Triangulation<3>::cell_iterator &, const CellValues &,
+                          const MomentSpace<3> &, DistributedVector &,
+                          std::vector<ContactVector<3>> &);
 template class Transfer<2>;
 template class Transfer<3>;
 } // namespace hpvi

@@ -2,9 +2,9 @@
 #include <hpvi/base/text.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/output.h>
-#include <hpvi/program/primal_run.h>
+#include <hpvi/program/started_processes.h>
 #include <hpvi/program/terminal.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <deal.II/base/config.h>
 

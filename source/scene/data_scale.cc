@@ -37,18 +37,12 @@ void drop(const double round_off, Expression<dim> &function)
           return std::abs(value) < round_off ? 0. : value;
         });
 }
-
-template <int dim>
-double size_of(const Geometry<dim> &geometry)
-{
-  return geometry.corners.front().distance(geometry.corners.back());
-}
 } // namespace
 
 template <int dim>
 DataScale data_scale(const Scene<dim> &scene)
 {
-  const double size = size_of(scene.geometry);
+  const double size = scene.geometry.diameter();
   const auto absolute = [](const double value) { return std::abs(value); };
   DataScale scale = scene.past_data;
   double force = 0;
@@ -65,12 +59,11 @@ DataScale data_scale(const Scene<dim> &scene)
       raise<dim>(scale.displacement, boundary.displacement[c], points, absolute);
     }
     raise<dim>(scale.displacement, boundary.gap, points, [](const double gap) { return -gap; });
-    raise<dim>(scale.displacement, boundary.friction.past, points, absolute);
   }
-  double softest = scene.largest_mu();
+  double softest = scene.largest_weight();
   for (const Material &material : scene.materials)
-    softest = std::min(softest, material.mu());
-  const double strain = scale.stress / scene.largest_mu();
+    softest = std::min(softest, material.weight());
+  const double strain = scale.stress / scene.largest_weight();
   scale.stress = std::max(scale.stress, softest * scale.displacement / size);
   scale.displacement = std::max(scale.displacement, strain * size);
   return scale;
@@ -92,7 +85,7 @@ Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const D
   { return std::max(0.1 * round_off_of_data * largest, smallest_magnitude); };
   const DataScale scale = data_scale(result);
   for (Expression<dim> &component : result.body_force)
-    drop(round_off(scale.stress / size_of(scene.geometry)), component);
+    drop(round_off(scale.stress / scene.geometry.diameter()), component);
   for (BoundaryCondition<dim> &boundary : result.boundaries)
   {
     for (unsigned int c = 0; c < dim; ++c)

@@ -12,6 +12,13 @@ namespace hpvi
 {
 using namespace dealii;
 
+std::vector<std::string> boundary_names(const int dim)
+{
+  std::vector<std::string> names = {"left", "right", "bottom", "top", "front", "back"};
+  names.resize(2 * dim);
+  return names;
+}
+
 template <int dim>
 Corners<dim> box_corners(const Point<dim> &lower, const Point<dim> &upper)
 {
@@ -71,26 +78,56 @@ bool Geometry<dim>::has_affine_cells() const
   return skew <= 1e-12 * size + 2 * std::numeric_limits<double>::epsilon() * coordinates;
 }
 
-std::array<double, 4> corner_angles(const Geometry<2> &geometry)
+template <int dim>
+double Geometry<dim>::diameter() const
 {
-  std::array<double, 4> angles;
-  for (unsigned int c = 0; c < angles.size(); ++c)
+  double result = 0;
+  for (unsigned int v = 0; v < corners.size(); ++v)
+    for (unsigned int w = 0; w < v; ++w)
+      result = std::max(result, corners[w].distance(corners[v]));
+  return result;
+}
+
+template <int dim>
+double Geometry<dim>::radius() const
+{
+  const Point<dim> middle = centre();
+  double result = 0;
+  for (const Point<dim> &corner : corners)
+    result = std::max(result, corner.distance(middle));
+  return result;
+}
+
+template <int dim>
+Point<dim> Geometry<dim>::centre() const
+{
+  Point<dim> result;
+  for (const Point<dim> &corner : corners)
+    result += corner / double(corners.size());
+  return result;
+}
+
+template <int dim>
+bool Geometry<dim>::contains(const Point<dim> &x) const
+{
+  const std::vector<Side<dim>> sides = sides_of(*this);
+  return std::all_of(sides.begin(), sides.end(),
+                     [&](const Side<dim> &side)
+                     { return side.normal(x) * (x - side.ends[0]) <= 2e-10 * radius(); });
+}
+
+std::array<Corner, 4> corners_of(const Geometry<2> &geometry)
+{
+  std::array<Corner, 4> result;
+  for (unsigned int c = 0; c < result.size(); ++c)
   {
     // Neighbours differ in one bit of the lexicographic number.
     const Tensor<1, 2> a = geometry.corners[c ^ 1u] - geometry.corners[c],
                        b = geometry.corners[c ^ 2u] - geometry.corners[c];
-    angles[c] = std::atan2(std::abs(a[0] * b[1] - a[1] * b[0]), a * b) * 180. / numbers::PI;
+    result[c] = {geometry.corners[c],
+                 std::atan2(std::abs(a[0] * b[1] - a[1] * b[0]), a * b) * 180. / numbers::PI};
   }
-  return angles;
-}
-
-template <int dim>
-Point<dim> centre_of(const Geometry<dim> &geometry)
-{
-  Point<dim> centre;
-  for (const Point<dim> &corner : geometry.corners)
-    centre += corner / double(geometry.corners.size());
-  return centre;
+  return result;
 }
 
 namespace
@@ -154,13 +191,31 @@ std::vector<Point<dim>> Side<dim>::sample() const
 }
 
 template <int dim>
+Tensor<1, dim> Side<dim>::normal(const Point<dim> &) const
+{
+  return outward; // of a flat side everywhere
+}
+
+template <int dim>
+Tensor<1, dim> Side<dim>::tangent(const Point<dim> &x) const
+{
+  Tensor<1, dim> result;
+  if constexpr (dim == 2)
+    result = -cross_product_2d(normal(x));
+  else
+    Assert(false, ExcMessage("A side in space has two tangents."));
+  return result;
+}
+
+template <int dim>
 std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
 {
-  const Point<dim> centre = centre_of(geometry);
+  const Point<dim> centre = geometry.centre();
   std::vector<Side<dim>> sides(GeometryInfo<dim>::faces_per_cell);
   for (unsigned int f = 0; f < sides.size(); ++f)
   {
     Side<dim> &side = sides[f];
+    side.axis = GeometryInfo<dim>::unit_normal_direction[f];
     for (unsigned int v = 0; v < side.n_corners; ++v)
     {
       side.corners[v] = GeometryInfo<dim>::face_to_cell_vertices(f, v);
@@ -168,15 +223,15 @@ std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
     }
     const Tensor<1, dim> along = side.ends[1] - side.ends[0];
     if constexpr (dim == 2)
-      side.normal = cross_product_2d(along) / along.norm();
+      side.outward = cross_product_2d(along) / along.norm();
     else
     {
       const Tensor<1, dim> across = side.ends[2] - side.ends[0];
-      side.normal = cross_product_3d(along / along.norm(), across / across.norm());
-      side.normal /= side.normal.norm();
+      side.outward = cross_product_3d(along / along.norm(), across / across.norm());
+      side.outward /= side.outward.norm();
     }
-    if (side.normal * (side.ends[0] - centre) < 0)
-      side.normal *= -1.;
+    if (side.outward * (side.ends[0] - centre) < 0)
+      side.outward *= -1.;
   }
   return sides;
 }
@@ -248,6 +303,4 @@ template std::vector<Point<2>> common_points(const Side<2> &, const Side<2> &);
 template std::vector<Point<3>> common_points(const Side<3> &, const Side<3> &);
 template std::vector<Point<2>> sample_body(const Geometry<2> &);
 template std::vector<Point<3>> sample_body(const Geometry<3> &);
-template Point<2> centre_of(const Geometry<2> &);
-template Point<3> centre_of(const Geometry<3> &);
 } // namespace hpvi

@@ -3,7 +3,6 @@
 
 #include <hpvi/base/text.h>
 #include <hpvi/input/parameters.h>
-#include <hpvi/input/scene_entries.h>
 
 #include <algorithm>
 #include <limits>
@@ -21,18 +20,6 @@ bool any_given(const std::array<Expression<dim>, dim> &components)
                      [](const Expression<dim> &e) { return e != nullptr; });
 }
 } // namespace
-
-template <int dim>
-Expression<dim> expression(const double value)
-{
-  return std::make_shared<Functions::ConstantFunction<dim>>(value);
-}
-
-template <int dim>
-Expression<dim> expression(const std::function<double(const Point<dim> &)> &function)
-{
-  return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(function);
-}
 
 template <int dim>
 bool BoundaryCondition<dim>::has_displacement() const
@@ -61,13 +48,13 @@ bool BoundaryCondition<dim>::is_unilateral() const
 template <int dim>
 bool BoundaryCondition<dim>::holds_normal() const
 {
-  return contact == Contact::bilateral && !friction.coefficient;
+  return contact == Contact::bilateral && !friction.knows_pressure();
 }
 
 template <int dim>
 bool BoundaryCondition<dim>::has_pressure() const
 {
-  return is_unilateral() || (contact == Contact::bilateral && friction.coefficient);
+  return is_unilateral() || (contact == Contact::bilateral && friction.knows_pressure());
 }
 
 template <int dim>
@@ -108,9 +95,10 @@ double Loading<dim>::time(const unsigned int step) const
 template <int dim>
 Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell)
 {
+  const std::vector<std::string> names = boundary_names(dim);
   for (types::boundary_id b = 0; b < boundaries.size(); ++b)
   {
-    boundaries[b].name = boundary_names[b];
+    boundaries[b].name = names[b];
     boundaries[b].id = b;
   }
   if (dim == 3) // as in a file
@@ -150,12 +138,12 @@ double Scene<dim>::coercivity() const
 }
 
 template <int dim>
-double Scene<dim>::largest_mu() const
+double Scene<dim>::largest_weight() const
 {
-  double largest_mu = 0;
+  double largest = 0;
   for (const Material &material : materials)
-    largest_mu = std::max(largest_mu, material.mu());
-  return largest_mu;
+    largest = std::max(largest, material.weight());
+  return largest;
 }
 
 template <int dim>
@@ -201,15 +189,13 @@ bool Scene<dim>::has_friction() const
 template <int dim>
 std::string Scene<dim>::no_error_bound() const
 {
-  if (has_coulomb_friction())
-    return "Coulomb's law minimises no energy";
+  for (const BoundaryCondition<dim> &boundary : boundaries)
+    if (boundary.has_contact() && boundary.friction.knows_pressure())
+      return boundary.friction.name() + " minimises no energy";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (!geometry.has_affine_cells() && !bound_on_distorted_cells)
     return "cells are no parallelograms, and Error/Bound on distorted cells is false";
-  for (const BoundaryCondition<dim> &boundary : boundaries)
-    if (boundary.friction.past)
-      return "friction acts on increments after the first load step";
   return {};
 }
 
@@ -225,7 +211,7 @@ bool Scene<dim>::has_coulomb_friction() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &b)
-                     { return b.has_contact() && b.friction.coefficient; });
+                     { return b.has_contact() && b.friction.knows_pressure(); });
 }
 
 template <int dim>
@@ -250,10 +236,6 @@ std::string Scene<dim>::effective_parameters() const
   return parameters ? parameters->print(false) : "";
 }
 
-template Expression<2> expression<2>(double);
-template Expression<2> expression<2>(const std::function<double(const Point<2> &)> &);
-template Expression<3> expression<3>(double);
-template Expression<3> expression<3>(const std::function<double(const Point<3> &)> &);
 template struct BoundaryCondition<2>;
 template struct BoundaryCondition<3>;
 template struct Loading<2>;

@@ -193,7 +193,7 @@ bool varies(const FrictionRule &friction)
 template <int dim>
 double slip_at(const unsigned int i, const Vector<double> &z, const ContactSpace<dim> &space)
 {
-  const double bound = space.multipliers()[i].bound;
+  const double bound = space.multipliers()[i].friction.limit(0.);
   return bound == 0. || std::abs(z[i]) < (1. - 1e-10) * bound ? 0. : z[i] < 0. ? -1. : 1.;
 }
 
@@ -205,7 +205,7 @@ unsigned int n_slipping(const ContactFace<dim> &face, const Vector<double> &z,
 {
   unsigned int result = 0;
   for (unsigned int i = face.first_multiplier; i < face.first_multiplier + face.n_multipliers; ++i)
-    result += space.multipliers()[i].bound == 0. || slip_at(i, z, space) != 0.;
+    result += space.multipliers()[i].friction.vanishes() || slip_at(i, z, space) != 0.;
   return result;
 }
 } // namespace

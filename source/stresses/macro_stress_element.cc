@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/numerical_failure.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/stresses/macro_stress_element.h>
 
 #include <algorithm>
@@ -13,16 +12,7 @@ using namespace dealii;
 
 namespace
 {
-/** Throws NumericalFailure unless a local matrix is positive definite. */
-void require_regular(const bool is_positive_definite)
-{
-  if (!is_positive_definite)
-    throw NumericalFailure("round-off spoils the stresses of a cell, as where it is many thousand "
-                           "times as long as wide");
-}
-
-/** Vertices along a face. */
-constexpr unsigned int vertex_of_face[4][2] = {{0, 2}, {1, 3}, {0, 1}, {2, 3}};
+constexpr char stresses[] = "the stresses of a cell";
 
 /** Conditions of the triangles that leave the tractions between them independent. The others follow from
  * these and the balance of the cell; that at the crossing, since both diagonals are straight there. */
@@ -30,35 +20,6 @@ constexpr unsigned int n_inner_conditions = 20;
 bool is_independent(const unsigned int f, const unsigned int condition)
 {
   return f < 3 || condition == 3 || condition == 4;
-}
-
-/** `C^-1 s : s = (s : s - nu' tr(s)^2)/(2 mu)`, nu' = lambda/(2(lambda + mu)), for pairs of `s = B E B'`. */
-std::array<double, 6> component_energy(const MacroStressElement::Piece &piece,
-                                       const Material &material)
-{
-  const double mu = material.mu(), lambda = material.lambda(2), nu = lambda / (2 * (lambda + mu));
-  constexpr unsigned int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-  std::array<Tensor<2, 2>, 3> s;
-  for (unsigned int k = 0; k < 3; ++k)
-  {
-    Tensor<2, 2> E;
-    E[k == 1][k != 0] = 1.;
-    E[k != 0][k == 1] = 1.;
-    s[k] = piece.B * E * transpose(piece.B);
-  }
-  std::array<double, 6> result;
-  for (unsigned int pair = 0; pair < 6; ++pair)
-  {
-    const auto &one = s[pairs[pair][0]], &other = s[pairs[pair][1]];
-    result[pair] = piece.scale * piece.scale *
-                   (scalar_product(one, other) - nu * trace(one) * trace(other)) / (2 * mu);
-  }
-  return result;
-}
-
-double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-{
-  return a[0] * b[1] - a[1] * b[0];
 }
 
 Point<2> crossing_of(const MacroStressElement::Vertices &v)
@@ -78,7 +39,8 @@ MacroStressElement::MacroStressElement(const TriangleStress &triangle, const Ver
     : triangle(triangle), crossing(crossing_of(vertices) / size(vertices)),
       n_edges(8 * (triangle.k + 1))
 {
-  set_pieces(vertices, material);
+  for (unsigned int f = 0; f < 4; ++f)
+    triangles.emplace_back(triangle, f, vertices, crossing, size(vertices), material);
   set_conditions();
   // Edges between triangles, by their vertices, come before the faces.
   const unsigned int size = 2 * n_edges;
@@ -91,7 +53,7 @@ MacroStressElement::MacroStressElement(const TriangleStress &triangle, const Ver
   eliminate(H, C);
 }
 
-const MacroStressElement::Piece &MacroStressElement::piece(const unsigned int f) const
+const MacroTriangle &MacroStressElement::piece(const unsigned int f) const
 {
   return triangles[f];
 }
@@ -106,88 +68,11 @@ const std::vector<double> &MacroStressElement::edge_energy() const
   return G;
 }
 
-/** `S nu = B^-1 (s n) l/scale` on an edge of length l. */
-void MacroStressElement::set_pieces(const Vertices &vertices, const Material &material)
-{
-  for (unsigned int f = 0; f < 4; ++f)
-  {
-    Triangle &piece = triangles[f];
-    const double h = size(vertices);
-    const Tensor<1, 2> a = (vertices[vertex_of_face[f][0]] - vertices[0]) / h,
-                       b = (vertices[vertex_of_face[f][1]] - vertices[0]) / h, to_a = a - crossing,
-                       to_b = b - crossing;
-    piece.scale = std::sqrt(std::abs(cross(to_a, to_b)));
-    for (unsigned int c = 0; c < 2; ++c)
-    {
-      piece.B[c][0] = to_a[c] / piece.scale;
-      piece.B[c][1] = to_b[c] / piece.scale;
-    }
-    piece.energy = component_energy(piece, material);
-    const Tensor<2, 2> inverse = invert(piece.B) / piece.scale;
-    Tensor<2, 2> frame; // columns: normal and tangent of the face
-    const Tensor<1, 2> along = (b - a) / (b - a).norm();
-    const double turn = f < 2 ? 1. : -1.;
-    for (unsigned int c = 0; c < 2; ++c)
-    {
-      frame[c][0] = c == 0 ? turn * along[1] : -turn * along[0];
-      frame[c][1] = along[c];
-    }
-    piece.places = {{4 + f, vertex_of_face[f][0], vertex_of_face[f][1]}};
-    piece.to_edge = {{(f % 2 ? 1. : -1.) * (to_b - to_a).norm() * inverse * frame,
-                      turn * to_a.norm() * inverse, turn * to_b.norm() * inverse}};
-  }
-}
-
-/** S := M S for columns of stresses. */
-void MacroStressElement::apply_energy(const Triangle &piece, const unsigned int columns,
-                                      std::vector<double> &S) const
-{
-  const unsigned int n = triangle.n;
-  const auto &e = piece.energy;
-  for (unsigned int column = 0; column < columns; ++column)
-    for (unsigned int l = 0; l < n; ++l)
-    {
-      double *const s = &S[column * 3 * n + l];
-      const double xx = s[0], yy = s[n], xy = s[2 * n];
-      s[0] = e[0] * xx + e[3] * yy + e[4] * xy;
-      s[n] = e[3] * xx + e[1] * yy + e[5] * xy;
-      s[2 * n] = e[4] * xx + e[5] * yy + e[2] * xy;
-    }
-}
-
-/** Energy of S nu on the edges of a triangle: n_edges x n_edges, in columns of n_edges + n_bubbles. */
-std::vector<double> MacroStressElement::eliminate_bubbles(Triangle &piece) const
-{
-  const unsigned int edges = triangle.n_edges, bubbles = triangle.n_bubbles, size = edges + bubbles,
-                     n_data = triangle.n_divergence + edges;
-  std::vector<double> M(size * size);
-  for (unsigned int pair = 0; pair < 6; ++pair)
-    for (unsigned int i = 0; i < M.size(); ++i)
-      M[i] += piece.energy[pair] * triangle.products[pair][i];
-  piece.L.resize(bubbles * bubbles);
-  piece.X.resize(bubbles * edges);
-  for (unsigned int j = 0; j < bubbles; ++j)
-    std::copy_n(&M[(edges + j) * size + edges], bubbles, &piece.L[j * bubbles]);
-  for (unsigned int j = 0; j < edges; ++j)
-    std::copy_n(&M[j * size + edges], bubbles, &piece.X[j * bubbles]);
-  require_regular(cholesky(bubbles, piece.L.data(), bubbles));
-  solve_triangular('N', bubbles, edges, {piece.L.data(), bubbles}, piece.X.data(), bubbles);
-  multiply('T', 'N', edges, edges, bubbles, -1., {piece.X.data(), bubbles},
-           {piece.X.data(), bubbles}, 1., M.data(), size);
-  double alpha = 0;
-  for (unsigned int i = 0; i < edges; ++i)
-    alpha += M[i * size + i] / edges;
-  // Definite also for what no stress has; constant where the conditions are met.
-  multiply('N', 'T', edges, edges, 6, alpha, {&triangle.conditions[triangle.n_divergence], n_data},
-           {&triangle.conditions[triangle.n_divergence], n_data}, 1., M.data(), size);
-  return M;
-}
-
 /** Adds the energy of a triangle, from tractions on the edges of the cell. */
-void MacroStressElement::add_energy(Triangle &piece, std::vector<double> &H) const
+void MacroStressElement::add_energy(MacroTriangle &piece, std::vector<double> &H) const
 {
   const unsigned int n = triangle.k + 1, size = triangle.n_edges + triangle.n_bubbles;
-  const std::vector<double> M = eliminate_bubbles(piece);
+  const std::vector<double> M = piece.eliminate_bubbles();
   for (unsigned int e = 0; e < 3; ++e)
     for (unsigned int d = 0; d < 3; ++d)
       for (unsigned int c = 0; c < 4; ++c)
@@ -208,7 +93,7 @@ void MacroStressElement::add_energy(Triangle &piece, std::vector<double> &H) con
 
 void MacroStressElement::add_conditions(const unsigned int f, std::vector<double> &C) const
 {
-  const Triangle &piece = triangles[f];
+  const MacroTriangle &piece = triangles[f];
   const unsigned int n = triangle.k + 1, n_data = triangle.n_divergence + triangle.n_edges;
   for (unsigned int condition = 0; condition < 6; ++condition)
   {
@@ -236,7 +121,7 @@ void MacroStressElement::set_conditions()
   {
     for (unsigned int f = 0; f < 4; ++f)
     {
-      const Triangle &piece = triangles[f];
+      const MacroTriangle &piece = triangles[f];
       const Tensor<2, 2> B = piece.scale * piece.B;
       const std::array<double, 3> motion{
           {z < 2 ? B[z][0] : 0., z < 2 ? B[z][1] : 0.,
@@ -298,29 +183,17 @@ void MacroStressElement::eliminate(const std::vector<double> &H, const std::vect
     for (unsigned int i = 0; i < m; ++i)
       W[i * n + j] = C[j * m + i];
   }
-  require_regular(cholesky(n, L.data(), n));
+  require_regular(cholesky(n, L.data(), n), stresses);
   solve_triangular('N', n, n, {L.data(), n}, Y.data(), n);
   solve_triangular('N', n, m, {L.data(), n}, W.data(), n);
   S.resize(m * m);
   multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
-  require_regular(cholesky(m, S.data(), m));
+  require_regular(cholesky(m, S.data(), m), stresses);
   Q.assign(C.begin() + n * m, C.end());
   multiply('T', 'N', m, n, n, -1., {W.data(), n}, {Y.data(), n}, 1., Q.data(), m);
   solve_triangular('N', m, n, {S.data(), m}, Q.data(), m); // L_S^-1 Q
   multiply('T', 'N', n, n, n, -1., {Y.data(), n}, {Y.data(), n}, 1., G.data(), n);
   multiply('T', 'N', n, n, m, 1., {Q.data(), m}, {Q.data(), m}, 1., G.data(), n);
-}
-
-void MacroStressElement::add_gradient(const Triangle &piece, const double *const from,
-                                      double *const gradient) const
-{
-  const unsigned int n = triangle.k + 1;
-  for (unsigned int e = 0; e < 3; ++e)
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int a = 0; a < 2; ++a)
-          gradient[2 * n * piece.places[e] + c * n + i] +=
-              piece.to_edge[e][a][c] * from[2 * n * e + a * n + i];
 }
 
 MacroStressElement::Reduced MacroStressElement::reduce(const Data &data) const
@@ -334,13 +207,13 @@ MacroStressElement::Reduced MacroStressElement::reduce(const Data &data) const
   result.defect.resize(n_inner_conditions * columns);
   for (unsigned int f = 0; f < 4; ++f)
   {
-    const Triangle &piece = triangles[f];
+    const MacroTriangle &piece = triangles[f];
     result.rest[f] = data.stress[f];
     multiply('N', 'N', n_stress, columns, n_divergence, 1.,
              {triangle.of_divergence.data(), n_stress}, {data.divergence[f].data(), n_divergence},
              -1., result.rest[f].data(), n_stress);
     std::vector<double> moments(result.rest[f]), products(size * columns);
-    apply_energy(piece, columns, moments);
+    piece.apply_energy(columns, moments);
     multiply('T', 'N', size, columns, n_stress, 1., {triangle.of_edges.data(), n_stress},
              {moments.data(), n_stress}, 0., products.data(), size);
     for (unsigned int column = 0; column < columns; ++column)
@@ -352,7 +225,7 @@ MacroStressElement::Reduced MacroStressElement::reduce(const Data &data) const
              {result.bubbles[f].data(), bubbles}, 1., products.data(), size);
     for (unsigned int column = 0; column < columns; ++column)
     {
-      add_gradient(piece, &products[column * size], &result.gradient[2 * n_edges * column]);
+      piece.add_gradient(&products[column * size], &result.gradient[2 * n_edges * column]);
       if (f < 3)
         multiply('T', 'N', 3, 1, n_divergence, 1., {triangle.conditions.data(), n_data},
                  {&data.divergence[f][column * n_divergence], n_divergence}, 0.,
@@ -384,21 +257,6 @@ void MacroStressElement::reduce(const Data &data, std::vector<double> &gradients
     multiply('T', 'N', 3, columns, triangle.n_divergence, 1.,
              {&N_divergence[3 * f * triangle.n_divergence], triangle.n_divergence},
              {data.divergence[f].data(), triangle.n_divergence}, 1., defects.data(), 3);
-}
-
-/** S nu on the edges of a triangle. */
-std::vector<double> MacroStressElement::edge_tractions(const Triangle &piece,
-                                                       const std::vector<double> &t) const
-{
-  const unsigned int n = triangle.k + 1;
-  std::vector<double> result(triangle.n_edges);
-  for (unsigned int e = 0; e < 3; ++e)
-    for (unsigned int a = 0; a < 2; ++a)
-      for (unsigned int c = 0; c < 2; ++c)
-        for (unsigned int i = 0; i < n; ++i)
-          result[2 * n * e + a * n + i] +=
-              piece.to_edge[e][a][c] * t[2 * n * piece.places[e] + c * n + i];
-  return result;
 }
 
 /** `-L^-T (y + W mu)` with mu such that the conditions are met, and then those of the faces. */
@@ -444,9 +302,9 @@ MacroStressElement::Stress MacroStressElement::stress(const Data &data,
   result.energy = 0;
   for (unsigned int f = 0; f < 4; ++f)
   {
-    const Triangle &piece = triangles[f];
+    const MacroTriangle &piece = triangles[f];
     // t on the edges, then amplitudes of the bubbles: -L^-T (w + X t)
-    std::vector<double> t = edge_tractions(piece, all), b(reduced.bubbles[f]);
+    std::vector<double> t = piece.tractions(all), b(reduced.bubbles[f]);
     multiply('N', 'N', bubbles, 1, edges, 1., {piece.X.data(), bubbles}, {t.data(), edges}, 1.,
              b.data(), bubbles);
     solve_triangular('T', bubbles, 1, {piece.L.data(), bubbles}, b.data(), bubbles);
@@ -456,7 +314,7 @@ MacroStressElement::Stress MacroStressElement::stress(const Data &data,
     multiply('N', 'N', n_stress, 1, edges + bubbles, 1., {triangle.of_edges.data(), n_stress},
              {t.data(), edges + bubbles}, 1., difference.data(), n_stress);
     std::vector<double> moments(difference);
-    apply_energy(piece, 1, moments);
+    piece.apply_energy(1, moments);
     result.energy += std::inner_product(difference.begin(), difference.end(), moments.begin(), 0.);
     result.coefficients[f] = data.stress[f];
     for (unsigned int i = 0; i < n_stress; ++i)
@@ -470,7 +328,7 @@ Tensor<2, 2> MacroStressElement::value(const Stress &stress, const Point<2> &x) 
   const unsigned int n = triangle.n;
   for (unsigned int f = 0;; ++f)
   {
-    const Piece &piece = triangles[f];
+    const MacroTriangle &piece = triangles[f];
     const Tensor<1, 2> xy = invert(piece.B) * (x - crossing) / piece.scale;
     if (f < 3 && std::min(xy[0], xy[1]) < 0)
       continue;

@@ -2,6 +2,7 @@
 #include <hpvi/body/cell_map.h>
 #include <hpvi/stresses/mean_gradients.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
@@ -21,46 +22,62 @@ double MeanGradient<dim>::largest_strain() const
 template <int dim>
 double MeanGradient<dim>::rotation() const
 {
-  static_assert(dim == 2, "one rotation");
-  return 0.5 * std::abs(value[1][0] - value[0][1]);
+  double curl_square = 0;
+  for (unsigned int i = 1; i < dim; ++i)
+    for (unsigned int j = 0; j < i; ++j)
+      curl_square += (value[i][j] - value[j][i]) * (value[i][j] - value[j][i]);
+  return 0.5 * std::sqrt(curl_square);
 }
 
 template <int dim>
-std::vector<MeanGradient<dim>> mean_gradients(const DisplacementSpace<dim> &space,
-                                              const ShapeTables<dim> &tables,
-                                              const Vector<double> &u)
+std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field)
 {
-  static_assert(dim == 2, "edges");
-  std::vector<MeanGradient<dim>> result(space.triangulation().n_cells(0));
-  std::vector<double> area(result.size());
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  const Triangulation<dim> &mesh = field.dof_handler.get_triangulation();
+  std::vector<MeanGradient<dim>> result(mesh.n_cells(0));
+  constexpr unsigned int n = dim * dim + 1;
+  std::vector<double> sums(n * result.size()); // int grad u, then the area, of each coarse cell
+  for (const auto &cell : field.dof_handler.active_cell_iterators())
   {
+    if (!cell->is_locally_owned())
+      continue;
     auto coarse = typename Triangulation<dim>::cell_iterator(cell);
     while (coarse->level() > 0)
       coarse = coarse->parent();
-    MeanGradient<dim> &mean = result[coarse->index()];
-    mean.centre = coarse->center();
-    area[coarse->index()] += cell->measure();
-    const unsigned int p = space.degrees()[cell->active_cell_index()];
-    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    double *const sum = &sums[n * coarse->index()];
+    sum[n - 1] += cell->measure();
+    const unsigned int p = field.degree(cell);
+    const std::vector<double> coefficients = field.coefficients(cell);
     const CellMap<dim> map = map_of<dim>(cell);
-    const QGaussLobatto<1> &rule = tables.gauss_lobatto(p + 1); // its points are the nodes
     for (const unsigned int f : cell->face_indices())
     {
-      const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[f];
-      const Point<dim> middle = point_on_face<dim>(f, Point<1>(0.5));
-      const Tensor<1, dim> n_ds = map.face_measure(f, middle) * map.normal(f, middle);
-      for (unsigned int k = 0; k <= p; ++k)
+      const ShapeTable<dim> &table = field.tables.face(p, f, p + 1);
+      const std::vector<double> u = evaluate(table.values, coefficients);
+      for (unsigned int q = 0; q < table.points.size(); ++q)
+      {
+        const Tensor<1, dim> n_ds = table.weights[q] * map.face_measure(f, table.points[q]) *
+                                    map.normal(f, table.points[q]);
         for (unsigned int c = 0; c < dim; ++c)
-          mean.value[c] += rule.weight(k) * u[dofs[on_edge[c * (p + 1) + k]]] * n_ds;
+          for (unsigned int d = 0; d < dim; ++d)
+            sum[c * dim + d] += u[c * table.points.size() + q] * n_ds[d];
+      }
     }
   }
-  for (unsigned int k = 0; k < result.size(); ++k)
-    result[k].value /= area[k];
+  std::vector<double> all(sums.size());
+  Utilities::MPI::sum(sums, field.communicator(), all);
+  for (const auto &coarse : mesh.cell_iterators_on_level(0))
+  {
+    const double *const sum = &all[n * coarse->index()];
+    MeanGradient<dim> &mean = result[coarse->index()];
+    mean.centre = coarse->center();
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        mean.value[c][d] = sum[c * dim + d] / sum[n - 1];
+  }
   return result;
 }
 
 template struct MeanGradient<2>;
-template std::vector<MeanGradient<2>>
-mean_gradients(const DisplacementSpace<2> &, const ShapeTables<2> &, const Vector<double> &);
+template struct MeanGradient<3>;
+template std::vector<MeanGradient<2>> mean_gradients(const Field<2> &);
+template std::vector<MeanGradient<3>> mean_gradients(const Field<3> &);
 } // namespace hpvi

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs.h"
 
-#include <hpvi/solver/active_set.h>
+#include <hpvi/quadratic/active_set.h>
 
 namespace
 {
@@ -128,22 +128,5 @@ TEST(ActiveSet, NothingAndNotANumber)
     EXPECT_FALSE(report.converged);
     EXPECT_TRUE(std::isnan(report.projected_gradient));
   }
-}
-/** Newton's method follows rims by their curvature: a handful of solves, and no help from Mprgp. */
-TEST(ActiveSet, SolvesProgramsInDiscs)
-{
-  std::mt19937 random(11);
-  unsigned int n_helped = 0;
-  for (unsigned int repetition = 0; repetition < 40; ++repetition)
-  {
-    const QuadraticProgram qp = program_in_discs(3 + repetition % 8, random);
-    Vector<double> z(qp.d.size());
-    const QpReport report = ActiveSet(with_tolerance(1e-12)).solve(qp, z);
-    EXPECT_TRUE(report.converged) << repetition;
-    expect_minimiser(qp, z, 1e-10);
-    n_helped += report.fell_back;
-    EXPECT_LE(report.dense_solves, 25u);
-  }
-  EXPECT_LE(n_helped, 4u);
 }
 } // namespace

@@ -4,7 +4,7 @@
 
 #include "programs.h"
 
-#include <hpvi/solver/coulomb_solver.h>
+#include <hpvi/cones/coulomb_solver.h>
 
 /** Problems of Coulomb friction, and what their solutions fulfil. */
 namespace algebra
@@ -15,8 +15,8 @@ using hpvi::CoulombSolver;
 using Method = CoulombSolver::Method;
 
 /** k cones: components 0 to k-1 are tangential, k to 2k-1 normal, in half lines or free. */
-inline ConeProgram program(LAPACKFullMatrix<double> S, Vector<double> d, const double mu,
-                           const bool bilateral = false)
+inline ConeProgram program(LAPACKFullMatrix<double> S, Vector<double> d,
+                           const hpvi::FrictionLimit &friction, const bool bilateral = false)
 {
   const unsigned int k = d.size() / 2;
   ConeProgram result{std::move(S),
@@ -27,21 +27,27 @@ inline ConeProgram program(LAPACKFullMatrix<double> S, Vector<double> d, const d
   for (unsigned int i = 0; i < 2 * k; ++i)
     result.set.fixed.add_interval(i < k || bilateral ? -infinity : 0., infinity);
   for (unsigned int i = 0; i < k; ++i)
-    result.set.cones.push_back({i, k + i, mu});
+    result.set.cones.push_back({i, k + i, friction});
   return result;
 }
 
 /** Pressed on the whole, with S that couples everything with everything. */
-inline ConeProgram random_cones(const unsigned int seed, const double mu,
+inline ConeProgram random_cones(const unsigned int seed, const hpvi::FrictionLimit &friction,
                                 const bool bilateral = false)
 {
   std::mt19937 random(seed);
   const unsigned int k = 5 + random() % 25;
   ConeProgram result =
-      program(random_matrix(2 * k, random), random_vector(2 * k, random), mu, bilateral);
+      program(random_matrix(2 * k, random), random_vector(2 * k, random), friction, bilateral);
   for (unsigned int i = k; i < 2 * k; ++i)
     result.d[i] += 0.5;
   return result;
+}
+
+inline ConeProgram random_cones(const unsigned int seed, const double mu,
+                                const bool bilateral = false)
+{
+  return random_cones(seed, hpvi::FrictionLimit{0., mu}, bilateral);
 }
 
 /**
@@ -67,7 +73,7 @@ inline ConeProgram half_plane(const double mu, const double coupling, const doub
     d[i] = shear * edge.S(i, i);
     d[k + i] = (1. - 5. * x * x) * edge.S(i, i);
   }
-  return program(S, d, mu);
+  return program(S, d, {0., mu});
 }
 
 inline CoulombReport solve(const ConeProgram &cones, Vector<double> &z, Vector<double> &alpha,
@@ -94,10 +100,10 @@ inline void expect_solution(const ConeProgram &cones, const Vector<double> &z,
     r -= cones.balance.along(alpha);
   const double small = 1e-8 * (cones.d.linfty_norm() + 1e-30);
   std::vector<bool> is_tangential(n);
-  for (const auto &[t, normal, mu] : cones.set.cones)
+  for (const auto &[t, normal, friction] : cones.set.cones)
   {
     is_tangential[t] = true;
-    const double bound = mu * std::max(0., z[normal]);
+    const double bound = friction.limit(z[normal]);
     EXPECT_LE(std::abs(z[t]), bound);
     if (std::abs(z[t]) < bound)
     {

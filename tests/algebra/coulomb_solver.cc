@@ -17,10 +17,10 @@ struct Count
 Count count(const ConeProgram &cones, const Vector<double> &z)
 {
   Count result;
-  for (const auto &[t, normal, mu] : cones.set.cones)
-    ++(z[normal] <= 0.                    ? result.open
-       : std::abs(z[t]) == mu * z[normal] ? result.slip
-                                          : result.stick);
+  for (const auto &[t, normal, friction] : cones.set.cones)
+    ++(z[normal] <= 0.                               ? result.open
+       : std::abs(z[t]) == friction.limit(z[normal]) ? result.slip
+                                                     : result.stick);
   return result;
 }
 
@@ -51,6 +51,37 @@ TEST(CoulombSolver, SolvesRandomProblems)
       }
       EXPECT_GE(std::min({all.open, all.stick, all.slip}), 5u) << mu; // all are there
       EXPECT_LE(fell_back, mu <= 1. ? 0u : 10u);
+    }
+}
+
+/** Limits with a kink, and with friction where nothing presses, in every state, by both methods. */
+TEST(CoulombSolver, SolvesLimitedAndCohesiveCones)
+{
+  Vector<double> z, other, alpha;
+  for (const hpvi::FrictionLimit friction :
+       {hpvi::FrictionLimit{0., 0.3, 0.1}, hpvi::FrictionLimit{0.05, 0.3}})
+    for (const bool bilateral : {false, true})
+    {
+      unsigned int stick = 0, capped = 0, open = 0, slip = 0, fell_back = 0;
+      for (unsigned int seed = 0; seed < 30; ++seed)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const ConeProgram cones = random_cones(seed, friction, bilateral);
+        const CoulombReport report = solve(cones, z, alpha);
+        EXPECT_TRUE(report.qp.converged) << report.residual;
+        expect_solution(cones, z, alpha);
+        fell_back += report.qp.fell_back;
+        for (const auto &[t, normal, limit] : cones.set.cones)
+          ++(std::abs(z[t]) < limit.limit(z[normal]) ? stick
+             : z[normal] <= 0.                       ? open
+             : limit.is_capped(z[normal])            ? capped
+                                                     : slip);
+        EXPECT_TRUE(solve(cones, other, alpha, Method::fixed_point).qp.converged);
+        expect_near(z, other, 1e-7);
+      }
+      EXPECT_GE(std::min({stick, open, slip}), 5u);
+      EXPECT_TRUE(std::isinf(friction.most) || capped >= 5u) << capped;
+      EXPECT_EQ(fell_back, 0u);
     }
 }
 
@@ -157,7 +188,7 @@ TEST(CoulombSolver, OpenStickAndSlip)
       LAPACKFullMatrix<double> S(d.size());
       for (unsigned int i = 0; i < d.size(); ++i)
         S(i, i) = 1.;
-      const ConeProgram cones = program(S, d, 0.5, bilateral);
+      const ConeProgram cones = program(S, d, {0., 0.5}, bilateral);
       EXPECT_TRUE(solve(cones, z, alpha, method).qp.converged);
       expect_near(z, solution, 1e-12);
       expect_solution(cones, z, alpha);
@@ -201,7 +232,7 @@ ConeProgram block(const double mu, const double slope, const double clearance)
   LAPACKFullMatrix<double> S(4);
   for (unsigned int i = 0; i < 4; ++i)
     S(i, i) = 1.;
-  ConeProgram cones = program(S, vec({0., 0., -clearance, -clearance}), mu);
+  ConeProgram cones = program(S, vec({0., 0., -clearance, -clearance}), {0., mu});
   cones.balance.G.reinit(4, 3);
   for (unsigned int i = 0; i < 2; ++i)
   {

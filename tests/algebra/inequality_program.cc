@@ -2,7 +2,7 @@
 #include "programs.h"
 
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/solver/inequality_program.h>
+#include <hpvi/quadratic/inequality_program.h>
 
 #include <algorithm>
 #include <utility>

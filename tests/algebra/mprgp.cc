@@ -438,19 +438,4 @@ TEST(Mprgp, NaNAndInfinityEndTheRun)
       EXPECT_FALSE(converges(qp, 0.));
     }
 }
-TEST(Mprgp, SolvesProgramsInDiscs)
-{
-  std::mt19937 random(11);
-  for (unsigned int repetition = 0; repetition < 40; ++repetition)
-    for (const bool scaling : {false, true})
-    {
-      const QuadraticProgram qp = program_in_discs(3 + repetition % 8, random);
-      Mprgp::Settings settings = with_tolerance(1e-11);
-      settings.diagonal_scaling = scaling;
-      Vector<double> z(qp.d.size());
-      const QpReport report = Mprgp(settings).solve(qp, z);
-      EXPECT_TRUE(report.converged) << repetition;
-      expect_minimiser(qp, z, 1e-9);
-    }
-}
 } // namespace

@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 #include <gtest/gtest.h>
-#include <hpvi/solver/mprgp.h>
+#include <hpvi/quadratic/mprgp.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -184,44 +184,6 @@ inline Vector<double> minimiser_by_enumeration(const QuadraticProgram &qp)
     }
   }
   return best;
-}
-
-/** Discs of random radii, two intervals in front; the minimum without bounds lies outside of most. */
-inline QuadraticProgram program_in_discs(const unsigned int n_discs, std::mt19937 &random)
-{
-  std::uniform_real_distribution<double> uniform(0., 1.);
-  std::normal_distribution<double> normal;
-  const unsigned int n = 2 + 2 * n_discs;
-  QuadraticProgram qp{LAPACKFullMatrix<double>(n), Vector<double>(n), {}};
-  FullMatrix<double> root(n, n);
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    qp.d[i] = 2. * normal(random);
-    for (unsigned int j = 0; j < n; ++j)
-      root(i, j) = normal(random) / std::sqrt(n) + (i == j ? 0.7 : 0.);
-  }
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int k = 0; k < n; ++k)
-        qp.S(i, j) += root(k, i) * root(k, j);
-  qp.feasible_set.add_interval(-0.5, 0.5);
-  qp.feasible_set.add_interval(0., infinity);
-  for (unsigned int disc = 0; disc < n_discs; ++disc)
-    qp.feasible_set.add_disc(disc % 5 == 4 ? 0. : 0.2 + uniform(random));
-  return qp;
-}
-
-/** `z = P(z - r)`: what is necessary and, S being positive definite, sufficient for the minimiser. */
-inline void expect_minimiser(const QuadraticProgram &qp, const Vector<double> &z,
-                             const double tolerance)
-{
-  Vector<double> r(z.size()), nearest(z);
-  qp.S.vmult(r, z);
-  r -= qp.d;
-  nearest -= r;
-  qp.feasible_set.project(nearest);
-  nearest -= z;
-  EXPECT_LE(nearest.linfty_norm(), tolerance);
 }
 
 inline void expect_near(const Vector<double> &a, const Vector<double> &b, const double tolerance)

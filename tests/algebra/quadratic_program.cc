@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
-#include <hpvi/solver/quadratic_program.h>
+#include <hpvi/quadratic/quadratic_program.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -167,72 +167,6 @@ TEST(FeasibleSet, ScalingDividesTheSides)
   box.project(upper);
   EXPECT_EQ(lower, vec({-0.5, 0., -infinity, -infinity, 3. / 0.1}));
   EXPECT_EQ(upper, vec({0.5, infinity, 4., infinity, 3. / 0.1}));
-}
-
-/** An interval, then a disc of radius 2. */
-FeasibleSet interval_and_disc()
-{
-  FeasibleSet set;
-  set.add_interval(0., infinity);
-  set.add_disc(2.);
-  return set;
-}
-
-TEST(FeasibleSet, ADiscIsLeftAlongItsRadius)
-{
-  Vector<double> z = vec({-1., 3., -4.});
-  interval_and_disc().project(z);
-  EXPECT_NEAR(z[0], 0., 0.);
-  EXPECT_NEAR(z[1], 1.2, 1e-15);
-  EXPECT_NEAR(z[2], -1.6, 1e-15);
-  FeasibleSet negative;
-  EXPECT_ANY_THROW(negative.add_disc(-1e-300));
-}
-
-TEST(FeasibleSet, TheWallOfADiscIsItsRim)
-{
-  const FeasibleSet set = interval_and_disc();
-  EXPECT_NEAR(set.distance_to_wall(vec({1., 0.5, 0.}), vec({0., -3., 0.})), 0.5, 1e-15);
-  EXPECT_NEAR(set.distance_to_wall(vec({1., 0.5, 0.}), vec({0., 5., 0.})), 0.5, 1e-15);
-  EXPECT_NEAR(set.distance_to_wall(vec({1., 0., 2.}), vec({0., 1., 1.})), 2., 1e-14); // across
-  EXPECT_EQ(set.distance_to_wall(vec({1., 0., 2.}), vec({0., 1., 0.})), 0.);          // along
-  EXPECT_EQ(set.distance_to_wall(vec({1., 0., 2.}), vec({0., 0., -1.})), 0.);         // outwards
-  EXPECT_EQ(set.distance_to_wall(vec({1., 0., 1.}), vec({0., 0., 0.})), infinity);
-}
-
-/** The split is the derivative of the projection, `lim (z - P(z - t r)) / t`, on a rim too. */
-TEST(FeasibleSet, SplitsTheGradientOnARim)
-{
-  const FeasibleSet set = interval_and_disc();
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  for (unsigned int repetition = 0; repetition < 100; ++repetition)
-  {
-    const double angle = normal(random), radius = repetition % 3 == 0 ? 1. : 2.;
-    const Vector<double> z = vec({1., radius * std::cos(angle), radius * std::sin(angle)}),
-                         r = vec({normal(random), normal(random), normal(random)});
-    Vector<double> phi, beta, moved(z);
-    set.split_gradient(z, r, phi, beta);
-    const double t = 1e-7;
-    moved.add(-t, r);
-    set.project(moved);
-    for (unsigned int i = 0; i < 3; ++i)
-      EXPECT_NEAR(phi[i] + beta[i], (z[i] - moved[i]) / t, 1e-5);
-    EXPECT_EQ(beta[1] == 0. && beta[2] == 0., radius == 1.);
-  }
-}
-
-TEST(FeasibleSet, ADiscIsScaledAsAWhole)
-{
-  const FeasibleSet set = interval_and_disc();
-  Vector<double> scale = vec({3., 0.5, 0.25}), z(3);
-  set.make_isotropic(scale);
-  EXPECT_EQ(scale, vec({3., 0.25, 0.25}));
-  Vector<double> y = vec({-1., 100., 0.});
-  set.scaled(scale).project(y);
-  EXPECT_EQ(y, vec({0., 8., 0.}));
-  set.unscale(y, scale, z);
-  EXPECT_EQ(z, vec({0., 2., 0.}));
 }
 
 /** A symmetric matrix with the given eigenvalues: the diagonal, reflected by I - 2 v v'/v'v. */

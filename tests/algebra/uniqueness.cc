@@ -16,7 +16,7 @@ ConeProgram wedge(const double t)
   LAPACKFullMatrix<double> S(2);
   S(0, 0) = S(1, 1) = 1.;
   S(0, 1) = S(1, 0) = -0.5;
-  return program(S, vec({t, -0.5}), 3.);
+  return program(S, vec({t, -0.5}), {0., 3.});
 }
 
 CoulombSolver solver()
@@ -86,7 +86,7 @@ TEST(Uniqueness, IsNotKnownWithoutASolution)
   cones.balance.e = vec({1e3});
   cones.penalty.reinit(1, 1);
   cones.penalty(0, 0) = 1.;
-  cones.set.cones[0].mu = 0.;
+  cones.set.cones[0].friction.coefficient = 0.;
   EXPECT_TRUE(std::isnan(solver().difference_from_second_start(cones, vec({0., 0.}))));
 }
 } // namespace

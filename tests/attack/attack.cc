@@ -12,8 +12,9 @@
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/solution_field.h>
 #include <hpvi/evaluation/stored_solution.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <chrono>
 #include <cmath>
@@ -154,7 +155,7 @@ Run Attack::solve_reference(double &bound) const
                    return;
                  bound = step.bound->total;
                  std::ofstream file(stem + ".reference");
-                 StoredSolution<2>(step.solution, step.energies.energy).write(file);
+                 write_solution(file, step.field, step.energies.energy);
                });
 }
 

@@ -22,7 +22,7 @@ TEXTS = ["", " ", "\t", "x", "y", "sin(", ")", "1/x", "1/(x-1)", "log(x)", "sqrt
          ";", ";;", ",", "\\", "#", "'", "\u00a0", "\u0085", "\u2028", "\u202e", "é", "\x1b[31m", "\x00", "\x7f",
          "0,\t1", "0\t,1", "0,0;\t1,0; 1,1; 0,1", "0,0; 1,0; 1,1e-9; 0,1", "0,0; 1,0; 1,1; 0,1;", "0,,1", "(" * 300,
          "1+" * 2000 + "1", "a" * 5000, "{", "true", "false", "none", "bilateral", "unilateral", "tangential", "quadrilateral",
-         "stick-slip", "smooth", "hertz", "partial-slip", "nodes", "multiplier", "automatic", "active set", "hpa1", "pu", "/", "..",
+         "stick-slip", "smooth", "limited", "cohesive", "hertz", "partial-slip", "nodes", "multiplier", "automatic", "active set", "hpa1", "pu", "/", "..",
          "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "x<1&&y"]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 11, 12, 13, 27, 32, 34, 35, 40, 41, 44, 45, 46, 48, 57, 59, 61, 92, 101, 127,
                               128, 133, 192, 237, 244, 255)] + [c.encode() for c in "é\u0085\u2028\u202e😀"]

@@ -115,8 +115,9 @@ unknown Material "this is a subsection, which has Young's modulus, Poisson's rat
 unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'
 unknown Units/Time "Loading/Steps"
 unknown Units/Mass "unknown entry; Units has Length and Stress"
-unknown "Boundary low/Traction" "unknown subsection; there are Units, Geometry," "Boundary top, Loading"
-unknown "Boundary 1/Traction" "unknown subsection; there are Units, Geometry,"
+unknown "Boundary low/Traction" "unknown subsection; this scene has: left, right, bottom and top"
+unknown "Boundary 1/Traction" "unknown subsection; this scene has: left, right, bottom and top"
+unknown "Body of steel/Traction" "unknown subsection; there are Units, Geometry," "Boundary top, Loading"
 unknown Colour "Title and Dimension stand outside of subsections" "Solver, Output or Error"
 unknown Boundary_top/Traction 'the nearest known one is "Boundary top"'
 invalid "names no entry" "Section/Entry=value" -- "Units/=mm"
@@ -283,8 +284,22 @@ invalid "Boundary bottom/Friction coefficient" "negative" "Coulomb's coefficient
   "${coulomb[@]}" "Boundary bottom/Friction coefficient=0.1-x"
 invalid "Boundary bottom/Friction coefficient" "not finite" -- \
   "${coulomb[@]}" "Boundary bottom/Friction coefficient=1/(x-1)"
-invalid "Boundary bottom/Friction coefficient" "beside Friction bound" "keep" -- \
-  "${open[@]}" "Boundary bottom/Friction bound=1" "Boundary bottom/Friction coefficient=0.3"
+both=("${open[@]}" "Boundary bottom/Friction bound=1" "Boundary bottom/Friction coefficient=0.3")
+invalid "Boundary bottom/Friction coefficient" "beside Friction bound" "keep" "Friction law = limited or cohesive" -- "${both[@]}"
+for law in limited cohesive; do
+  invalid "Boundary bottom/Friction law = $law" "give both Friction bound and Friction coefficient" -- \
+    "${both[@]}" "Boundary bottom/Friction coefficient=" "Boundary bottom/Friction law=$law"
+  invalid "Boundary bottom/Friction law = $law" "give both Friction bound and Friction coefficient" -- \
+    "${coulomb[@]}" "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Friction law=$law"
+  invalid "Boundary top/Friction law = $law" "give both" "remove it" -- "Boundary top/Friction law=$law"
+  invalid "Boundary bottom/Friction coefficient" "negative" "needs mu_f >= 0" -- \
+    "${both[@]}" "Boundary bottom/Friction coefficient=0.1-x" "Boundary bottom/Friction law=$law"
+  invalid "Boundary bottom/Friction coefficient" "needs a pressure" "tangential" -- \
+    "${both[@]}" "Boundary bottom/Contact=tangential" "Boundary bottom/Friction law=$law"
+  invalid "Solver/Normal contact = nodes" "set multiplier" -- \
+    "${both[@]}" "Boundary bottom/Friction law=$law" "Solver/Normal contact=nodes"
+done
+invalid "Boundary bottom/Friction law = coulomb" "automatic, limited or cohesive" -- "${both[@]}" "Boundary bottom/Friction law=coulomb"
 invalid "Boundary top/Friction coefficient" "needs contact" -- "Boundary top/Friction coefficient=0.3"
 invalid "Boundary bottom/Friction coefficient" "needs a pressure" "tangential" -- \
   "Boundary bottom/Contact=tangential" "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"

@@ -53,6 +53,9 @@ check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/
 # --- what is of the plane
 invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material/Plane=stress"
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
+invalid "Mesh picture" "shows a plane" "solution-NN.vtu" -- "Output/Mesh picture=true"
+invalid "Error/Bound = true" "no guaranteed bound" "remove it" -- "Error/Bound=true"
+invalid "Bound on distorted cells" "no guaranteed bound" -- "Error/Bound on distorted cells=false"
 invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solution/Solution=smooth"
 
 # --- methods, laws and paths that space does not have
@@ -61,6 +64,8 @@ for method in pu hpa1 hpa2 hpa3; do
 done
 invalid "Start degree = 1" "2 to 8" -- "Adaptivity/Start degree=1"
 invalid "Coulomb" "Friction bound" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
+invalid "limited Coulomb friction" "give Friction bound" -- "Boundary bottom/Friction bound=1" \
+  "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Friction law=limited"
 invalid "Normal contact = nodes" "not offered by space" "multiplier" -- "Boundary bottom/Contact=unilateral" "Solver/Normal contact=nodes"
 invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
 invalid "Condition number" "does not form" -- "Solver/Condition number=true"
@@ -78,7 +83,7 @@ invalid "Traction" "that Displacement prescribes" -- "Boundary right/Traction=1;
 invalid "needs contact" -- "Boundary top/Friction bound=1"
 invalid "Gap" "at their common point" "u_n <= u_0" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=-0.1"
 invalid "Gap" "is not finite" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=1/(x - 4)"
-invalid "rigid-body motion" "unilateral" -- "Boundary bottom/Contact=unilateral" "Boundary right/Displacement=" "Boundary top/Displacement=0; free; 0"
+invalid "rigid-body motion" "held by contact alone are not offered in space" -- "Boundary bottom/Contact=unilateral" "Boundary right/Displacement=" "Boundary top/Displacement=0; free; 0"
 invalid "stands beside Contact" -- "Boundary bottom/Displacement=0; free; free"
 invalid "Friction bound" "g >= 0" -- "Boundary bottom/Friction bound=1 - x"
 invalid "million cells" -- "Geometry/Subdivisions=1000, 1000, 1000"
@@ -103,6 +108,7 @@ plane() {
 }
 plane "Method = hpa2" "the primal path does not offer" -- han-6-12
 plane "primal" "does not offer" -- ssnv128
+check 1 "free along (1 0)" "held by contact alone" "reduced path" -- "$hpvi" --output "$scratch/o" prm/semicoercive.prm --set Solver/Path=primal --set Adaptivity/Method=hap2
 check 1 "Normal contact = nodes" "the primal path" "multiplier" -- "$hpvi" --output "$scratch/o" prm/han-6-12-unilateral.prm --set Solver/Path=primal --set Adaptivity/Method=hap2
 
 # --- several processes

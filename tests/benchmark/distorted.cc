@@ -2,7 +2,7 @@
 // The bound on cells that are no parallelograms: its processor time and its distance from the true error,
 // as a table. ./run distorted.
 #include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -38,15 +38,15 @@ void run(const std::string &name, const std::string &file, const Overrides &over
       [&](const StepReport<2> &step)
       {
         const double seconds = processor_time() - last;
-        const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
+        const Discretisation<2> discretisation(scene, step.solution().spaces, elements);
         const double start = processor_time();
-        const ErrorBound bound = bounds.compute(step.solution, discretisation);
+        const ErrorBound bound = bounds.compute(step.solution(), discretisation);
         const double seconds_bound = processor_time() - start;
         unsigned int p = 0;
-        for (const unsigned int degree : step.solution.displacement_space.degrees())
+        for (const unsigned int degree : step.solution().displacement_space.degrees())
           p = std::max(p, degree);
         std::printf("%s,%u,%u,%u,%.9e,%.9e,%.6f,%.6f\n", name.c_str(), step.number,
-                    step.solution.displacement_space.n_free_dofs(), p, bound.total,
+                    step.solution().displacement_space.n_free_dofs(), p, bound.total,
                     step.errors.energy, seconds, seconds_bound);
         last = processor_time();
       });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Theorem 4.5, cell by cell: the residual indicator beside the true error, as a table. ./run efficiency.
 #include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <cmath>
 #include <cstdio>
@@ -33,7 +33,7 @@ std::vector<unsigned int> patch(const dealii::DoFHandler<2>::active_cell_iterato
  */
 void print(const StepReport<2> &step, const std::string &run)
 {
-  const Solution<2> &solution = step.solution;
+  const Solution<2> &solution = step.solution();
   std::vector<double> multiplier(step.errors.of_cells.size(), TrueErrors::unknown);
   const auto &faces = solution.contact_space.faces();
   for (unsigned int k = 0; k < faces.size(); ++k)

@@ -5,7 +5,7 @@
 #include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/equilibration/mixed_problem.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <array>
 #include <cmath>
@@ -106,7 +106,7 @@ try
       AdaptiveSolver<2>(scene).run(
           [&](const StepReport<2> &step)
           {
-            const Solution<2> &u_N = step.solution;
+            const Solution<2> &u_N = step.solution();
             std::unique_ptr<LinearSolver> none;
             const EquilibratedStress own = equilibrated(u_N, u_N, Volume::full, cache),
                                      stress = equilibrated(mixed.solve(u_N, none), u_N,

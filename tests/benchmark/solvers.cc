@@ -17,7 +17,7 @@
 #include <dmumps_c.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 #include <metis.h>
 
 #include <algorithm>
@@ -321,12 +321,12 @@ void run(const std::string &file)
   solver.run(
       [&](const StepReport<2> &step)
       {
-        const unsigned int n_free_dofs = step.solution.displacement_space.n_free_dofs();
+        const unsigned int n_free_dofs = step.solution().displacement_space.n_free_dofs();
         if (n_free_dofs < next_size && step.stopped_by.empty())
           return;
         next_size = 2.5 * n_free_dofs;
-        CondensedElements<2> elements(scene, step.solution.tables);
-        const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
+        CondensedElements<2> elements(scene, step.solution().tables);
+        const Discretisation<2> discretisation(scene, step.solution().spaces, elements);
         for (const int ordering : {0, 5, 6, 7, given})
           print_row(n_free_dofs, discretisation, Comparison(discretisation, ordering));
       });

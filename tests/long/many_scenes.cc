@@ -2,7 +2,7 @@
 // A thousand scenes in one process: the memory that it uses does not grow, and each result has the
 // bytes of a fresh process's. ./run long.
 #include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <malloc.h>
 
@@ -94,10 +94,10 @@ std::string result(const unsigned int number)
         [&](const StepReport<2> &step)
         {
           ++n_steps;
-          digest.add(step.solution.u.begin(), step.solution.u.end());
+          digest.add(step.solution().u.begin(), step.solution().u.end());
           for (const double value :
                {step.scaled_estimate, step.energies.energy, step.energies.lagrangian,
-                step.energies.norm, step.condition_raw, step.condition_scaled})
+                step.energies.norm, step.reduced->condition_raw, step.reduced->condition_scaled})
             digest.add(&value, &value + 1);
         });
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "outcome.h"
 
+#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/primal/primal_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +27,11 @@ unsigned int position(const std::string &name)
 StepOutcome outcome_of(const StepReport<2> &step, const Frame &frame)
 {
   StepOutcome result;
-  const DisplacementSpace<2> &space = step.solution.displacement_space;
+  const DisplacementSpace<2> &space = step.solution().displacement_space;
   for (const unsigned int degree : space.degrees())
     ++result.cells[degree];
   result.n_unknowns = space.n_free_dofs();
-  result.n_multipliers = step.solution.z.size();
+  result.n_multipliers = step.solution().z.size();
   result.energy = step.energies.energy / frame.energy();
   result.lagrangian = step.energies.lagrangian / frame.energy();
   result.norm = step.energies.norm / std::sqrt(frame.energy());
@@ -78,7 +78,7 @@ void add_sides(const StepReport<2> &step, const Frame &frame, Outcome &outcome)
   for (const ContactState<2> &state : step.contact)
   {
     SideOutcome &side =
-        outcome.sides[frame.side(position(step.solution.scene.boundaries[state.boundary].name))];
+        outcome.sides[frame.side(position(step.solution().scene.boundaries[state.boundary].name))];
     side.pressure = state.highest_pressure * frame.length / frame.force();
     side.friction = sign * state.friction_resultant / frame.force();
     side.zones = zones_of(state, frame);
@@ -136,9 +136,9 @@ Outcome solve_primal(const std::string &file, const Frame &frame)
         Scene<2> scene = read_scene<2>(file);
         scene.solver.path = SolutionPath::primal;
         scene.solver.primal_tolerance = 1e-11;
-        PrimalSolver<2>(scene, MPI_COMM_SELF)
+        AdaptiveSolver<2>(scene, MPI_COMM_SELF)
             .run(
-                [&](const PrimalReport<2> &step)
+                [&](const StepReport<2> &step)
                 {
                   StepOutcome result;
                   result.energy = unknown; // it integrates |u_t| across its kink

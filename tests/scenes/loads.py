@@ -81,7 +81,7 @@ class Loads(RunTest):
         warning = next(w for w in self.summary()["warnings"] if "resolved" in w)
         self.assertTrue(warning.startswith("Traction on top is not resolved near (1 2 0.5)"), warning)
         self.run_text(BOX, "Boundary top/Traction=0; 0; x*z - 3")
-        self.assertEqual(self.summary()["warnings"], [])
+        self.assertFalse([w for w in self.summary()["warnings"] if "resolved" in w])
 
 
 if __name__ == "__main__":

@@ -169,28 +169,18 @@ class OutputDirectory(RunTest):
             self.assertIn(name, self.names())
         self.assertNotIn("contact-01.csv", self.names())
 
-    def test_pieces_of_processes_are_results_like_others(self):
+    def test_the_primal_path_has_results_like_others(self):
         primal = ("Solver/Path=primal", "Adaptivity/Method=hup2")
         self.run_scene(*primal, LONG, "Output/Steps=last")
         self.assertEqual([name for name in self.names() if name.startswith("solution")],
-                         ["solution-04.0.vtu", "solution-04.pvtu", "solution.pvd"])
+                         ["solution-04.vtu", "solution.pvd"])
         self.run_scene(*primal, LONG)
-        self.assertIn("solution-{01..04}.0.vtu", self.summary()["files"])
         self.assertEqual(self.files(), self.names())
         self.run_scene(*primal, SHORT)
         self.assertEqual(self.files(), self.names())
-        self.assertNotIn("solution-03.0.vtu", self.names())
+        self.assertNotIn("solution-03.vtu", self.names())
         self.run_scene(SHORT)
         self.assertEqual(self.check_whole(), 2)
-        (self.home / "victim").write_text("mine")
-        (self.out / "solution-01.pvtu").write_text("mine")
-        self.refuse(*primal, words=["solution-01.pvtu"])
-        (self.out / "solution-01.pvtu").unlink()
-        (self.out / "solution-01.0.vtu").symlink_to(self.home / "victim")
-        self.refuse(*primal, words=["solution-01.0.vtu"])
-        (self.out / "solution-01.0.vtu").rename(self.out / ".hpvi.0.tmp")
-        self.run_scene(*primal, SHORT)
-        self.assertEqual((self.home / "victim").read_text(), "mine")
 
     def test_a_second_run_is_refused_and_a_kill_leaves_no_lock(self):
         first = self.stopped("Adaptivity/Maximum steps=9", rows=3)

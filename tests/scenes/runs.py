@@ -190,6 +190,7 @@ def read_vtu(path):
         for array in piece.find(place) or ():
             width = int(array.get("NumberOfComponents", "1"))
             values = numbers(array)
-            grid[array.get("Name")] = values if width == 1 else \
+            name = array.get("Name")
+            grid[f"cell {name}" if name in grid else name] = values if width == 1 else \
                 [tuple(values[k:k + width]) for k in range(0, len(values), width)]
     return grid

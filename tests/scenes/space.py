@@ -88,14 +88,21 @@ with tempfile.TemporaryDirectory() as scratch:
             assert abs(sum(force[component] for force in forces.values())) < 1e-7, forces
         assert summary["balance"]["force"] < 1e-9 and summary["balance"]["moment"] < 1e-9
         contact = summary["contact"]["bottom"]
+        assert contact["force"] == summary["forces"]["bottom"]["force"]
+        assert contact["moment"] == summary["forces"]["bottom"]["moment"]
         for axis in (0, 2):
             assert abs(forces["bottom"][axis] - contact["friction_resultant"][axis]) < 1e-9
         assert abs(contact["area"] - 8) < 1e-12 and 0 < contact["slipping_area"] < 8
-        index = (directory / "solution-02.pvtu").read_text()
-        for rank in range(n):
+        name = "solution-02.vtu" if n == 1 else "solution-02.pvtu"
+        assert name in (directory / "solution.pvd").read_text()
+        index = (directory / name).read_text()
+        assert " at " not in index.split("<VTKFile")[0], "a date"
+        for rank in range(n if n > 1 else 0):
             assert f"solution-02.{rank}.vtu" in index
             assert (directory / f"solution-02.{rank}.vtu").stat().st_size > 1000
-        assert "solution-02.pvtu" in (directory / "solution.pvd").read_text()
+        for field in ("degree", "estimate", "contact_pressure", "contact_friction"):
+            assert f'Name="{field}"' in index.split("CellData")[1], field
+        assert 'type="Float64"' in index
 
     # Contact that opens: states and counts agree, and what opens is no part of the slipping area.
     lifted = scratch / "lifted"
@@ -116,8 +123,11 @@ with tempfile.TemporaryDirectory() as scratch:
         assert pressure == 0 if p["state"] == "open" else pressure > 0 and abs(gap) < 3e-3, p
     hardest = min(points, key=lambda p: float(p["normal_traction"]))
     summary = json.loads((lifted / "summary.json").read_text())
+    # Sought at p+1 points a direction, too: no less than at those of the table, and in the same cell.
+    largest = -float(hardest["normal_traction"])
+    assert largest <= summary["contact"]["bottom"]["largest_pressure"] < 1.5 * largest, (largest, summary["contact"])
     for axis, x in zip("xyz", summary["contact"]["bottom"]["largest_pressure_at"]):
-        assert abs(x - float(hardest[axis])) < 1e-9, hardest
+        assert abs(x - float(hardest[axis])) < 0.25, hardest
     for part in ("normal", "penetration", "tension"):
         assert float(row["estimate_" + part]) >= 0
     squares = sum(float(row["estimate_" + part]) ** 2 for part in (
@@ -137,7 +147,7 @@ with tempfile.TemporaryDirectory() as scratch:
     subprocess.run([HPVI, "--output", str(scratch / "strain"), "prm/slab.prm", "--set", "Boundary left/Traction=", "--set",
                     "Boundary bottom/Contact=none", "--set", "Boundary bottom/Friction bound=", *words, "--set",
                     "Adaptivity/Maximum steps=1", "--set", "Geometry/Subdivisions=1, 1, 1"], check=True, capture_output=True)
-    grid = read_vtu(scratch / "strain/solution-01.0.vtu")
+    grid = read_vtu(scratch / "strain/solution-01.vtu")
     shear = 15 / (2 * 1.4)
     sigma = [[shear * (gradient[a][b] + gradient[b][a]) + (15 * 0.4 / (1.4 * 0.2) * sum(gradient[c][c] for c in range(3))
                                                            if a == b else 0) for b in range(3)] for a in range(3)]
@@ -159,7 +169,7 @@ with tempfile.TemporaryDirectory() as scratch:
                        check=True, capture_output=True)
         summary = json.loads((scratch / "plane/summary.json").read_text())
         assert list(summary) == members, list(summary)
-        assert ("newton_steps" in summary["final"]) == primal, (n, extra)
+        assert (summary["final"]["newton_steps"] is not None) == primal, (n, extra)
         if primal:
             assert summary["error_bound"] is None and "primal" in summary["no_error_bound"]
         assert summary["normal_contact"] == ("multiplier" if "Boundary bottom/Contact=unilateral" in extra else None)
@@ -207,3 +217,14 @@ with tempfile.TemporaryDirectory() as scratch:
     # The scene that a run leaves repeats it.
     again = subprocess.run([HPVI, "--validate", str(one / "scene.prm")], capture_output=True, text=True)
     assert again.returncode == 0, again.stderr
+
+    # A uniform pressing is exact on its first mesh; where round-off hides that, on the next.
+    pressed = {"Geometry/Subdivisions": "2, 2, 1", "Boundary left/Traction": "", "Boundary left/Displacement": "0; free; free",
+               "Boundary right/Displacement": "0; free; free", "Boundary front/Displacement": "free; free; 0",
+               "Boundary top/Displacement": "free; -0.01; free", "Boundary bottom/Contact": "unilateral",
+               "Boundary bottom/Friction bound": "", "Adaptivity/Tolerance": "0"}
+    for method in ("hup2", "hap4"):
+        settings = [word for entry in {**pressed, "Adaptivity/Method": method}.items() for word in ("--set", "=".join(entry))]
+        done = subprocess.run([HPVI, "--output", str(one), "prm/slab.prm", *settings], check=True, capture_output=True, text=True)
+        assert "exact to round-off" in done.stdout, done.stdout
+        assert json.loads((one / "summary.json").read_text())["final"]["step"] <= 2

@@ -2,6 +2,11 @@
 // Fields in closed form: the primal path reproduces polynomials and converges at its rate to others.
 #include "runs.h"
 
+#include <hpvi/evaluation/true_error.h>
+
+#include <filesystem>
+#include <fstream>
+
 namespace
 {
 using namespace space;
@@ -25,7 +30,7 @@ Scene<3> graded_box(const unsigned int degree)
 const Tensor<1, 3> direction({3. / 13, 0., 4. * 3 / 13}); // of no length in particular
 
 /** `u = B x + b` */
-Field<3> linear(const Tensor<2, 3> &B, const Tensor<1, 3> &b)
+KnownField<3> linear(const Tensor<2, 3> &B, const Tensor<1, 3> &b)
 {
   return {[=](const Point<3> &x) { return B * x + b; }, [=](const Point<3> &) { return B; }};
 }
@@ -33,7 +38,7 @@ Field<3> linear(const Tensor<2, 3> &B, const Tensor<1, 3> &b)
 TEST(Exact, ConstantStress)
 {
   const double entries[3][3] = {{0.1, 0.02, -0.3}, {0.05, -0.2, 0.07}, {0.11, 0.13, 0.17}};
-  const Field<3> exact = linear(Tensor<2, 3>(entries), Tensor<1, 3>({0.4, -0.5, 0.6}));
+  const KnownField<3> exact = linear(Tensor<2, 3>(entries), Tensor<1, 3>({0.4, -0.5, 0.6}));
   for (const unsigned int degree : {2U, 3U})
   {
     Scene<3> scene = graded_box(degree);
@@ -50,10 +55,10 @@ TEST(Exact, ConstantStress)
           boundary.traction[c] = expression<3>(traction[c]);
       }
     steps_of<3>(scene,
-                [&](const PrimalReport<3> &step)
+                [&](const StepReport<3> &step)
                 {
                   EXPECT_LT(energy_error(step, exact), 1e-10 * step.energies.norm);
-                  EXPECT_LT(step.total_estimate, 1e-9 * step.energies.norm);
+                  EXPECT_LT(step.norms.total, 1e-9 * step.energies.norm);
                 });
   }
 }
@@ -66,7 +71,7 @@ TEST(Exact, UniformObliqueSlip)
   Tensor<2, 3> B;
   for (unsigned int i = 0; i < 3; ++i)
     B[i][1] = gamma * n[i];
-  const Field<3> exact = linear(B, slip * n);
+  const KnownField<3> exact = linear(B, slip * n);
   for (const unsigned int degree : {2U, 3U, 4U})
   {
     Scene<3> scene = graded_box(degree);
@@ -79,15 +84,16 @@ TEST(Exact, UniformObliqueSlip)
       scene.boundary("top").traction[c] = expression<3>(shear * n[c]);
     const auto steps =
         steps_of<3>(scene,
-                    [&](const PrimalReport<3> &step)
+                    [&](const StepReport<3> &step)
                     {
                       EXPECT_LT(energy_error(step, exact), 1e-10 * step.energies.norm);
                       EXPECT_LT(step.energies.slack, 1e-10 * step.energies.norm);
-                      for (const MomentPoint<3> &point : step.contact)
+                      for (const ContactPoint<3> &point : step.contact.at(0).points)
                       {
                         EXPECT_TRUE(point.slips);
                         EXPECT_LT((point.lambda - n).norm(), 1e-10);
-                        EXPECT_LT((point.displacement - slip * n).norm(), 1e-10);
+                        EXPECT_LT((point.tangential_displacement - slip * n).norm(), 1e-10);
+                        EXPECT_NEAR(point.normal_displacement, 0, 1e-14);
                         EXPECT_NEAR(point.normal_traction, 0, 1e-9);
                       }
                     });
@@ -124,7 +130,7 @@ struct SmoothSlip
     return material.mu() * (a * along(x) + b);
   }
 
-  Field<3> field() const
+  KnownField<3> field() const
   {
     const SmoothSlip self = *this;
     return {
@@ -172,7 +178,7 @@ double rate(const Scene<3> &scene, const SmoothSlip &exact)
 {
   std::vector<double> errors;
   steps_of<3>(scene,
-              [&](const PrimalReport<3> &step)
+              [&](const StepReport<3> &step)
               {
                 errors.push_back(energy_error(step, exact.field()));
                 EXPECT_GT(step.scaled_estimate, 0.5 * errors.back());
@@ -194,5 +200,125 @@ TEST(Exact, RatesWhereTheBoundVaries)
   const SmoothSlip exact{0.5, 0};
   for (const unsigned int degree : {3U, 4U})
     EXPECT_NEAR(rate(slipping_cube(exact, degree), exact), degree - 0.5, 0.15);
+}
+
+/** int g |u_t| over the faces of @p field, by Gauss rules on @p n squares along each edge of each. */
+double friction_work(const Field<3> &field, const unsigned int n)
+{
+  const QGauss<2> gauss(field.degree(field.faces().front().cell) + 1);
+  double sum = 0;
+  for (const FieldFace<3> &face : field.faces())
+  {
+    std::vector<Point<3>> points;
+    std::vector<double> weights;
+    for (unsigned int k = 0; k < n * n; ++k)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        points.push_back(point_on_face<3>(face.face_no, Point<2>((k % n + gauss.point(q)[0]) / n,
+                                                                 (k / n + gauss.point(q)[1]) / n)));
+        weights.push_back(gauss.weight(q) / (n * n));
+      }
+    const ShapeTable<3> table = tabulate<3>(face.degree(), points, weights, false);
+    const std::vector<double> u = evaluate(table.values, field.coefficients(face.cell));
+    for (unsigned int q = 0; q < points.size(); ++q)
+      sum += weights[q] * face.area() * field.bound(face, points[q]) *
+             std::hypot(u[q], u[2 * points.size() + q]);
+  }
+  return sum;
+}
+
+/** |u_t| has a kink where u_t vanishes: one Gauss rule a face misses 1e-4 of the work of friction. */
+TEST(Energy, ResolvesTheKinkOfFriction)
+{
+  steps_of<3>(slab({{"Adaptivity/Maximum steps", "2"}}),
+              [](const StepReport<3> &step)
+              {
+                const double computed = step.energies.slack + step.field.contact_work(),
+                             exact = friction_work(step.field, 100),
+                             coarse = friction_work(step.field, 1);
+                EXPECT_NEAR(computed, exact, 2e-6 * exact);
+                EXPECT_GT(std::abs(coarse - exact), 5e-5 * exact);
+              });
+}
+
+/** The same field for TrueError. */
+class ExactSlip : public ExactSolution<3>
+{
+public:
+  explicit ExactSlip(const SmoothSlip &slip) : field(slip.field())
+  {
+  }
+
+  Tensor<1, 3> displacement(const Point<3> &x) const override
+  {
+    return field.value(x);
+  }
+
+  Tensor<2, 3> gradient(const Point<3> &x) const override
+  {
+    return field.gradient(x);
+  }
+
+private:
+  const KnownField<3> field;
+};
+
+/** Against a field in closed form, and against a finer solution from a file, in space. */
+TEST(TrueErrorInSpace, IsThatOfClosedFormsAndReferences)
+{
+  const SmoothSlip exact{0, 0.7};
+  Scene<3> scene = slipping_cube(exact, 2), known = scene;
+  known.exact_solution = std::make_shared<const ExactSlip>(exact);
+  const std::string file = "reference-in-space.dat";
+  Scene<3> fine = slipping_cube(exact, 4);
+  fine.adaptivity.maximum_steps = 2;
+  double J = 0;
+  steps_of<3>(fine,
+              [&](const StepReport<3> &step)
+              {
+                std::ofstream out(file);
+                J = step.energies.energy;
+                write_solution(out, step.field, J);
+              });
+  known.reference_solution = file;
+  Scene<3> compared = known;
+  compared.exact_solution = nullptr;
+  const TrueError<3> closed(known), stored(compared);
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                const TrueErrors errors = closed.measure(step.field, step.contact),
+                                 other = stored.measure(step.field, step.contact);
+                const double expected = energy_error(step, exact.field());
+                EXPECT_NEAR(errors.energy, expected, 5e-3 * expected);
+                EXPECT_NEAR(other.energy, errors.energy, 5e-3 * errors.energy);
+                EXPECT_NEAR(other.l2, errors.l2, 5e-3 * errors.l2);
+                EXPECT_EQ(other.reference_energy, J);
+                EXPECT_NEAR(errors.reference_energy, J,
+                            1e-6 * errors.energy_norm * errors.energy_norm);
+                EXPECT_TRUE(std::isnan(errors.multiplier_l2));
+              });
+  std::filesystem::remove(file);
+}
+
+/** u and stress where they are known; nothing outside the body. */
+TEST(Field, SaysWhatHappensAtAPoint)
+{
+  const double entries[3][3] = {{0.1, 0.02, -0.3}, {0.05, -0.2, 0.07}, {0.11, 0.13, 0.17}};
+  const Tensor<2, 3> B(entries);
+  Scene<3> scene = graded_box(2);
+  for (auto &boundary : scene.boundaries)
+    prescribe(boundary, linear(B, Tensor<1, 3>()));
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                const Point<3> x(0.3, 0.7, 2.4);
+                const auto value = step.field.at(x);
+                ASSERT_TRUE(value.has_value());
+                EXPECT_LT((value->displacement - B * x).norm(), 1e-10);
+                EXPECT_LT((value->stress - HookesLaw<3>(scene.materials[0]).stress(B)).norm(),
+                          1e-9);
+                EXPECT_FALSE(step.field.at(Point<3>(0, 1.1, 3)).has_value());
+              });
 }
 } // namespace

@@ -17,8 +17,8 @@ std::vector<Step> reduced_steps(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        steps.push_back({step.solution.displacement_space.degrees().size(),
-                         step.solution.displacement_space.n_free_dofs(), 0, 0,
+        steps.push_back({step.solution().displacement_space.degrees().size(),
+                         step.solution().displacement_space.n_free_dofs(), 0, 0,
                          step.energies.lagrangian, step.energies.energy, step.estimate.total(),
                          step.energies.norm});
       });
@@ -83,14 +83,15 @@ TEST(Plane, DiscsWithoutFrictionSlip)
                            {"Boundary bottom/Friction bound", "if(x < 2, 0, 45)"},
                            {"Adaptivity/Maximum steps", "1"}});
   steps_of<2>(scene,
-              [](const PrimalReport<2> &step)
+              [](const StepReport<2> &step)
               {
-                const auto slips = [](const MomentPoint<2> &point)
+                const auto slips = [](const ContactPoint<2> &point)
                 { return point.mode() == ContactMode::slip; };
-                EXPECT_EQ(step.newton.n_slipping,
-                          std::count_if(step.contact.begin(), step.contact.end(), slips));
-                EXPECT_GE(step.newton.n_slipping, 4u);
-                EXPECT_LT(step.newton.n_slipping, step.contact.size());
+                const auto &points = step.contact.at(0).points;
+                EXPECT_EQ(step.primal->newton.n_slipping,
+                          std::count_if(points.begin(), points.end(), slips));
+                EXPECT_GE(step.primal->newton.n_slipping, 4u);
+                EXPECT_LT(step.primal->newton.n_slipping, points.size());
               });
 }
 
@@ -178,13 +179,14 @@ TEST(Plane, ASmallPressureClosesContact)
   scene.boundary("top").displacement[1] = expression<2>(-1.);
   unsigned int n_points = 0;
   steps_of<2>(scene,
-              [&](const PrimalReport<2> &step)
+              [&](const StepReport<2> &step)
               {
-                for (const MomentPoint<2> &point : step.contact)
-                {
-                  EXPECT_FALSE(point.is_open);
-                  ++n_points;
-                }
+                for (const ContactState<2> &state : step.contact)
+                  for (const ContactPoint<2> &point : state.points)
+                  {
+                    EXPECT_FALSE(point.is_open);
+                    ++n_points;
+                  }
               });
   EXPECT_GT(n_points, 1u);
 }
@@ -199,7 +201,7 @@ TEST(Plane, BilateralContactThatPullsIsSaid)
                                      {"Adaptivity/Maximum steps", "2"},
                                      {"Boundary left/Traction", load},
                                      {"Boundary top/Traction", pulls ? "" : "0; -50"}}),
-                [&](const PrimalReport<2> &step) { warnings = step.warnings; });
+                [&](const StepReport<2> &step) { warnings = texts(step.warnings); });
     const bool is_said =
         std::any_of(warnings.begin(), warnings.end(),
                     [](const std::string &warning)
@@ -215,7 +217,7 @@ TEST(Plane, MaximumSecondsAreSeconds)
       example("han-6-12", {{"Adaptivity/Method", "hup3"}, {"Adaptivity/Maximum steps", "5"}});
   double seconds = 0;
   const std::size_t n_steps =
-      steps_of<2>(scene, [&](const PrimalReport<2> &step) { seconds = step.seconds; }).size();
+      steps_of<2>(scene, [&](const StepReport<2> &step) { seconds = step.seconds; }).size();
   EXPECT_EQ(n_steps, 5u);
   scene.adaptivity.maximum_seconds = seconds / 30;
   EXPECT_LT(steps_of<2>(scene).size(), n_steps);

@@ -3,8 +3,8 @@
 #define hpvi_space_runs_h
 
 #include <gtest/gtest.h>
-#include <hpvi/primal/primal_solver.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <cmath>
 #include <functional>
@@ -37,23 +37,35 @@ struct Step
 };
 
 template <int dim>
-using Look = std::function<void(const PrimalReport<dim> &)>;
+using Look = std::function<void(const StepReport<dim> &)>;
+
+/** Of all contact boundaries, on the first process. */
+template <int dim>
+unsigned int n_points(const std::vector<ContactState<dim>> &contact)
+{
+  unsigned int n = 0;
+  for (const ContactState<dim> &state : contact)
+    n += state.points.size();
+  return n;
+}
 
 /** All steps of a run on the processes of @p communicator; @p look sees the reports. */
 template <int dim>
 std::vector<Step> steps_of(
-    const Scene<dim> &scene, const Look<dim> &look = [](const PrimalReport<dim> &) {},
+    const Scene<dim> &scene, const Look<dim> &look = [](const StepReport<dim> &) {},
     MPI_Comm communicator = MPI_COMM_SELF)
 {
   std::vector<Step> steps;
-  PrimalSolver<dim>(scene, communicator)
+  Scene<dim> by_primal_path = scene;
+  by_primal_path.solver.path = SolutionPath::primal;
+  AdaptiveSolver<dim>(by_primal_path, communicator)
       .run(
-          [&](const PrimalReport<dim> &step)
+          [&](const StepReport<dim> &step)
           {
-            steps.push_back({step.n_cells, step.space.n_free, step.newton.n_slipping,
-                             static_cast<unsigned int>(step.contact.size()),
-                             step.energies.lagrangian, step.energies.energy, step.total_estimate,
-                             step.energies.norm, step.newton.n_pressing});
+            steps.push_back({step.size.n_cells, step.primal->space.n_free,
+                             step.primal->newton.n_slipping, n_points(step.contact),
+                             step.energies.lagrangian, step.energies.energy, step.norms.total,
+                             step.energies.norm, step.primal->newton.n_pressing});
             look(step);
           });
   return steps;
@@ -61,7 +73,7 @@ std::vector<Step> steps_of(
 
 /** A displacement and its gradient, (i,j) is d_j u_i. */
 template <int dim>
-struct Field
+struct KnownField
 {
   std::function<Tensor<1, dim>(const Point<dim> &)> value;
   std::function<Tensor<2, dim>(const Point<dim> &)> gradient;
@@ -69,21 +81,21 @@ struct Field
 
 /** The energy norm of u_N minus @p exact, on one process. */
 template <int dim>
-double energy_error(const PrimalReport<dim> &step, const Field<dim> &exact)
+double energy_error(const StepReport<dim> &step, const KnownField<dim> &exact)
 {
   double sum = 0;
-  const BoxTable<dim> &table = step.space.tables.cell;
-  for (const auto &cell : step.space.dof_handler.active_cell_iterators())
+  const BoxTable<dim> &table = step.primal->space.tables.cell;
+  for (const auto &cell : step.primal->space.dof_handler.active_cell_iterators())
   {
     const auto size = MomentSpace<dim>::extent(cell);
-    const CellField<dim> field = step.space.field(cell, step.u);
+    const CellField<dim> field = step.primal->space.field(cell, step.primal->u);
     for (unsigned int q = 0; q < table.points.size(); ++q)
     {
       Point<dim> x = cell->vertex(0);
       for (unsigned int d = 0; d < dim; ++d)
         x[d] += table.points[q][d] * size[d];
       sum += table.weights[q] * cell->measure() *
-             HookesLaw<dim>(step.space.scene.materials[0])
+             HookesLaw<dim>(step.primal->space.scene.materials[0])
                  .energy_product(gradient(table, q, field, size) - exact.gradient(x));
     }
   }
@@ -92,7 +104,7 @@ double energy_error(const PrimalReport<dim> &step, const Field<dim> &exact)
 
 /** Prescribes @p exact on a boundary. */
 template <int dim>
-void prescribe(BoundaryCondition<dim> &boundary, const Field<dim> &exact)
+void prescribe(BoundaryCondition<dim> &boundary, const KnownField<dim> &exact)
 {
   for (unsigned int c = 0; c < dim; ++c)
     boundary.displacement[c] = expression<dim>(std::function<double(const Point<dim> &)>(

@@ -47,11 +47,13 @@ Scene<3> pressed_block(const unsigned int degree, const double shift, const doub
 void expect_pressure(const Scene<3> &scene, const double expected)
 {
   steps_of<3>(scene,
-              [&](const PrimalReport<3> &step)
+              [&](const StepReport<3> &step)
               {
-                for (const MomentPoint<3> &point : step.contact)
-                  if (scene.boundaries[point.boundary].is_unilateral())
+                for (const ContactState<3> &state : step.contact)
+                  for (const ContactPoint<3> &point : state.points)
                   {
+                    if (!scene.boundaries[state.boundary].is_unilateral())
+                      continue;
                     EXPECT_NEAR(point.normal_traction, -expected, 1e-9);
                     EXPECT_EQ(point.mode(), expected > 0 ? ContactMode::slip : ContactMode::open);
                     if (expected > 0)
@@ -65,8 +67,9 @@ void expect_pressure(const Scene<3> &scene, const double expected)
                   }
                 const double strain = expected / scene.materials[0].young;
                 EXPECT_NEAR(step.energies.energy, 0.5 * expected * strain * 6, 1e-11);
-                EXPECT_LT(step.total_estimate, 1e-9);
-                EXPECT_EQ(step.newton.n_pressing, expected > 0 ? step.space.n_pressures : 0);
+                EXPECT_LT(step.norms.total, 1e-9);
+                EXPECT_EQ(step.primal->newton.n_pressing,
+                          expected > 0 ? step.primal->space.n_pressures : 0);
                 for (const auto &force : step.equilibrium.reactions)
                   if (force.boundary == "bottom")
                   {
@@ -96,32 +99,43 @@ TEST(Unilateral, FoundationThatPushesTheBlockUp)
 void expect_reduced_path(const Scene<2> &scene)
 {
   std::vector<std::vector<ContactMode>> modes;
+  std::vector<std::vector<Point<2>>> transitions;
+  std::vector<std::array<double, 2>> resultants; // of T_n, T_t
   std::vector<Step> reduced;
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        reduced.push_back({step.solution.displacement_space.degrees().size(),
-                           step.solution.displacement_space.n_free_dofs(), 0, 0,
+        reduced.push_back({step.solution().displacement_space.degrees().size(),
+                           step.solution().displacement_space.n_free_dofs(), 0, 0,
                            step.energies.lagrangian, step.energies.energy, step.estimate.total(),
                            step.energies.norm});
         modes.emplace_back();
+        transitions.push_back(step.contact[0].transitions);
+        resultants.push_back(
+            {{step.contact[0].normal_resultant, step.contact[0].friction_resultant}});
         for (const ContactPoint<2> &point : step.contact[0].points)
           modes.back().push_back(point.mode());
       });
   unsigned int k = 0;
   steps_of<2>(scene,
-              [&](const PrimalReport<2> &step)
+              [&](const StepReport<2> &step)
               {
                 ASSERT_LT(k, reduced.size());
-                EXPECT_EQ(step.n_cells, reduced[k].n_cells);
-                EXPECT_EQ(step.space.n_free, reduced[k].n_free);
+                EXPECT_EQ(step.size.n_cells, reduced[k].n_cells);
+                EXPECT_EQ(step.primal->space.n_free, reduced[k].n_free);
                 EXPECT_NEAR(step.energies.lagrangian, reduced[k].lagrangian,
                             1e-9 * std::abs(reduced[k].lagrangian));
                 EXPECT_NEAR(step.energies.norm, reduced[k].norm, 1e-9 * reduced[k].norm);
-                EXPECT_NEAR(step.total_estimate, reduced[k].estimate, 1e-7 * reduced[k].estimate);
-                ASSERT_EQ(step.contact.size(), modes[k].size());
+                EXPECT_NEAR(step.norms.total, reduced[k].estimate, 1e-7 * reduced[k].estimate);
+                EXPECT_NEAR(step.energies.energy, reduced[k].energy,
+                            1e-9 * std::abs(reduced[k].energy));
+                const ContactState<2> &state = step.contact.at(0);
+                ASSERT_EQ(state.points.size(), modes[k].size());
                 for (unsigned int i = 0; i < modes[k].size(); ++i)
-                  EXPECT_EQ(step.contact[i].mode(), modes[k][i]) << step.contact[i].x;
+                  EXPECT_EQ(state.points[i].mode(), modes[k][i]) << state.points[i].x;
+                EXPECT_EQ(state.transitions, transitions[k]);
+                EXPECT_NEAR(state.normal_resultant, resultants[k][0], 1e-7);
+                EXPECT_NEAR(state.friction_resultant, resultants[k][1], 1e-7);
                 ++k;
               });
   EXPECT_EQ(k, reduced.size());
@@ -202,20 +216,22 @@ TEST(Unilateral, TurnedSlabsAgree)
 }
 
 /** p >= 0, m <= u_0 and p (m - u_0) = 0 at every point, some of which press and some not. */
-void expect_complementarity(const PrimalReport<3> &step)
+void expect_complementarity(const StepReport<3> &step)
 {
-  const DistributedVector v = step.space.moments(step.u);
+  const DistributedVector v = step.primal->space.moments(step.primal->u);
+  ASSERT_EQ(step.contact.size(), 1u);
+  const std::vector<ContactPoint<3>> &points = step.contact[0].points;
   unsigned int n_open = 0, n_pressing = 0;
-  for (unsigned int k = 0; k < step.space.contact.size(); ++k)
+  for (unsigned int k = 0; k < step.primal->space.contact.size(); ++k)
   {
-    const ContactMoment<3> &moment = step.space.contact[k];
+    const ContactMoment<3> &moment = step.primal->space.contact[k];
     if (moment.is_friction())
       continue;
-    const auto point = std::find_if(step.contact.begin(), step.contact.end(),
+    const auto point = std::find_if(points.begin(), points.end(),
                                     [&](const auto &p) { return p.x.distance(moment.x) < 1e-12; });
-    ASSERT_NE(point, step.contact.end());
+    ASSERT_NE(point, points.end());
     const double pressure = -point->normal_traction,
-                 distance = moment.gap[0] - step.space.moment(v, k)[0];
+                 distance = moment.gap[0] - step.primal->space.moment(v, k)[0];
     EXPECT_GE(pressure, 0);
     EXPECT_GE(distance, -1e-12);
     EXPECT_LE(pressure * distance, 1e-12);
@@ -224,17 +240,23 @@ void expect_complementarity(const PrimalReport<3> &step)
   }
   EXPECT_GT(n_open, 0);
   EXPECT_GT(n_pressing, 0);
-  EXPECT_EQ(n_pressing, step.newton.n_pressing);
+  EXPECT_EQ(n_pressing, step.primal->newton.n_pressing);
+  // A disc without pressure is open, not slipping.
+  EXPECT_EQ(step.primal->newton.n_slipping,
+            std::count_if(points.begin(), points.end(),
+                          [](const auto &point) { return point.mode() == ContactMode::slip; }));
 }
 
 /** Of all forces by boundary, and that of the foundation by its pressures. */
-void expect_balance(const PrimalReport<3> &step)
+void expect_balance(const StepReport<3> &step)
 {
   EXPECT_LT(step.equilibrium.force_imbalance, 1e-9);
   EXPECT_LT(step.equilibrium.moment_imbalance, 1e-9);
+  ASSERT_EQ(step.contact.size(), 1u);
   double press = 0;
-  for (const MomentPoint<3> &point : step.contact)
+  for (const ContactPoint<3> &point : step.contact[0].points)
     press -= point.area * point.normal_traction;
+  EXPECT_NEAR(step.contact[0].normal_resultant, -press, 1e-12 * (1 + press));
   for (const auto &force : step.equilibrium.reactions)
     if (force.boundary == "bottom")
     {
@@ -247,7 +269,7 @@ TEST(Unilateral, ComplementarityAndBalance)
   for (const char *const method : {"hap2", "hap3", "hap4"})
     steps_of<3>(lifted_slab({{"Adaptivity/Method", method}, {"Geometry/Subdivisions", "2, 2, 1"}},
                             "0.05*x*z"),
-                [](const PrimalReport<3> &step)
+                [](const StepReport<3> &step)
                 {
                   expect_complementarity(step);
                   expect_balance(step);
@@ -258,23 +280,23 @@ TEST(Unilateral, ComplementarityAndBalance)
 TEST(Unilateral, AugmentedLagrangianAgrees)
 {
   steps_of<3>(lifted_slab({}, "0.004*x*z"),
-              [](const PrimalReport<3> &step)
+              [](const StepReport<3> &step)
               {
-                PrimalSystem<3> system(step.space);
-                MomentMatrix<3> matrix(step.space, system);
-                MomentNewton<3> newton(step.space, system, matrix);
-                DistributedVector v = step.space.owned_vector();
+                PrimalSystem<3> system(step.primal->space);
+                MomentMatrix<3> matrix(step.primal->space, system);
+                MomentNewton<3> newton(step.primal->space, system, matrix);
+                DistributedVector v = step.primal->space.owned_vector();
                 std::vector<ContactVector<3>> lambda;
                 NewtonSettings settings;
                 settings.residual = 1e-10;
                 settings.maximum_steps = 1;
                 const NewtonReport report = newton.solve(v, lambda, settings);
                 EXPECT_TRUE(report.augmented_steps > 3);
-                EXPECT_EQ(report.n_slipping, step.newton.n_slipping);
-                EXPECT_EQ(report.n_pressing, step.newton.n_pressing);
-                DistributedVector difference = step.space.displacement(v);
-                difference -= step.u;
-                EXPECT_LT(difference.l2_norm(), 1e-7 * step.u.l2_norm());
+                EXPECT_EQ(report.n_slipping, step.primal->newton.n_slipping);
+                EXPECT_EQ(report.n_pressing, step.primal->newton.n_pressing);
+                DistributedVector difference = step.primal->space.displacement(v);
+                difference -= step.primal->u;
+                EXPECT_LT(difference.l2_norm(), 1e-7 * step.primal->u.l2_norm());
               });
 }
 
@@ -318,11 +340,11 @@ TEST(Unilateral, StopsWhereTheEstimatedErrorSaysSo)
   scene.solver.primal_tolerance = 0;
   unsigned int k = 0;
   steps_of<3>(scene,
-              [&](const PrimalReport<3> &step)
+              [&](const StepReport<3> &step)
               {
-                EXPECT_LE(step.newton.error, 1e-2 * step.scaled_estimate);
+                EXPECT_LE(step.primal->newton.error, 1e-2 * step.scaled_estimate);
                 EXPECT_LE(std::abs(step.energies.lagrangian - exact[k].lagrangian),
-                          std::pow(step.newton.error, 2) + 1e-8);
+                          std::pow(step.primal->newton.error, 2) + 1e-8);
                 ++k;
               });
 }

@@ -2,6 +2,8 @@
 // True errors, stored reference solutions, and the limits that stop a run.
 #include "discretisation.h"
 
+#include <hpvi/evaluation/solution_field.h>
+
 #include <deal.II/base/quadrature_lib.h>
 
 namespace
@@ -23,7 +25,7 @@ std::vector<Row> run(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        rows.push_back({step.solution.displacement_space.n_free_dofs(), step.relative_estimate,
+        rows.push_back({step.solution().displacement_space.n_free_dofs(), step.relative_estimate,
                         step.scaled_estimate, step.seconds, step.energies.energy, step.errors,
                         step.stopped_by});
       });
@@ -78,7 +80,8 @@ TEST(TrueError, OfNothingIsTheNormOfTheExactSolution)
       square += 2 * gauss.weight(i) * gauss.weight(j) *
                 scene.exact_solution->displacement(x).norm_square();
     }
-  const TrueErrors errors = TrueError<2>(scene).measure(nothing, contact_states(nothing));
+  const TrueErrors errors =
+      TrueError<2>(scene).measure(SolutionField(nothing), contact_states(SolutionField(nothing)));
   EXPECT_NEAR(errors.energy, std::sqrt(0.37710185557), 1e-9);
   EXPECT_NEAR(errors.l2, std::sqrt(square), 1e-8);
   EXPECT_NEAR(errors.multiplier_l2, std::sqrt(7. / 6), 1e-9);
@@ -111,8 +114,10 @@ TEST(TrueError, OfTheTransitionIsADistance)
     z[i] = discrete.contact_space.largest_bound();
   const Solution<2> solution{scene, discrete.spaces,
                              Vector<double>(discrete.displacement_space.n_dofs()), z};
-  EXPECT_NEAR(TrueError<2>(scene).measure(solution, contact_states(solution)).transition, 0.1,
-              1e-14);
+  EXPECT_NEAR(TrueError<2>(scene)
+                  .measure(SolutionField(solution), contact_states(SolutionField(solution)))
+                  .transition,
+              0.1, 1e-14);
 }
 
 TEST(TrueError, PureDegreeConvergesExponentiallyOnASmoothField)

@@ -2,6 +2,8 @@
 // What is computed cell by cell - shapes, stiffness, residuals - against deal.II's FEValues.
 #include "discretisation.h"
 
+#include <hpvi/evaluation/solution_field.h>
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -628,7 +630,7 @@ void expect_right_indicator(const Scene<2> &scene, const unsigned int seed,
   const Laboratory discrete(scene, mesh);
   std::mt19937 random(seed);
   const Solution<2> field = discrete.random_field(random);
-  const ErrorEstimate computed = estimate_error(field);
+  const ErrorEstimate computed = estimate_error(SolutionField(field));
   const ErrorEstimate expected = ResidualOracle(field, extra).result;
   expect_same("volume", computed.volume, expected.volume);
   expect_same("jumps", computed.jumps, expected.jumps);

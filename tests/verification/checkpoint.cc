@@ -15,16 +15,16 @@ std::string digits(const StepReport<2> &step)
   out << std::hexfloat << step.number << ' ' << step.estimate.total() << ' '
       << step.relative_estimate << ' ' << step.energies.lagrangian << ' ' << step.energies.energy
       << ' ' << step.energies.norm << ' ' << step.energies.slack << ' ' << step.errors.energy << ' '
-      << step.qp.multiplications << ' ' << step.stopped_by;
-  for (const unsigned int p : step.solution.displacement_space.degrees())
+      << step.reduced->qp.multiplications << ' ' << step.stopped_by;
+  for (const unsigned int p : step.solution().displacement_space.degrees())
     out << ' ' << p;
-  for (const double value : step.solution.u)
+  for (const double value : step.solution().u)
     out << ' ' << value;
-  for (const double value : step.solution.z)
+  for (const double value : step.solution().z)
     out << ' ' << value;
   for (const ContactState<2> &state : step.contact)
     out << ' ' << state.normal_resultant << ' ' << state.friction_resultant;
-  for (const std::string &warning : step.warnings)
+  for (const std::string &warning : texts(step.warnings))
     out << ' ' << warning;
   return out.str();
 }
@@ -45,15 +45,15 @@ std::string written_state(const Scene<2> &scene)
       [&](const StepReport<2> &step)
       {
         if (!step.stopped_by.empty())
-          solver.state(step).write(out);
+          solver.state().write(out);
       });
   return out.str();
 }
 
-RunState read_state(const std::string &text)
+RunState<2> read_state(const std::string &text)
 {
   std::istringstream in(text);
-  return RunState::read(in, "state.dat");
+  return RunState<2>::read(in, "state.dat");
 }
 
 struct Run
@@ -82,7 +82,7 @@ TEST_P(BrokenOff, GoesOnToTheLastBit)
         bounds.push_back(step.bound ? step.bound->total : 0.);
       });
   ASSERT_EQ(expected.size(), 6U);
-  const RunState state = read_state(written_state(half));
+  const RunState<2> state = read_state(written_state(half));
   seconds = state.history.back().seconds;
   unsigned int k = GetParam().half;
   AdaptiveSolver<2>(whole, state)
@@ -142,8 +142,8 @@ TEST(RunState, KeepsWhatThereIs)
 {
   const Overrides overrides = {{"Boundary bottom/Friction bound", ""}, {"Adaptivity/Method", "pu"}};
   const std::string text = written_state(shipped_scene("han-6-12", steps(2, overrides)));
-  const RunState state = read_state(text);
-  EXPECT_EQ(state.z.size(), 0U);
+  const RunState<2> state = read_state(text);
+  EXPECT_EQ(state.values.z.size(), 0U);
   EXPECT_EQ(state.history.size(), 2U);
   EXPECT_EQ(state.refinements.size(), 1U);
   std::ostringstream again;
@@ -171,14 +171,14 @@ std::string refusal(const Action &action)
   return "";
 }
 
-std::string refusal_to_go_on(const RunState &state, const Overrides &overrides)
+std::string refusal_to_go_on(const RunState<2> &state, const Overrides &overrides)
 {
   return refusal([&] { AdaptiveSolver<2>(shipped_scene("han-6-12", overrides), state); });
 }
 
 TEST(RunState, OfAnotherSceneIsRefusedWithWhatDiffers)
 {
-  const RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  const RunState<2> state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
   const auto other = [&](const std::string &entry, const std::string &value) {
     return refusal_to_go_on(state, steps(4, {{entry, value}}));
   };
@@ -205,7 +205,7 @@ TEST(RunState, OfAnotherSceneIsRefusedWithWhatDiffers)
 
 TEST(RunState, AtItsEndIsRefused)
 {
-  const RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  const RunState<2> state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
   EXPECT_NE(refusal_to_go_on(state, steps(2)).find("after step 2: Adaptivity/Maximum steps"),
             std::string::npos);
   EXPECT_NE(refusal_to_go_on(state, steps(4, {{"Adaptivity/Tolerance", "0.9"}}))
@@ -239,14 +239,14 @@ TEST(RunState, WithoutSenseIsRefused)
                                     "entries 0\nsteps 0\nrefinements 0\nmotion 0\nu 2 1\n"})
   {
     std::ostringstream out;
-    RunState::format().write(out, content);
+    RunState<2>::format().write(out, content);
     EXPECT_NE(refusal([&] { read_state(out.str()); }).find("state.dat: not a run state"),
               std::string::npos)
         << content;
   }
-  RunState state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
-  const RunState whole = state;
-  state.u.reinit(3);
+  RunState<2> state = read_state(written_state(shipped_scene("han-6-12", steps(2))));
+  const RunState<2> whole = state;
+  state.values.u.reinit(3);
   EXPECT_NE(refusal_to_go_on(state, steps(3)).find("number of steps or unknowns"),
             std::string::npos);
   state = whole;

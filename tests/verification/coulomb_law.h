@@ -40,8 +40,7 @@ inline void expect_coulomb(const Solution<2> &solution)
     }
     ++n_cones;
     ASSERT_LT(multipliers[i].partner, multipliers.size());
-    const double bound =
-        multipliers[i].coefficient * std::max(0., solution.z[multipliers[i].partner]);
+    const double bound = multipliers[i].friction.limit(solution.z[multipliers[i].partner]);
     EXPECT_EQ(bound, solution.contact_space.bound(i, solution.z));
     EXPECT_LE(std::abs(solution.z[i]), bound * (1 + 1e-14));
     // int g |u_t| = int z u_t, point by point
@@ -56,10 +55,10 @@ inline Outcome run(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        expect_coulomb(step.solution);
+        expect_coulomb(step.solution());
         outcome.elastic_energy.push_back(step.energies.norm * step.energies.norm / 2);
         outcome.contact = step.contact.at(0);
-        outcome.warnings = step.warnings;
+        outcome.warnings = texts(step.warnings);
         outcome.effectivity.push_back(step.scaled_estimate / step.errors.energy);
         outcome.error.push_back(step.errors.energy / step.errors.energy_norm);
         outcome.imbalance =

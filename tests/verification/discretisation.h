@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/evaluation/solution_field.h>
 #include <hpvi/evaluation/stored_solution.h>
-#include <hpvi/scene/scene_reader.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,10 +112,12 @@ public:
 
   Laboratory(const Scene<2> &scene, const Triangulation<2> &mesh, const Degrees &degrees,
              const std::shared_ptr<const ShapeTables<2>> &shared =
-                 std::make_shared<const ShapeTables<2>>())
+                 std::make_shared<const ShapeTables<2>>(),
+             const PastSlip<2> &past = {})
       : scene(scene), elements(scene, *shared),
         discretisation(scene,
-                       std::make_shared<const Spaces<2>>(scene, borrowed(mesh), degrees, shared),
+                       std::make_shared<const Spaces<2>>(scene, borrowed(mesh), degrees, shared,
+                                                         nullptr, past),
                        elements),
         spaces(discretisation.spaces), tables(*spaces->tables),
         displacement_space(spaces->displacement_space), contact_space(spaces->contact_space),
@@ -192,7 +195,7 @@ public:
           if (step.stopped_by.empty())
             return;
           std::ofstream file(path);
-          StoredSolution<2>(step.solution, step.energies.energy).write(file);
+          write_solution(file, step.field, step.energies.energy);
         });
   }
   ~ReferenceFile()

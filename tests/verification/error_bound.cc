@@ -7,6 +7,7 @@
 #include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/equilibration/error_bound.h>
+#include <hpvi/evaluation/solution_field.h>
 
 #include <algorithm>
 #include <limits>
@@ -121,7 +122,7 @@ Violations violations(const Solution<2> &solution, const EquilibratedStress &str
           missed[c] -= condition.traction[c]->value(x);
       if (condition.has_contact())
       {
-        const double g = condition.friction.bound ? condition.friction.bound->value(x) : 0.;
+        const double g = condition.friction.limit(x, 0.);
         result.friction = std::max(result.friction, std::abs(missed * edge.tangent) - g);
         if (condition.contact == Contact::unilateral)
         {
@@ -390,7 +391,7 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
           {
             ASSERT_TRUE(step.bound) << step.no_bound;
             std::ofstream out(file);
-            StoredSolution<2>(step.solution, step.energies.energy).write(out);
+            write_solution(out, step.field, step.energies.energy);
             of_reference = step.bound->total;
             low = step.energies.energy - step.bound->energy_below;
             high = step.energies.energy + step.bound->energy_above;
@@ -790,7 +791,7 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
         [&](const StepReport<2> &step)
         {
           EXPECT_TRUE(step.bound) << step.no_bound;
-          result.push_back({{double(step.solution.displacement_space.n_free_dofs()),
+          result.push_back({{double(step.solution().displacement_space.n_free_dofs()),
                              step.bound ? step.bound->total : 0.}});
         });
     return result;

@@ -42,7 +42,8 @@ Solution<2> random_solution(const Laboratory &lab, std::mt19937 &random)
   const auto &multipliers = lab.contact_space.multipliers();
   for (unsigned int i = 0; i < multipliers.size(); ++i)
     if (multipliers[i].kind == ContactMultiplier<2>::Kind::friction)
-      solution.z[i] = multipliers[i].bound * std::max(-1., std::min(1., 3. * solution.z[i]));
+      solution.z[i] =
+          multipliers[i].friction.limit(0.) * std::max(-1., std::min(1., 3. * solution.z[i]));
   return solution;
 }
 
@@ -278,7 +279,7 @@ TEST(AdmissibleFriction, IsAsGoodAsTheMultiplier)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        const Solution<2> &solution = step.solution;
+        const Solution<2> &solution = step.solution();
         const AdmissibleFriction<2> friction(solution);
         double own = 0, of_multiplier = 0;
         for (unsigned int k = 0; k < solution.contact_space.faces().size(); ++k)
@@ -309,7 +310,7 @@ TEST(AdmissibleFriction, IsTheBoundWhereTheBodySlips)
     const Laboratory lab(scene, mesh);
     const Solution<2> solution = lab.solve();
     for (unsigned int i = 0; i < solution.z.size(); ++i)
-      ASSERT_EQ(std::abs(solution.z[i]), lab.contact_space.multipliers()[i].bound);
+      ASSERT_EQ(std::abs(solution.z[i]), lab.contact_space.multipliers()[i].friction.limit(0.));
     const AdmissibleFriction<2> friction(solution);
     EXPECT_LE(friction.imbalance(), 1e-13);
     for (unsigned int k = 0; k < lab.contact_space.faces().size(); ++k)
@@ -710,10 +711,10 @@ TEST(ContactCorrection, IsOfTheSizeOfTheErrorSquared)
       AdaptiveSolver<2>(scene).run(
           [&](const StepReport<2> &step)
           {
-            const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
-            const ContactCorrection<2> slip(step.solution, discretisation,
-                                            AdmissibleFriction<2>(step.solution),
-                                            AdmissiblePressure<2>(step.solution), nullptr);
+            const Discretisation<2> discretisation(scene, step.solution().spaces, elements);
+            const ContactCorrection<2> slip(step.solution(), discretisation,
+                                            AdmissibleFriction<2>(step.solution()),
+                                            AdmissiblePressure<2>(step.solution()), nullptr);
             const double error = step.errors.energy * step.errors.energy;
             EXPECT_LT(slip.total(), factor * error);
             EXPECT_GT(2. * sum(slip.uncorrected_gap()), 4. * error); // what it takes away
@@ -742,15 +743,15 @@ TEST(ContactCorrection, BoundsTheErrorTogetherWithAStress)
     AdaptiveSolver<2>(scene).run(
         [&](const StepReport<2> &step)
         {
-          const Discretisation<2> discretisation(scene, step.solution.spaces, elements);
-          const AdmissibleFriction<2> friction(step.solution);
+          const Discretisation<2> discretisation(scene, step.solution().spaces, elements);
+          const AdmissibleFriction<2> friction(step.solution());
           const EquilibratedStress stress(
-              step.solution,
+              step.solution(),
               [&](const unsigned int face, const unsigned int end)
               { return friction.part(face, end).coefficients(); },
               {}, cache);
-          const ContactCorrection<2> slip(step.solution, discretisation, friction,
-                                          AdmissiblePressure<2>(step.solution), nullptr);
+          const ContactCorrection<2> slip(step.solution(), discretisation, friction,
+                                          AdmissiblePressure<2>(step.solution()), nullptr);
           const double effectivity =
               std::sqrt(sum(stress.squares) + slip.total()) / step.errors.energy;
           EXPECT_GT(effectivity, 1.);

@@ -3,6 +3,7 @@
 #include "opening_contact.h"
 
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/solution_field.h>
 
 namespace
 {
@@ -44,8 +45,8 @@ Outcome run(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        last = {step.contact,    step.equilibrium, step.warnings,
-                step.solution.u, step.solution.z,  step.energies.norm};
+        last = {step.contact,      step.equilibrium,  texts(step.warnings),
+                step.solution().u, step.solution().z, step.energies.norm};
       });
   return last;
 }
@@ -76,10 +77,11 @@ Outcome expect_field(const Scene<2> &scene, const Turned &body,
       1e-9);
   expect_complementary(solution);
   expect_equilibrium(solution, discrete.system.loads());
-  const Equilibrium<2> balance = equilibrium(solution, discrete.system);
+  const Equilibrium<2> balance =
+      equilibrium(solution.scene, nodal_forces(solution, discrete.system));
   EXPECT_LE(balance.force_imbalance, 1e-10);
   EXPECT_LE(balance.moment_imbalance, 1e-10);
-  return {contact_states(solution), balance, {}, solution.u, solution.z, 0.};
+  return {contact_states(SolutionField(solution)), balance, {}, solution.u, solution.z, 0.};
 }
 
 /**
@@ -113,7 +115,7 @@ void expect_uniform_pressure(const NormalContact normal, const double angle)
     }
   // Its place along the floor is anywhere: that of its foot tells where.
   const Tensor<1, 2> floor = body.turned(Point<2>(1, 0));
-  const ContactPoint<2> point = contact_states(solution).at(0).points.front();
+  const ContactPoint<2> point = contact_states(SolutionField(solution)).at(0).points.front();
   const double moved = point.tangential_displacement - field(body.own(point.x))[0];
   EXPECT_LE(nodal_error(solution, [&](const Point<2> &x)
                         { return body.turned(field(body.own(x))) + moved * floor; }),
@@ -359,7 +361,7 @@ TEST(EccentricLoads, AreMetByBisectionOnlyWhereTheyMustBe)
         [&](const StepReport<2> &step)
         {
           if (step.number == 1)
-            n = step.solution.displacement_space.degrees().size();
+            n = step.solution().displacement_space.degrees().size();
         });
     return n;
   };
@@ -367,13 +369,13 @@ TEST(EccentricLoads, AreMetByBisectionOnlyWhereTheyMustBe)
   EXPECT_EQ(cells(wall(0.9, 2, 3, true)), 7U); // one bisection
   const Scene<2> scene = wall(0.95, 2, 3, true);
   AdaptiveSolver<2> solver(scene);
-  std::optional<RunState> state;
+  std::optional<RunState<2>> state;
   std::vector<double> energies;
   solver.run(
       [&](const StepReport<2> &step)
       {
         if (step.number == 1)
-          state.emplace(solver.state(step));
+          state.emplace(solver.state());
         energies.push_back(step.energies.energy);
       });
   AdaptiveSolver<2>(scene, *state)
@@ -474,8 +476,8 @@ TEST(CorrectedBody, StaysOnItsPlane)
         .run(
             [&](const StepReport<2> &step)
             {
-              n_corrected += step.algebraic.corrections > 0;
-              expect_complementary(step.solution);
+              n_corrected += step.reduced->algebraic.corrections > 0;
+              expect_complementary(step.solution());
             });
   EXPECT_GE(n_corrected, 4u);
 }

@@ -188,7 +188,7 @@ TEST(InfSup, OffsetsThatCannotWorkAreRefused)
   EXPECT_THROW(scene_with("-9"), InputError); // a negative degree
   std::vector<std::string> warnings;
   AdaptiveSolver<2>(scene_with("-1"))
-      .run([&](const StepReport<2> &step) { warnings = step.warnings; });
+      .run([&](const StepReport<2> &step) { warnings = texts(step.warnings); });
   EXPECT_NE(std::find_if(warnings.begin(), warnings.end(),
                          [](const std::string &w)
                          { return w.find("inf-sup") != std::string::npos; }),

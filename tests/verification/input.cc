@@ -63,12 +63,12 @@ Result run(const std::string &name, const Overrides &overrides)
           result.relative = step.relative_estimate;
           result.scaled_estimate = step.scaled_estimate;
           result.estimate = step.estimate.total();
-          result.largest = step.solution.u.linfty_norm();
-          result.condition_raw = step.condition_raw;
+          result.largest = step.solution().u.linfty_norm();
+          result.condition_raw = step.reduced->condition_raw;
           result.energies = step.energies;
           if (!step.contact.empty())
             result.friction_resultant = step.contact[0].friction_resultant;
-          result.warnings = step.warnings;
+          result.warnings = texts(step.warnings);
           output.write_step(step);
         });
   }

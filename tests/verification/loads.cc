@@ -232,7 +232,7 @@ void run(const Scene<2> &scene, const Take &take)
 bool warns(const StepReport<2> &step, const std::string &words)
 {
   return std::any_of(step.warnings.begin(), step.warnings.end(),
-                     [&](const std::string &line) { return line.find(words) == 0; });
+                     [&](const Warning &warning) { return warning.text.find(words) == 0; });
 }
 
 TEST(UnresolvedLoads, AreWarnedOfMarkedAndLeaveNoBound)
@@ -256,7 +256,7 @@ TEST(UnresolvedLoads, AreWarnedOfMarkedAndLeaveNoBound)
           return;
         EXPECT_EQ(step.stopped_by, "Maximum steps");
         EXPECT_TRUE(warns(step, "Traction on top is not resolved near ("));
-        for (const auto &cell : step.solution.spaces->mesh->active_cell_iterators())
+        for (const auto &cell : step.solution().spaces->mesh->active_cell_iterators())
           if (cell->bounding_box().point_inside({40., 20.}))
             smallest = std::min(smallest, cell->diameter());
       });
@@ -274,7 +274,7 @@ TEST(UnresolvedLoads, DoNotEndARunAsExact)
       [&](const StepReport<2> &step)
       {
         EXPECT_NE(step.stopped_by, "round-off");
-        EXPECT_NEAR(step.solution.spaces->loads->sum().force[1], -2, 1e-12);
+        EXPECT_NEAR(step.solution().spaces->loads->sum().force[1], -2, 1e-12);
         ASSERT_TRUE(step.bound) << step.no_bound;
         EXPECT_TRUE(std::isfinite(step.bound->total));
         EXPECT_GT(step.relative_bound, 0.1);
@@ -292,14 +292,14 @@ TEST(BoundUnderJumps, IntegratesTheSquareOfALoadByItsRule)
       [&](const StepReport<2> &step)
       {
         EquilibrationCache cache;
-        const EquilibratedStress stress(step.solution, {}, {}, cache);
+        const EquilibratedStress stress(step.solution(), {}, {}, cache);
         const auto &edges = stress.patches().edges();
         for (unsigned int e = 0; e < edges.size(); ++e)
           if (edges[e].at_boundary() && edges[e].boundary == 3)
           {
             double square = 0;
-            for (const auto &[s, weight] : stress.prescribed_points(e))
-              square += weight * stress.prescribed_traction(e, s).norm_square();
+            for (const auto &[s, weight] : stress.prescribed().points(e))
+              square += weight * stress.prescribed().value(e, s).norm_square();
             EXPECT_NEAR(square, 200, 1e-9);
           }
       });

@@ -302,7 +302,7 @@ TEST(MacroStresses, BoundTheTrueError)
         [&](const StepReport<2> &step)
         {
           const ErrorBound bound = bounds.compute(
-              step.solution, Discretisation<2>(scene, step.solution.spaces, elements));
+              step.solution(), Discretisation<2>(scene, step.solution().spaces, elements));
           EXPECT_GE(bound.total, step.errors.energy);
           EXPECT_LE(bound.total, 2.2 * step.errors.energy);
           EXPECT_LE(bound.imbalance, 1e-13);
@@ -348,7 +348,7 @@ TEST(MacroStresses, AreAdmissible)
       const unsigned int index = &edge - stress.patches().edges().data();
       for (unsigned int c = 0; edge.at_boundary() && c < 2; ++c)
         if (!edge.components[c].is_unknown)
-          neumann = std::max(neumann, std::abs((t - stress.prescribed_traction(index, s)) *
+          neumann = std::max(neumann, std::abs((t - stress.prescribed().value(index, s)) *
                                                edge.components[c].direction));
     }
   for (const auto &cell : stress.patches().cells())

@@ -238,7 +238,7 @@ inline void expect_complementary(const Solution<2> &solution)
     }
     else
     {
-      const double g = unknown.bound;
+      const double g = unknown.friction.limit(0.);
       EXPECT_LE(std::abs(z[i]), g) << unknown.x;
       const double wrong = z[i] < g && z[i] > -g ? std::abs(means[i]) // sticks
                            : g == 0.             ? 0.

@@ -23,7 +23,7 @@ Course course_of(const Scene<2> &scene)
       [&](const StepReport<2> &step)
       {
         const ContactState<2> &state = step.contact.at(0);
-        course.unknowns.push_back(step.solution.displacement_space.n_free_dofs());
+        course.unknowns.push_back(step.solution().displacement_space.n_free_dofs());
         course.error.push_back(step.errors.energy);
         course.transition.push_back(step.errors.transition);
         course.elastic_energy = step.energies.norm * step.energies.norm / 2;
@@ -95,7 +95,7 @@ public:
     AdaptiveSolver<2>(scene).run(
         [&](const StepReport<2> &step)
         {
-          solution = std::make_shared<const Solution<2>>(step.solution);
+          solution = std::make_shared<const Solution<2>>(step.solution());
           balance = step.equilibrium;
           resultant = step.contact.at(0).normal_resultant;
         });
@@ -200,12 +200,13 @@ TEST_P(OpeningScene, IsComplementaryAndBalanced)
         SCOPED_TRACE("step " + std::to_string(step.number));
         if (step.number % 4 != 1)
           return;
-        const Solution<2> &solution = step.solution;
+        const Solution<2> &solution = step.solution();
         CondensedElements<2> elements(scene, solution.tables);
         const Discretisation<2> discretisation(scene, solution.spaces, elements);
         expect_complementary(solution);
         expect_equilibrium(solution, discretisation.system.loads());
-        const Equilibrium<2> balance = equilibrium(solution, discretisation.system);
+        const Equilibrium<2> balance =
+            equilibrium(solution.scene, nodal_forces(solution, discretisation.system));
         EXPECT_LE(balance.force_imbalance, 1e-8);
         EXPECT_LE(balance.moment_imbalance, 1e-8);
         double normal = 0, friction = 0;

@@ -6,6 +6,7 @@
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/equilibration/mixed_problem.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/evaluation/solution_field.h>
 
 #include <complex>
 
@@ -47,6 +48,46 @@ TEST(HookesLaw, IsTheInverseOfTheEngineeringOne)
       EXPECT_NEAR(material.kolosov(),
                   plane == PlaneModel::strain ? 3 - 4 * nu : (3 - nu) / (1 + nu), 1e-13);
     }
+}
+
+/** `s : C^-1 s = s : eps` for s = C eps, and the part of s that resists the change of volume is that of energy_product(). */
+template <int dim>
+void expect_complementary_energy(const Material &material)
+{
+  Tensor<2, dim> gradient;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      gradient[i][j] = 0.3 + 0.1 * i - 0.4 * j + 0.2 * i * j;
+  const HookesLaw<dim> law(material);
+  const SymmetricTensor<2, dim> stress = law.stress(gradient);
+  const double energy = law.energy_product(gradient);
+  EXPECT_NEAR(law.complementary_product(stress, stress), energy, 1e-12 * energy);
+  EXPECT_NEAR(law.volumetric_stress(trace(stress)), law.volume_modulus() * trace(gradient),
+              1e-13 * stress.norm());
+}
+
+TEST(HookesLaw, HasTheSameEnergyOfStressAndStrain)
+{
+  for (const PlaneModel plane : {PlaneModel::stress, PlaneModel::strain})
+    for (const double nu : {-0.3, 0., 0.25, 0.49})
+    {
+      SCOPED_TRACE("nu = " + std::to_string(nu));
+      expect_complementary_energy<2>({7., nu, plane});
+      expect_complementary_energy<3>({7., nu, plane});
+    }
+}
+
+/** The material says what locks, and where von Mises' stress needs sigma_zz. */
+TEST(Material, AnswersWhatStagesAsk)
+{
+  const Material rubber{3., 0.499}, steel{210., 0.3}, sheet{3., 0.499, PlaneModel::stress};
+  EXPECT_TRUE(rubber.is_nearly_incompressible(2));
+  EXPECT_FALSE(steel.is_nearly_incompressible(2));
+  EXPECT_FALSE(sheet.is_nearly_incompressible(2)); // it grows thinner instead
+  EXPECT_EQ(rubber.locking_in_words(2), "Poisson's ratio 0.499 is near 1/2 (lambda/mu = 499)");
+  const SymmetricTensor<2, 2> sigma = 2. * unit_symmetric_tensor<2>();
+  EXPECT_EQ(steel.transverse_stress(sigma), 1.2);
+  EXPECT_EQ(sheet.transverse_stress(sigma), 0.);
 }
 
 // ---------------------------------------------------------------- changes of volume
@@ -231,7 +272,7 @@ void expect_uniform(const Scene<2> &scene, const Uniform &expected)
   EXPECT_NEAR(internal_forces(scene, discrete.displacement_space, discrete.tables, solution.u)
                   .energy_product,
               a, 1e-11);
-  EXPECT_LE(estimate_error(solution).total(), 1e-9);
+  EXPECT_LE(estimate_error(SolutionField(solution)).total(), 1e-9);
 }
 
 /** Confined: sigma_y = E (1-nu)/((1+nu)(1-2nu)) eps = 2.4 eps, sigma_x = nu/(1-nu) sigma_y. */

@@ -84,7 +84,7 @@ std::vector<double> numbers(const std::string &name, const Overrides &overrides)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        result.insert(result.end(), step.solution.u.begin(), step.solution.u.end());
+        result.insert(result.end(), step.solution().u.begin(), step.solution().u.end());
         for (const double value : {step.scaled_estimate, step.energies.energy,
                                    step.energies.lagrangian, step.errors.energy})
           if (!std::isnan(value))

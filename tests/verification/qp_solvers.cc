@@ -24,10 +24,11 @@ Outcome run(const std::string &scene, const Overrides &overrides)
       [&](const StepReport<2> &step)
       {
         result.lagrangians.push_back(step.energies.lagrangian);
-        result.lambda.assign(step.solution.z.begin(), step.solution.z.end());
-        result.steps_that_fell_back += step.qp.fell_back;
-        result.largest_gradient = std::max(result.largest_gradient, step.qp.projected_gradient);
-        result.last = step.qp;
+        result.lambda.assign(step.solution().z.begin(), step.solution().z.end());
+        result.steps_that_fell_back += step.reduced->qp.fell_back;
+        result.largest_gradient =
+            std::max(result.largest_gradient, step.reduced->qp.projected_gradient);
+        result.last = step.reduced->qp;
       });
   return result;
 }

@@ -3,8 +3,10 @@
 #include "discretisation.h"
 
 #include <hpvi/base/text.h>
-#include <hpvi/input/scene_entries.h>
+#include <hpvi/closed_forms/stick_slip.h>
 #include <hpvi/output/output.h>
+#include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/scene_hints.h>
 
 #include <cmath>
 #include <limits>
@@ -129,6 +131,32 @@ TEST(SceneByCode, HasTheDefaultsOfAFile)
   }
 }
 
+// ---------------------------------------------------------------- the body
+
+/** Its size is that of its longer diagonal, its sides know where they are, and inside is inside. */
+TEST(Geometry, AnswersWhatStagesAsk)
+{
+  Geometry<2> body;
+  body.corners =
+      quadrilateral_corners({{Point<2>(0, 0), Point<2>(4, 0), Point<2>(3, 2), Point<2>(0, 2)}});
+  EXPECT_EQ(body.diameter(), std::sqrt(20.));
+  EXPECT_EQ(body.centre(), Point<2>(1.75, 1));
+  EXPECT_EQ(body.radius(), Point<2>(4, 0).distance(body.centre()));
+  for (const auto &[x, is_inside] :
+       {std::pair(Point<2>(3.5, 1), true), {Point<2>(3.6, 1), false}, {Point<2>(-1e-9, 1), false}})
+    EXPECT_EQ(body.contains(x), is_inside) << x;
+  const std::vector<Side<2>> sides = sides_of(body);
+  ASSERT_EQ(boundary_names(2).size(), sides.size());
+  for (unsigned int b = 0; b < sides.size(); ++b)
+  {
+    const Point<2> x = sides[b].sample()[7];
+    EXPECT_TRUE(body.contains(x));
+    EXPECT_FALSE(body.contains(x + 1e-6 * sides[b].normal(x))) << boundary_names(2)[b];
+    EXPECT_EQ(sides[b].tangent(x), (Tensor<1, 2>({-sides[b].normal(x)[1], sides[b].normal(x)[0]})));
+    EXPECT_EQ(sides[b].axis, b == 0 || b == 1 ? 0U : 1U) << boundary_names(2)[b];
+  }
+}
+
 // ---------------------------------------------------------------- words that no scene has
 
 /** What a hint tells to write is there, and what it is about is not told twice. */
@@ -137,9 +165,9 @@ TEST(Hints, NameEntriesThatThereAre)
   for (const int dim : {2, 3})
   {
     std::vector<std::string> paths, words;
-    for (const Entry &entry : scene_entries(dim))
+    for (const Entry &entry : scene_entries(dim, boundary_names(dim)))
       paths.push_back(entry.path());
-    for (const Hint &hint : scene_hints(dim))
+    for (const Hint &hint : scene_hints(dim, boundary_names(dim)))
     {
       words.insert(words.end(), hint.words.begin(), hint.words.end());
       const std::regex quoted("\"([^\"]*)\"");
@@ -539,7 +567,7 @@ TEST(NormalContactOf, AScene)
   BoundaryCondition<2> &bottom = code.boundary("bottom");
   bottom.contact = Contact::unilateral;
   EXPECT_EQ(code.normal_contact(), Kind::nodes);
-  bottom.friction = {nullptr, expression<2>(0.3), nullptr};
+  bottom.friction = {nullptr, expression<2>(0.3)};
   EXPECT_EQ(code.normal_contact(), Kind::multiplier);
   EXPECT_NO_THROW(code.check());
   code.solver.normal_contact = Kind::nodes;

@@ -23,14 +23,14 @@ LastStep run(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        const Solution<2> &solution = step.solution;
+        const Solution<2> &solution = step.solution();
         expect_slack_of_overshoot_alone(solution, step.energies.slack);
         last = {step.contact.at(0).friction_resultant,
                 step.energies.slack,
                 solution.u.linfty_norm(),
                 step.energies.norm,
                 {solution.z.begin(), solution.z.end()},
-                step.warnings};
+                texts(step.warnings)};
       });
   return last;
 }
@@ -121,7 +121,7 @@ TEST(Semicoercive, TheTranslationOfAStepStartsTheNext)
 {
   std::vector<unsigned int> solves;
   AdaptiveSolver<2>(shipped_scene("semicoercive"))
-      .run([&](const StepReport<2> &step) { solves.push_back(step.qp.dense_solves); });
+      .run([&](const StepReport<2> &step) { solves.push_back(step.reduced->qp.dense_solves); });
   ASSERT_GE(solves.size(), 12u);
   EXPECT_LE(std::accumulate(solves.begin() + 4, solves.end(), 0u), 6 * (solves.size() - 4));
 }
@@ -174,8 +174,10 @@ TEST(Semicoercive, LoadsThatCancelToRoundOffPushNothing)
                                    {"Boundary top/Traction", "sin(2*pi*x); 0"},
                                    {"Adaptivity/Maximum steps", "1"}});
   AdaptiveSolver<2>(scene).run(
-      [](const StepReport<2> &step)
-      { EXPECT_TRUE(mentions(step.warnings, "not unique; raise Friction coefficient, lower")); });
+      [](const StepReport<2> &step) {
+        EXPECT_TRUE(
+            mentions(texts(step.warnings), "not unique; raise Friction coefficient, lower"));
+      });
 }
 
 TEST(Semicoercive, MotionsThatNothingResistsAreBadInput)

@@ -111,10 +111,10 @@ TEST(SkewBound, KeepsForceAndMomentOfLoads)
               if (!edge.at_boundary() || edge.components[c].is_unknown)
                 continue;
               double force = 0, moment = 0; // of loads of 1
-              for (const auto &[t, weight] : stress.prescribed_points(e))
+              for (const auto &[t, weight] : stress.prescribed().points(e))
               {
                 const double missed =
-                    stress.prescribed_traction(e, t) * edge.components[c].direction -
+                    stress.prescribed().value(e, t) * edge.components[c].direction -
                     legendre::evaluate(stress.tractions()[e][c], 2 * t - 1);
                 force += weight * missed;
                 moment += weight * t * missed;

@@ -109,7 +109,7 @@ std::vector<Case> cases()
   result.push_back({"coulomb", "ssnv128", {}});
   result.push_back({"coulomb_fixed_point", "ssnv128", {{"Solver/Coulomb solver", "fixed point"}}});
   result.push_back({"coulomb_bilateral", "ssnv128", {{"Boundary bottom/Contact", "bilateral"}}});
-  for (const std::string scene : {"slope", "brake-pad", "punch-friction", "strut"})
+  for (const std::string scene : {"slope", "brake-pad", "punch-friction", "punch-limited", "strut"})
   {
     std::string name = "coulomb_" + scene;
     std::replace(name.begin(), name.end(), '-', '_');

@@ -28,15 +28,15 @@ std::vector<Row> run(const std::string &scene, const Overrides &overrides)
   AdaptiveSolver<2>(shipped).run(
       [&](const StepReport<2> &step)
       {
-        const Solution<2> &solution = step.solution;
+        const Solution<2> &solution = step.solution();
         const Degrees &degrees = solution.displacement_space.degrees();
         rows.push_back({solution.displacement_space.n_free_dofs(),
                         *std::max_element(degrees.begin(), degrees.end()),
                         step.errors.energy,
                         step.scaled_estimate,
-                        step.condition_scaled,
+                        step.reduced->condition_scaled,
                         step.energies,
-                        step.qp,
+                        step.reduced->qp,
                         {solution.u.begin(), solution.u.end()},
                         {solution.z.begin(), solution.z.end()}});
       });
@@ -217,7 +217,7 @@ TEST(Conditioning, DoesNotDependOnTheBound)
                                                  {"Boundary bottom/Friction bound", bound}}))
         .run(
             [&](const StepReport<2> &step) {
-              result = {step.condition_raw, step.condition_scaled};
+              result = {step.reduced->condition_raw, step.reduced->condition_scaled};
             });
     return result;
   };
@@ -289,7 +289,7 @@ TEST(TinyContact, IsFoundBetweenPoints)
               [&](const StepReport<2> &step)
               {
                 error = step.errors.energy / step.errors.energy_norm;
-                warnings = step.warnings;
+                warnings = texts(step.warnings);
               });
       if (steps == "3")
         EXPECT_TRUE(mentions(warnings, "contact is smaller than the mesh sees")) << normal;

@@ -5,9 +5,9 @@
 
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/load_history.h>
-#include <hpvi/adaptivity/warnings.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/evaluation/solution_field.h>
 #include <hpvi/evaluation/unseen_contact.h>
 
 namespace
@@ -190,7 +190,7 @@ TEST(Thresholds, PenetrationOfAFewPercentIsWarnedOf)
                 {"Boundary top/Displacement", "0; -0.2"},
                 {"Solver/Normal contact", "nodes"}}),
         [&](const StepReport<2> &step)
-        { result = mentions(step.warnings, "penetrates the foundation"); });
+        { result = mentions(texts(step.warnings), "penetrates the foundation"); });
     return result;
   };
   EXPECT_TRUE(is_warned_of("0.1*abs(x - 0.3)"));
@@ -223,7 +223,7 @@ TEST(Thresholds, PenetrationIsIntegratedBeyondTheDegreeOfTheCell)
                                  {"Boundary top/Displacement", "free; free"},
                                  {"Boundary left/Displacement", "0; free"}});
   const CoarseSpaces coarse(scene, 2);
-  const ErrorEstimate estimate = estimate_error(coarse.at_rest(scene));
+  const ErrorEstimate estimate = estimate_error(SolutionField(coarse.at_rest(scene)));
   EXPECT_NEAR(estimate.penetration.at(0), 2 * (1 + 2. / 5 + 1. / 9), 1e-12);
 }
 
@@ -239,10 +239,14 @@ TEST(Thresholds, RoundOffEndsARunAtAFewTimesItself)
   run(square(sheared),
       [&](const StepReport<2> &step)
       {
-        const Solution<2> solution(scene, step.solution.spaces, step.solution.u, step.solution.z);
-        const double round_off = round_off_of_estimate(solution);
-        const auto limit_at = [&](const double estimate) {
-          return reached_limit(solution, {{estimate, 1e-3, 1e-3, 0.}}, 0.);
+        const double round_off = round_off_of_estimate(step.field);
+        const auto limit_at = [&](const double estimate)
+        {
+          History<2> history;
+          history.push_back({estimate, 1e-3, 1e-3, 0.});
+          return reached_limit<2>(scene, history, {1, step.solution().u.linfty_norm(), 0., [&]() {
+                                                     return round_off;
+                                                   }});
         };
         EXPECT_EQ(limit_at(2 * round_off), "round-off");
         EXPECT_EQ(limit_at(20 * round_off), "");
@@ -293,7 +297,7 @@ TEST(Thresholds, ToleranceOnNoBoundIsSaid)
         [&](const StepReport<2> &step)
         {
           EXPECT_EQ(step.stopped_by, "Tolerance");
-          EXPECT_EQ(mentions(step.warnings, "there is no bound of the error"),
+          EXPECT_EQ(mentions(texts(step.warnings), "there is no bound of the error"),
                     on == std::string("bound"));
         });
 }

@@ -75,11 +75,11 @@ TEST_P(AnyCoefficient, IsIntegratedOrWarnedOf)
         .run(
             [&](const StepReport<2> &step)
             {
-              const ContactSpace<2> &space = step.solution.contact_space;
-              const bool warned = !space.unresolved_bounds(step.solution.z).empty() ||
-                                  !space.unresolved_jumps(step.solution.z).empty();
+              const ContactSpace<2> &space = step.solution().contact_space;
+              const bool warned = !space.unresolved_bounds(step.solution().z).empty() ||
+                                  !space.unresolved_jumps(step.solution().z).empty();
               EXPECT_TRUE(warned || step.number > 1);
-              const double expected = -friction_by_panels(step.solution),
+              const double expected = -friction_by_panels(step.solution()),
                            found = step.contact.at(0).friction_resultant;
               EXPECT_LT(expected, 0.);
               if (!warned || step.number == 14)
@@ -88,11 +88,11 @@ TEST_P(AnyCoefficient, IsIntegratedOrWarnedOf)
               }
               if (!step.stopped_by.empty())
               {
-                EXPECT_EQ(mentions(step.warnings, "Friction coefficient varies inside"),
+                EXPECT_EQ(mentions(texts(step.warnings), "Friction coefficient varies inside"),
                           steps == "1" || given.jumps)
-                    << joined(step.warnings);
+                    << joined(texts(step.warnings));
               }
-              EXPECT_FALSE(mentions(step.warnings, "Friction bound"));
+              EXPECT_FALSE(mentions(texts(step.warnings), "Friction bound"));
             });
 }
 
@@ -136,7 +136,7 @@ TEST(JumpOfTheCoefficient, CountsWhereContactPresses)
   const auto warnings_of = [](const Scene<2> &scene)
   {
     std::vector<std::string> result;
-    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = step.warnings; });
+    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = texts(step.warnings); });
     return result;
   };
   const std::vector<std::string> open = warnings_of(pressed(jump));
@@ -157,7 +157,7 @@ TEST(Overshoot, IsNotDividedByACoefficientThatVanishes)
     AdaptiveSolver<2>(
         pressed({{"Boundary bottom/Friction coefficient", "2*exp(-((x-0.37)/0.005)^2)"},
                  {"Adaptivity/Maximum steps", steps}}))
-        .run([&](const StepReport<2> &step) { lines = step.warnings; });
+        .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
     EXPECT_FALSE(mentions(lines, "|lambda|")) << joined(lines);
     // In the first step friction is 1e-80 of the pressure.
     EXPECT_EQ(mentions(lines, "where Friction coefficient times the pressure is "), steps == "2")
@@ -185,10 +185,10 @@ TEST(NarrowGap, IsWarnedOfUntilThePressureIsRight)
             [&](const StepReport<2> &step)
             {
               pressure = step.contact.at(0).highest_pressure;
-              const bool missed = !unseen_gaps(step.solution).empty();
+              const bool missed = !unseen_gaps(step.solution()).empty();
               EXPECT_TRUE(missed || std::abs(pressure - 0.57) < 0.1) << kind << " " << pressure;
               n_missed += missed;
-              warnings = step.warnings;
+              warnings = texts(step.warnings);
             });
     EXPECT_GT(n_missed, 1U);
     EXPECT_LT(n_missed, 10U);
@@ -202,7 +202,7 @@ TEST(NarrowGap, IsNamedWithItsPlace)
 {
   std::vector<std::string> lines;
   AdaptiveSolver<2>(pressed({{"Boundary bottom/Gap", bump}, {"Adaptivity/Maximum steps", "1"}}))
-      .run([&](const StepReport<2> &step) { lines = step.warnings; });
+      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
   EXPECT_TRUE(mentions(lines, "Gap varies inside 1 edge more than the points of the contact "
                               "conditions see: near (0.37 0) it is -0.005 mm"))
       << (lines.empty() ? "" : lines[0]);
@@ -217,7 +217,7 @@ TEST(NarrowGap, CountsWhereTheBodyReaches)
     AdaptiveSolver<2>(pressed({{"Boundary bottom/Gap", gap},
                                {"Boundary top/Displacement", "0; " + down},
                                {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { result = unseen_gaps(step.solution).size(); });
+        .run([&](const StepReport<2> &step) { result = unseen_gaps(step.solution()).size(); });
     return result;
   };
   EXPECT_EQ(n_missed("0.005*exp(-((x-0.37)/0.005)^2)", "-0.02"), 1U);
@@ -232,7 +232,8 @@ TEST(NarrowGap, IsNeverSeenInSmoothScenes)
 {
   for (const std::string scene : {"hertz", "punch", "punch-friction"})
     AdaptiveSolver<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", "6"}}))
-        .run([&](const StepReport<2> &step)
-             { EXPECT_TRUE(unseen_gaps(step.solution).empty()) << scene << ", " << step.number; });
+        .run(
+            [&](const StepReport<2> &step)
+            { EXPECT_TRUE(unseen_gaps(step.solution()).empty()) << scene << ", " << step.number; });
 }
 } // namespace

@@ -3,8 +3,9 @@
 #include "discretisation.h"
 
 #include <hpvi/adaptivity/load_history.h>
-#include <hpvi/adaptivity/warnings.h>
 #include <hpvi/body/deformation.h>
+#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,7 +20,7 @@ using namespace verification;
 std::vector<std::string> warnings_of(const Scene<2> &scene)
 {
   std::vector<std::string> result;
-  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = step.warnings; });
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = texts(step.warnings); });
   return result;
 }
 
@@ -79,7 +80,7 @@ TEST(Warnings, StrainsOfPastLoadSteps)
   std::vector<std::string> last;
   const std::string strain = "if(t < 0.4, 0.1, if(t < 0.7, 0.2, 0.01))";
   LoadHistory<2>(deformed_square("0; -y*" + strain, {{"Loading/Steps", "3"}}))
-      .run([&](const StepReport<2> &step) { last = step.warnings; });
+      .run([&](const StepReport<2> &step) { last = texts(step.warnings); });
   EXPECT_TRUE(std::any_of(last.begin(), last.end(),
                           [](const std::string &line)
                           {
@@ -131,7 +132,7 @@ TEST(Warnings, ShippedScenesWhoseStrainsAreNotSmallAreListed)
       continue;
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "2"}});
     std::vector<std::string> last;
-    LoadHistory<2>(scene).run([&](const StepReport<2> &step) { last = step.warnings; });
+    LoadHistory<2>(scene).run([&](const StepReport<2> &step) { last = texts(step.warnings); });
     if (const std::string subjects = not_small(last); !subjects.empty())
       found[name] = subjects;
   }
@@ -178,11 +179,14 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
   const Scene<2> scene = shipped_scene("han-6-12");
   const RandomMesh mesh(scene, 1, 1);
   const Laboratory discrete(scene, mesh);
-  History history;
+  History<2> history;
   for (const double estimate : estimates)
     history.push_back({estimate, 0., 0., 0., false});
   const Solution<2> solution = discrete.solve();
-  for (const std::string &line : warnings(solution, contact_states(solution), history, error))
+  const auto contact = contact_states(SolutionField(solution));
+  for (const std::string &line :
+       texts(joined(warnings(scene, contact, body_state(SolutionField(solution)), history),
+                    multiplier_warnings(solution, contact, error, {}))))
     if (line.find(words) != std::string::npos)
       return line;
   return {};
@@ -250,7 +254,7 @@ TEST(Warnings, DoNotDivideByABoundThatVanishes)
   std::vector<std::string> lines;
   AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5*exp(-40*x)"},
                                                {"Adaptivity/Maximum steps", "10"}}))
-      .run([&](const StepReport<2> &step) { lines = step.warnings; });
+      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
   for (const std::string &line : lines)
     EXPECT_EQ(line.find("|lambda|"), std::string::npos) << line;
 }
@@ -263,7 +267,7 @@ TEST(Warnings, NameFrictionWhereThereIsNone)
                                  {"Adaptivity/Method", "pu"},
                                  {"Adaptivity/Start degree", "4"},
                                  {"Adaptivity/Maximum steps", "1"}}))
-      .run([&](const StepReport<2> &step) { lines = step.warnings; });
+      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
   bool named = false;
   for (const std::string &line : lines)
     named = named || line.find("where Friction bound is 0") != std::string::npos;
@@ -271,10 +275,10 @@ TEST(Warnings, NameFrictionWhereThereIsNone)
 }
 TEST(Warnings, ABoundOfRoundOffSaysSo)
 {
-  EXPECT_EQ(round_off_of_bound(1.1e-9, 1e-13), "");
-  EXPECT_EQ(round_off_of_bound(std::nan(""), 0.), "");
-  EXPECT_EQ(round_off_of_bound(1e-14, 1e-15), ""); // exact to round-off
-  const std::string line = round_off_of_bound(6.3e-11, 1.4e-14);
+  EXPECT_TRUE(bound_warnings(1.1e-9, 1e-13).empty());
+  EXPECT_TRUE(bound_warnings(std::nan(""), 0.).empty());
+  EXPECT_TRUE(bound_warnings(1e-14, 1e-15).empty()); // exact to round-off
+  const std::string line = bound_warnings(6.3e-11, 1.4e-14).at(0).text;
   EXPECT_NE(line.find("6.3e-11 of the solution"), std::string::npos) << line;
   EXPECT_NE(line.find("1.4e-14 of their stresses"), std::string::npos) << line;
 }
@@ -344,9 +348,17 @@ TEST(Warnings, FrictionWithoutContact)
   EXPECT_TRUE(warns(with_friction("Friction bound", "0.005"), words));
   EXPECT_FALSE(warns(with_friction("Friction bound", "0.02*max(0, 0.25 - x)"), words));
   EXPECT_FALSE(warns(with_friction("Friction coefficient", "0.3"), words));
-  EXPECT_EQ(friction_without_contact(0.009, 1.), "");
-  EXPECT_NE(friction_without_contact(0.011, 1.).find("1.1 % of it"), std::string::npos);
-  EXPECT_EQ(friction_without_contact(0., 0.), "");
+  const auto said = [](const double open, const double all)
+  {
+    ContactState<3> state;
+    state.open_friction = open;
+    state.absolute_friction = all;
+    const std::vector<std::string> lines = texts(friction_warnings(Scene<3>(), {state}));
+    return lines.empty() ? "" : lines.front();
+  };
+  EXPECT_EQ(said(0.009, 1.), "");
+  EXPECT_NE(said(0.011, 1.).find("1.1 % of it"), std::string::npos);
+  EXPECT_EQ(said(0., 0.), "");
 }
 
 /** On both sides of a vertex, and where edges begin at it or end. */
@@ -356,12 +368,12 @@ TEST(Warnings, TransitionOnAVertex)
   const RandomMesh mesh(scene, 1, 0);
   const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
-  std::vector<ContactState<2>> contact = contact_states(solution);
+  std::vector<ContactState<2>> contact = contact_states(SolutionField(solution));
   for (const double x : {0., 1., 1 + 1e-15, 1 - 1e-15, 2., 3., 3.5, 4.})
   {
     contact.at(0).transitions = {Point<2>(x, 0)};
     unsigned int found = 0;
-    for (const std::string &line : warnings(solution, contact, History(), AlgebraicError()))
+    for (const std::string &line : texts(multiplier_warnings(solution, contact, {}, {})))
       found += line.find("stick and slip meet at (") != std::string::npos &&
                line.find("to +-1 mm only") != std::string::npos;
     EXPECT_EQ(found, 1U) << x;

@@ -3,11 +3,8 @@
 #define hpvi_adaptive_solver_h
 
 #include <hpvi/adaptivity/checkpoint.h>
-#include <hpvi/adaptivity/progress.h>
 #include <hpvi/adaptivity/step_report.h>
-#include <hpvi/algebra/factored_system.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/contact/multiplier_trace.h>
 
 #include <functional>
 #include <memory>
@@ -15,39 +12,35 @@
 namespace hpvi
 {
 /**
- * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene. Owns the stages; prints
- * nothing and writes no file: each finished step goes to a callback.
+ * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene, by the backend that
+ * SolverSettings::path asks for. Owns the stages; prints nothing and writes no file: each finished step
+ * goes to a callback. On several processes all functions are collective.
  */
 template <int dim>
 class AdaptiveSolver
 {
 public:
-  /** Where a run begins that takes over the mesh of another one. */
-  struct Start
-  {
-    std::shared_ptr<const dealii::Triangulation<dim>> mesh;
-    Degrees degrees;
-    MultiplierTrace<dim> multiplier;                ///< a guess; zero unless it is wanted
-    dealii::Vector<double> motion;                  ///< likewise, of the free motions of the scene
-    std::shared_ptr<const ShapeTables<dim>> tables; ///< of both
-    std::shared_ptr<FactoredSystem> factored; ///< used where the new system is the same; or null
-  };
+  using Announce = std::function<void(const Progress &)>;
 
   /**
-   * Throws InputError where the scene does not pass Scene::check(), or has a load history, which is for
-   * LoadHistory.
+   * Throws InputError where the scene does not pass Scene::check(), is not for the path that it asks for, or has a
+   * load history, which is for LoadHistory.
    */
-  explicit AdaptiveSolver(const Scene<dim> &scene);
+  explicit AdaptiveSolver(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
 
-  /** The same from @p start, of a scene of the same body. */
-  AdaptiveSolver(const Scene<dim> &scene, const Start &start);
+  /**
+   * The same for the next load step of a history, on the mesh of @p last, which hands over what it keeps; slip is
+   * counted from @p past.
+   */
+  AdaptiveSolver(const Scene<dim> &scene, AdaptiveSolver &last, const PastSlip<dim> &past);
 
   /**
    * Goes on after the step in which @p state was taken, to the same numbers as if the run had not been
    * broken off. Throws InputError where @p scene is not that of the state, limits, output and labels
    * aside, or where its limits leave no step to take.
    */
-  AdaptiveSolver(const Scene<dim> &scene, const RunState &state);
+  AdaptiveSolver(const Scene<dim> &scene, const RunState<dim> &state,
+                 MPI_Comm communicator = MPI_COMM_SELF);
 
   ~AdaptiveSolver();
 
@@ -55,7 +48,7 @@ public:
    * The beginning of run(), up to the last that the first step asks the functions of the scene for. Throws
    * InputError where they are no good between the points at which Scene::check() has tried them.
    */
-  void prepare(const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+  void prepare(const Announce &about_to = [](const Progress &) {});
 
   /**
    * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
@@ -64,13 +57,10 @@ public:
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,
-      const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+      const Announce &about_to = [](const Progress &) {});
 
-  /** What it takes to go on after @p step; to be asked while its callback lasts. */
-  RunState state(const StepReport<dim> &step) const;
-
-  /** For a run that takes over from the step at hand; to be asked while its callback lasts. */
-  Start end() const;
+  /** What it takes to go on after the step at hand; to be asked while its callback lasts. */
+  RunState<dim> state() const;
 
 private:
   struct Stages;

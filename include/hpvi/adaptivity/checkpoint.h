@@ -2,11 +2,9 @@
 #ifndef hpvi_checkpoint_h
 #define hpvi_checkpoint_h
 
-#include <hpvi/adaptivity/history.h>
+#include <hpvi/backends/backend.h>
 #include <hpvi/base/file_format.h>
-#include <hpvi/body/mesh.h>
-
-#include <deal.II/lac/vector.h>
+#include <hpvi/warnings/history.h>
 
 #include <iosfwd>
 #include <string>
@@ -14,7 +12,8 @@
 
 namespace hpvi
 {
-/** All that a run needs to go on after one of its steps, as if it had never stopped. */
+/** All that a run needs to go on after one of its steps, as if it had never stopped, on as many processes as one likes. */
+template <int dim>
 struct RunState
 {
   std::string name; ///< for messages: the file that it comes from
@@ -22,9 +21,8 @@ struct RunState
   std::vector<std::string> entries;
   /** From the coarse mesh to that of the step: only their order gives cells the same numbers again. */
   std::vector<Refinement> refinements;
-  dealii::Vector<double> u, z;   ///< as in Solution
-  dealii::Vector<double> motion; ///< amounts of Scene::free_motions() by which the body moves
-  History history;               ///< of the steps up to this one
+  SolutionValues values; ///< of the step
+  History<dim> history;  ///< of the steps up to this one
 
   /** The entries of @p scene_prm that a state keeps: all but limits, output and labels. */
   static std::vector<std::string> entries_of(const std::string &scene_prm);

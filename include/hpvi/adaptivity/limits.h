@@ -2,30 +2,44 @@
 #ifndef hpvi_limits_h
 #define hpvi_limits_h
 
-#include <hpvi/adaptivity/history.h>
 #include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/discretisation/solution.h>
 #include <hpvi/evaluation/energies.h>
+#include <hpvi/warnings/history.h>
 
+#include <deal.II/base/types.h>
+
+#include <functional>
 #include <string>
 
 namespace hpvi
 {
-/**
- * Throws NumericalFailure where double precision ends: energies that overflow or underflow, a
- * displacement that round-off has spoilt.
- */
-template <int dim>
-void check_numbers(const Solution<dim> &solution, const Energies &energies,
-                   const AlgebraicError &algebraic);
+/** What limits ask of the solution of the last step, numbers of all processes. */
+struct LastSolution
+{
+  dealii::types::global_dof_index n_free; ///< unknowns
+  double displacement;                    ///< the largest component of u_N at a node [length]
+  double missed;                          ///< what u_N misses of the data in the energy norm
+  /** round_off_of_estimate(); asked only where the indicator is small, on all processes at once. */
+  std::function<double()> round_off;
+};
 
 /**
- * Why @p solution, that of the last step of @p history, needs no next one: an entry of section
- * Adaptivity, or "round-off" where the indicator is that of the last bits of u_N, and so is @p missed, what
- * u_N misses of the data in the energy norm. Empty: it does.
+ * Throws NumericalFailure where double precision ends: energies that overflow or underflow, where
+ * @p displacement is the largest of u_N.
  */
 template <int dim>
-std::string reached_limit(const Solution<dim> &solution, const History &history, double missed);
+void check_numbers(const Scene<dim> &scene, double displacement, const Energies &energies);
+
+/** Likewise where round-off has spoilt a displacement. */
+void check_algebraic_error(const AlgebraicError &error);
+
+/**
+ * Why the last step of @p history needs no next one: an entry of section Adaptivity, or "round-off" where the
+ * indicator is that of the last bits of u_N, and so is LastSolution::missed. Empty: it does.
+ */
+template <int dim>
+std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
+                          const LastSolution &last);
 } // namespace hpvi
 
 #endif

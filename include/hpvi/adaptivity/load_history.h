@@ -15,7 +15,7 @@ namespace hpvi
  *
  *     a(u, v - u) + int g_k |du_t + v_t - u_t| - int g_k |du_t| >= L_k(v - u)   for all v,
  *
- * which is the problem without history but for the past slip u_t^(k-1), FrictionLaw::past. Meshes are
+ * which is the problem without history but for the past slip u_t^(k-1), an argument of its spaces. Meshes are
  * nested, so that it is handed on without error. A scene without history is one load step.
  */
 template <int dim>
@@ -23,7 +23,7 @@ class LoadHistory
 {
 public:
   /** Throws InputError where the scene or that of a load step does not pass Scene::check(). */
-  explicit LoadHistory(const Scene<dim> &scene);
+  explicit LoadHistory(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
   ~LoadHistory();
 
   /** AdaptiveSolver::prepare(), of the first load step. */
@@ -33,9 +33,8 @@ public:
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
    * StepReport::stopped_by says of each load step why it is done: as AdaptiveSolver does, or "error of
    * load step k", as small as which those after it are where the scene names no tolerance, or
-   * "Adapt = first step". The last one has the warnings of all, those that differ in numbers alone once,
-   * with the load step whose first number outside parentheses is the largest. Throws NumericalFailure
-   * and InputError, which name the load step.
+   * "Adapt = first step". The last one has the warnings of all, of each kind the worst with its load step.
+   * Throws NumericalFailure and InputError, which name the load step.
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,

@@ -2,18 +2,10 @@
 #ifndef hpvi_step_report_h
 #define hpvi_step_report_h
 
-#include <hpvi/adaptivity/stage_times.h>
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/evaluation/true_error.h>
+#include <hpvi/backends/backend.h>
 #include <hpvi/peaks/unbounded_stress.h>
-#include <hpvi/solver/coulomb_solver.h>
+
+#include <deal.II/base/exceptions.h>
 
 #include <optional>
 #include <string>
@@ -34,43 +26,53 @@ struct LoadStep
   double unbalanced = 0; ///< the sum of Work::unbalanced, likewise
 };
 
-/** Everything known after one SOLVE, ESTIMATE; references live until the next step begins. */
+/**
+ * Everything known after one SOLVE, ESTIMATE, whichever backend solved; numbers are those of all processes and
+ * the same on each of them, unless it says otherwise. References live until the next step begins.
+ */
 template <int dim>
 struct StepReport
 {
   unsigned int number; ///< from 1
-  const Solution<dim> &solution;
-  const ElasticSystem<dim> &system; ///< of the discrete problem
-  const ErrorEstimate &estimate;
+  const Scene<dim> &scene;
+  const Field<dim> &field; ///< u_N on the cells of this process
+  ProblemSize size;
+  const ErrorEstimate &estimate;          ///< of the cells of this process
+  EstimateNorms norms;                    ///< of all cells
+  const std::optional<ErrorBound> &bound; ///< none: not asked for, or not on offer
+  const std::string &no_bound;            ///< why there is none
+  double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
+  const std::optional<ReducedPart<dim>> reduced; ///< of the reduced path
+  const std::optional<PrimalPart<dim>> primal;   ///< of the primal path
   /**
    * eta/c^{1/2}, in the unit of the energy norm. The residual bounds the error through
    * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the materials:
    * Scene::coercivity(), 2 mu of the softest unless nu < 0.
    */
-  double scaled_estimate;
-  double relative_estimate; ///< scaled_estimate / |u_N|_a, dimensionless: the relative indicator
-  const std::optional<ErrorBound> &bound; ///< none: not asked for, or Scene::no_error_bound()
-  std::string no_bound;                   ///< why there is none
-  double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
-  double relative_bound;  ///< bound->total / |u_N|_a, NaN without it
-  Energies energies;
-  std::vector<ContactState<dim>> contact; ///< of each contact boundary, by id
-  TrueErrors errors;                      ///< NaN where the scene gives nothing to compare with
-  AlgebraicError algebraic;               ///< what round-off leaves in u_N
-  QpReport qp;                            ///< all zero without multipliers
-  CoulombReport coulomb;                  ///< likewise without Coulomb friction
-  double condition_raw = 0;               ///< cond(S), 0 unless the scene asks for it
-  double condition_scaled = 0;            ///< cond(D^-1/2 S D^-1/2), likewise
-  StageTimes times;
-  double seconds = 0;                ///< since the start of the run, without output and true errors
-  std::string stopped_by;            ///< empty, or the limit that makes this the last step
-  std::vector<std::string> warnings; ///< of the last step: what in the result asks for care
-  Equilibrium<dim> equilibrium;      ///< likewise of the last step alone
-  LoadStep load;
-  std::vector<StressSample<dim>> peaks = {};        ///< stress_peaks()
-  std::vector<UnboundedStress<dim>> unbounded = {}; ///< of the last step alone
-};
+  double scaled_estimate = 0;
+  double relative_estimate = 0; ///< scaled_estimate / |u_N|_a: the relative indicator
+  double relative_bound = 0;    ///< ErrorBound::total / |u_N|_a, NaN without it
+  Energies energies{};
+  std::vector<ContactState<dim>>
+      contact{};                  ///< of each contact boundary, by id; the first process's
+  TrueErrors errors{};            ///< NaN where the scene gives nothing to compare with
+  StageTimes times{};             ///< of the first process
+  double seconds = 0;             ///< since the start of the run, without output and true errors
+  double peak_memory = 0;         ///< that the processes have had so far, their sum [bytes]
+  std::string stopped_by{};       ///< empty, or the limit that makes this the last step
+  Warnings warnings{};            ///< of the last step: what in the result asks for care
+  Equilibrium<dim> equilibrium{}; ///< likewise of the last step alone
+  LoadStep load{};
+  std::vector<StressSample<dim>> peaks{};        ///< stress_peaks()
+  std::vector<UnboundedStress<dim>> unbounded{}; ///< of the last step alone
 
+  /** Of the reduced path, which alone has one. */
+  const Solution<dim> &solution() const
+  {
+    AssertThrow(reduced, dealii::ExcMessage("Only the reduced path has a Solution; ask field."));
+    return reduced->solution;
+  }
+};
 } // namespace hpvi
 
 #endif

@@ -9,7 +9,6 @@
 #include <hpvi/stresses/edge_bubbles.h>
 
 #include <array>
-#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -17,10 +16,8 @@
 
 namespace hpvi
 {
-/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign [stress length^dim]; without @p l: `int g |v|`. */
-template <int dim>
-double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
-                    const ShapeTables<dim> &tables, const std::function<double(double)> &l = {});
+/** The largest value over [0,1]; zero if none is above that, or all are round-off. */
+double largest_value(const EdgePolynomial &polynomial, double round_off);
 
 /** Finds w of ContactCorrection, which says what is asked of it. */
 template <int dim>

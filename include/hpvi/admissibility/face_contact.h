@@ -6,6 +6,7 @@
 #include <hpvi/admissibility/contact_trace.h>
 #include <hpvi/stresses/legendre.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -68,6 +69,11 @@ Opening opening_of(unsigned int face, const Solution<dim> &solution, const Unkno
 template <int dim>
 void free_neighbours(std::vector<std::optional<Opening>> &openings,
                      const std::vector<ContactFace<dim>> &faces);
+
+/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign [stress length^dim]; without @p l: `int g |v|`. */
+template <int dim>
+double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
+                    const ShapeTables<dim> &tables, const std::function<double(double)> &l = {});
 } // namespace hpvi
 
 #endif

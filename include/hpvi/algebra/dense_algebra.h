@@ -2,6 +2,8 @@
 #ifndef hpvi_dense_algebra_h
 #define hpvi_dense_algebra_h
 
+#include <deal.II/base/types.h>
+
 #include <vector>
 
 namespace hpvi
@@ -19,6 +21,9 @@ void multiply(char op_A, char op_B, unsigned int rows, unsigned int columns, uns
 
 /** A := L with `A = L L'`, in the lower triangle. Is A positive definite? */
 bool cholesky(unsigned int n, double *A, unsigned int stride);
+
+/** Throws NumericalFailure, that round-off spoils @p what of cells, unless their matrix is positive definite. */
+void require_regular(bool is_positive_definite, const char *what);
 
 /** `B := op(L)^-1 B` with L lower triangular of size n, B n x columns. */
 void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L, double *B,
@@ -39,6 +44,23 @@ struct PivotedCholesky
   std::vector<unsigned int> order; ///< as long as the rank
   std::vector<double> L;           ///< rank x rank
   unsigned int n = 0;
+};
+
+/** `x` solves `A x = b`: a dense LU factor, its matrix by columns. */
+class LuFactor
+{
+public:
+  LuFactor(std::vector<double> matrix, unsigned int n);
+
+  bool is_singular() const; ///< to round-off; also where an entry is no number
+
+  void solve(std::vector<double> &x) const; ///< x := A^-1 x
+
+private:
+  std::vector<double> factor;
+  std::vector<dealii::types::blas_int> pivots;
+  dealii::types::blas_int n;
+  double reciprocal_condition = 0;
 };
 } // namespace hpvi
 

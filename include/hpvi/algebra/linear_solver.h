@@ -59,8 +59,6 @@ public:
   /** The place in kept of each row of C. */
   const std::vector<unsigned int> &kept_order() const;
 
-  std::size_t factor_entries() const; ///< entries stored for L
-
 private:
   struct Factor;
   std::unique_ptr<Factor> factor;

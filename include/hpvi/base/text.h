@@ -35,6 +35,9 @@ std::string single_spaced(const std::string &text);
 /** The parts of @p text between semicolons, trimmed; empty parts are kept. */
 std::vector<std::string> split_components(const std::string &text);
 
+/** "a, b and c" with "and" as the @p conjunction. */
+std::string listed(const std::vector<std::string> &names, const std::string &conjunction);
+
 /** Number of insertions, deletions and replacements between two words, case ignored. */
 unsigned int edit_distance(const std::string &left, const std::string &right);
 

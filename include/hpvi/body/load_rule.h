@@ -2,14 +2,8 @@
 #ifndef hpvi_load_rule_h
 #define hpvi_load_rule_h
 
-#include <hpvi/algebra/cut_rule.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/body/shape_tables.h>
-#include <hpvi/scene/scene.h>
-
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/grid/tria.h>
+#include <hpvi/body/displacement_cuts.h>
+#include <hpvi/body/load_quadrature.h>
 
 #include <map>
 #include <memory>
@@ -19,16 +13,6 @@
 
 namespace hpvi
 {
-/** Points and weights for a load on a face (d = 1) or in a cell (d = 2), on [0,1]^d. */
-template <int d>
-struct LoadRule
-{
-  unsigned int n_gauss;     ///< it is the Gauss rule of so many points per direction; 0: it is cut
-  unsigned int most_points; ///< of the Gauss rule on any piece, per direction
-  dealii::Quadrature<d> quadrature;
-  std::vector<double> cuts; ///< of a face: 0, where pieces meet, 1
-};
-
 /** An edge or cell on which the load by its rule and by one four times finer are not the same. */
 template <int dim>
 struct UnresolvedLoad
@@ -38,17 +22,6 @@ struct UnresolvedLoad
   dealii::Point<dim> where;            ///< the middle of the worst piece
   dealii::Tensor<1, dim> force, finer; ///< by both rules [stress length^(dim-1)]
   double deviation; ///< of forces and, with a lever of half the edge or cell, moments
-};
-
-/** A prescribed displacement or gap that the nodes of an edge miss. */
-template <int dim>
-struct MissedDisplacement
-{
-  std::string name; ///< as in "Displacement on top", "Gap on bottom"
-  bool is_gap;
-  unsigned int cell;
-  dealii::Point<dim> where;
-  double value, interpolated; ///< one component of it, and of its interpolant at the nodes [length]
 };
 
 /** All loads of a scene together. */
@@ -74,10 +47,10 @@ struct LoadSum
  * cut anew, and may be resolved there.
  */
 template <int dim>
-class LoadRules
+class LoadRules : public DisplacementCuts<dim>
 {
 public:
-  using Cell = typename dealii::Triangulation<dim>::cell_iterator;
+  using Cell = coarse_cuts::Cell;
 
   /** Of the loads of @p scene on the coarse cells of @p mesh; the scene must outlive this object. */
   LoadRules(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh,
@@ -91,17 +64,6 @@ public:
 
   /** Of the active cells of @p mesh: both rules differ by more than 1e-9 of all loads. */
   std::vector<UnresolvedLoad<dim>> unresolved(const dealii::Triangulation<dim> &mesh) const;
-
-  /**
-   * Boundary edges of the active cells of @p mesh on which a prescribed component, or a gap, differs from its interpolant at the
-   * Gauss-Lobatto nodes by more than a twentieth of its variation: one place for each edge. Where data are
-   * smooth along the coarse edge that is not asked.
-   */
-  std::vector<MissedDisplacement<dim>> missed_displacements(const dealii::Triangulation<dim> &mesh,
-                                                            const Degrees &degrees) const;
-
-  /** Where on a face, in [0,1], prescribed displacements and gaps are to be looked at; smooth ones: nowhere. */
-  std::vector<double> displacement_points(const Cell &cell, unsigned int face) const;
 
   const LoadSum &sum() const;
 
@@ -131,13 +93,10 @@ private:
   Pieces pieces(const Cell &cell, unsigned int face) const;
   bool is_unresolved(const Pieces &pieces) const;
   void add(const Cell &cell, unsigned int face);
-  void cut_displacements(const Cell &cell, unsigned int face);
 
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   std::map<Place, Pieces> coarse; ///< what varies
-  std::map<Place, std::vector<double>>
-      displacement_cuts; ///< of coarse edges whose data are not smooth
   LoadSum total;
 };
 } // namespace hpvi

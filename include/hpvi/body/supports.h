@@ -4,28 +4,20 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <hpvi/body/dof_numbering.h>
+#include <hpvi/checks/supports.h>
 
 #include <array>
 #include <vector>
 
 namespace hpvi
 {
-/** `direction . u = value` at one node, said by one boundary. */
-template <int dim>
-struct NodeCondition
-{
-  dealii::Tensor<1, dim> direction; ///< unit vector
-  double value;                     ///< [length]
-  dealii::types::boundary_id boundary;
-};
-
 /** A node of the displacement space on the boundary and all that supports and contact ask of it. */
 template <int dim>
 struct SupportedNode
 {
   std::array<dealii::types::global_dof_index, dim> dofs; ///< one by component
   dealii::Point<dim> x;
-  std::vector<NodeCondition<dim>> conditions;
+  std::vector<PointCondition<dim>> conditions;
 
   /**
    * The force at this node, taken apart by the conditions that can exert it: coefficients mu with

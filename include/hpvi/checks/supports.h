@@ -12,15 +12,15 @@ namespace hpvi
 template <int dim>
 struct PointCondition
 {
-  dealii::Tensor<1, dim> direction;
-  double value; ///< [length]
+  dealii::Tensor<1, dim> direction; ///< unit vector
+  double value;                     ///< [length]
   unsigned int boundary;
 };
 
-/** What @p boundary, which is @p side, prescribes at @p point: displacements, and u_n = 0 of bilateral contact. */
+/** What a boundary with outer @p normal prescribes at @p point: displacements, and `u_n = 0` where it @p slides. */
 template <int dim>
 std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
-                                               const Side<dim> &side,
+                                               const dealii::Tensor<1, dim> &normal, bool slides,
                                                const dealii::Point<dim> &point);
 
 /** Where two boundaries meet their conditions can hold together, and `u_n <= u_0` with them: else InputError. */

@@ -5,15 +5,27 @@
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/body/displacement_space.h>
+#include <hpvi/cones/friction_cones.h>
 #include <hpvi/contact/contact_frame.h>
 #include <hpvi/contact/friction_rule.h>
-#include <hpvi/solver/friction_cones.h>
 
 #include <map>
+#include <string>
 #include <vector>
 
 namespace hpvi
 {
+/** u_t(x) from which slip is counted, by the number of a contact boundary [length]; where there is none: 0. */
+template <int dim>
+using PastSlip = std::map<dealii::types::boundary_id, Expression<dim>>;
+
+/** What friction may be at one point of a quadrature rule on [0,1]. */
+struct PointLimit
+{
+  double s, weight;
+  FrictionLimit friction;
+};
+
 /**
  * One face of the contact boundary. Its multiplier unknowns are those of friction, the values of z_N
  * at its Gauss points, then those of normal contact, the pressures at its normal points; both in the
@@ -39,16 +51,18 @@ struct ContactFace
   std::vector<unsigned int> pressures; ///< their unknowns; a vertex shares its own
   FrictionRule friction;               ///< for integrals over the face that hold g [stress]
   FrictionRule coefficient = {};       ///< likewise mu_f; no points where the boundary names none
-  bool at_nodes = false;               ///< are the normal points Gauss-Lobatto points?
+  std::vector<PointLimit> limits =
+      {};                         ///< a rule for the limit of the law, cut where its functions are
+  Expression<dim> past = nullptr; ///< of PastSlip
+  bool at_nodes = false;          ///< are the normal points Gauss-Lobatto points?
 
   /** At reference coordinate s in [0,1] of the face. */
   ContactFrame<dim> frame(double s) const;
   dealii::Point<dim> point(double s) const; ///< x there
 
-  /** Friction bound g(x), zero where the boundary names none. */
-  double friction_bound(const dealii::Point<dim> &x) const;
-
-  double friction_coefficient(const dealii::Point<dim> &x) const; ///< mu_f(x) likewise
+  double friction_bound(const dealii::Point<dim> &x) const;       ///< FrictionLaw::bound_at()
+  double friction_coefficient(const dealii::Point<dim> &x) const; ///< likewise
+  double friction_without_pressure() const;                       ///< int limit(0)
   double past_slip(const dealii::Point<dim> &x) const; ///< u_t(x) from which slip is counted
 };
 
@@ -61,7 +75,7 @@ struct ContactMultiplier
 {
   enum class Kind
   {
-    friction, ///< along the tangent: |z| <= g, or |z| <= mu_f max(0, z_n) with its partner z_n
+    friction, ///< along the tangent: |z| <= limit(z_n) with its partner z_n, if it has one
     pressure  ///< along the normal: z >= 0, or of any sign where contact is bilateral
   };
 
@@ -70,10 +84,9 @@ struct ContactMultiplier
   dealii::Tensor<1, dim> direction; ///< of the displacement that it works on
   /** Of the quadrature rule, times ds: `int z_N = sum_i weight_i z_i` [length^(dim-1)]. */
   double weight = 0;
-  double bound = 0; ///< g(x) [stress]; 0 for a pressure
-  /** int psi u_0 with its basis function psi; of friction that of FrictionLaw::past [length^dim]. */
+  FrictionLimit friction = {}; ///< nothing for a pressure
+  /** int psi u_0 with its basis function psi; of friction that of the past slip [length^dim]. */
   double gap = 0;
-  double coefficient = 0;                                       ///< mu_f(x) of Coulomb's law
   unsigned int partner = dealii::numbers::invalid_unsigned_int; ///< its pressure there; else none
   bool is_bilateral = false;                                    ///< a pressure of any sign
 };
@@ -83,22 +96,25 @@ template <int dim>
 struct UnresolvedJump
 {
   const ContactFace<dim> *face;
+  std::string entry; ///< of the function that jumps
   dealii::Point<dim> where;
   double height; ///< of g [stress], of mu_f [-]
   double force;  ///< what the whole edge would carry more by it [stress length]
 };
 
 /**
- * An edge on which the Gauss points of the multiplier miss what g does between them. Under Coulomb's
- * law g is mu_f z_n with the polynomial of the pressure.
+ * An edge on which the Gauss points of the multiplier miss what the limit does between them: with the
+ * polynomial of the pressure, where the law knows one.
  */
 template <int dim>
 struct UnresolvedBound
 {
   const ContactFace<dim> *face;
-  double sum;      ///< sum_k w_k g(x_k), what the discrete problem takes for int g [stress length]
-  double integral; ///< int g
-  double absolute; ///< int |g|: pressures may pull
+  std::string entry; ///< FrictionLaw::entry()
+  double
+      sum; ///< sum_k w_k limit(x_k), what the discrete problem takes for its integral [stress length]
+  double integral; ///< int limit
+  double absolute; ///< int |limit|: pressures may pull
 };
 
 /**
@@ -120,7 +136,7 @@ class ContactSpace
 public:
   /** Throws InputError where a prescribed displacement contradicts the gap at a node. */
   ContactSpace(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
-               const ShapeTables<dim> &tables);
+               const ShapeTables<dim> &tables, const PastSlip<dim> &past = {});
 
   /** Faces along the boundary: one contact boundary after the other, each sorted by position. */
   const std::vector<ContactFace<dim>> &faces() const;
@@ -131,13 +147,13 @@ public:
   /** |z_i| <= g(x_i) of friction, z_i >= 0 of pressures; no sides where a cone has them. */
   FeasibleSet feasible_set() const;
 
-  /** The pairs of Coulomb's law; none under Tresca's. */
+  /** The pairs of a law that knows the pressure; none under Tresca's. */
   std::vector<FrictionCones::Cone> cones() const;
 
-  /** g at an unknown of friction where the multiplier is @p z: of Coulomb's law mu_f max(0, z_n). */
+  /** The limit at an unknown of friction where the multiplier is @p z. */
   double bound(unsigned int unknown, const dealii::Vector<double> &z) const;
 
-  /** g on @p face at s in [0,1] likewise, with the polynomial of the pressure. */
+  /** On @p face at s in [0,1] likewise, with the polynomial of the pressure. */
   double bound(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
 
   /**
@@ -152,22 +168,22 @@ public:
   /** The pressure -T_n likewise. */
   double pressure(const ContactFace<dim> &face, const dealii::Vector<double> &z, double s) const;
 
-  /** int g, all that friction can carry along the contact boundary [stress length^(dim-1)]. */
+  /** All that friction can carry without pressure along the contact boundary [stress length^(dim-1)]. */
   double friction_limit() const;
 
-  /** `sum_i w_i g(x_i)`, all that friction can carry in the discrete problem. */
+  /** The same in the discrete problem, `sum_i w_i limit_i(0)`. */
   double discrete_friction_limit() const;
 
-  double largest_bound() const; ///< max g(x_i) [stress]
+  double largest_bound() const; ///< max limit_i(0) [stress]
 
   /**
-   * Faces where `sum_k w_k g(x_k)` differs from int g by more than 1e-3 of it and 1e-6 of the same over
-   * all faces: the discrete problem has another friction there than the scene. Under Coulomb's law
-   * that depends on the pressures in @p z.
+   * Faces where `sum_k w_k limit(x_k)` differs from its integral by more than 1e-3 of it and 1e-6 of the same
+   * over all faces: the discrete problem has another friction there than the scene. Where the law knows the
+   * pressure that depends on @p z.
    */
   std::vector<UnresolvedBound<dim>> unresolved_bounds(const dealii::Vector<double> &z) const;
 
-  /** Jumps that change the friction of their edge by more than 1e-6 of that on all, likewise. */
+  /** Jumps of g or mu_f that change the friction of their edge by more than 1e-6 of that on all, likewise. */
   std::vector<UnresolvedJump<dim>> unresolved_jumps(const dealii::Vector<double> &z) const;
 
 private:
@@ -179,6 +195,8 @@ private:
   void number_nodes(ContactFace<dim> &face, const DisplacementSpace<dim> &displacement_space,
                     const ShapeTables<dim> &tables);
   UnresolvedBound<dim> limit(const ContactFace<dim> &face, const dealii::Vector<double> &z) const;
+  double carried_by(bool by_bound, const ContactFace<dim> &face,
+                    const dealii::Vector<double> &z) const;
   std::vector<UnresolvedBound<dim>> limits(const dealii::Vector<double> &z) const;
 
   std::vector<ContactFace<dim>> contact_faces;

@@ -37,6 +37,12 @@ private:
   dealii::Tensor<1, dim> tangent;
   std::vector<Piece> pieces; ///< in order
 };
+
+/** That of @p u along each boundary with friction: what the next load step counts slip from. */
+template <int dim>
+PastSlip<dim> past_slip(const ContactSpace<dim> &contact_space,
+                        const DisplacementSpace<dim> &displacement_space,
+                        const ShapeTables<dim> &tables, const dealii::Vector<double> &u);
 } // namespace hpvi
 
 #endif

@@ -125,6 +125,9 @@ public:
   void add_interior(const dealii::Vector<double> &forces, dealii::Vector<double> &u) const;
 
 private:
+  template <class F>
+  void for_each_extension(const F &f) const;
+
   template <class Solve>
   void solve_inside(const dealii::Vector<double> &forces, const Solve &solve,
                     dealii::Vector<double> &u) const;

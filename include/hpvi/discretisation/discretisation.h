@@ -17,17 +17,21 @@ public:
   const std::shared_ptr<const dealii::Triangulation<dim>> mesh;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   const std::shared_ptr<const LoadRules<dim>> loads;
+  const PastSlip<dim> past; ///< empty before the second load step of a history
   const DisplacementSpace<dim> displacement_space;
   const ContactSpace<dim> contact_space;
   const ContactOperator<dim> contact_operator;
 
   /**
    * @p degrees by active cell index. The scene must outlive the spaces. @p loads: those of the scene, if they are at
-   * hand.
+   * hand. @p past: where slip begins.
    */
   Spaces(const Scene<dim> &scene, std::shared_ptr<const dealii::Triangulation<dim>> mesh,
          const Degrees &degrees, std::shared_ptr<const ShapeTables<dim>> tables,
-         std::shared_ptr<const LoadRules<dim>> loads = nullptr);
+         std::shared_ptr<const LoadRules<dim>> loads = nullptr, PastSlip<dim> past = {});
+
+  /** Why no ErrorBound is guaranteed: Scene::no_error_bound(), or slip that is counted from a past. */
+  std::string no_error_bound(const Scene<dim> &scene) const;
 
   Spaces(const Spaces &) = delete; // members refer to one another
 };

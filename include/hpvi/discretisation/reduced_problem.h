@@ -2,8 +2,8 @@
 #ifndef hpvi_reduced_problem_h
 #define hpvi_reduced_problem_h
 
+#include <hpvi/cones/coulomb_solver.h>
 #include <hpvi/discretisation/discretisation.h>
-#include <hpvi/solver/coulomb_solver.h>
 
 namespace hpvi
 {

@@ -2,9 +2,12 @@
 #ifndef hpvi_equilibrated_stress_h
 #define hpvi_equilibrated_stress_h
 
+#include <hpvi/equilibration/boundary_tractions.h>
 #include <hpvi/equilibration/macro_stresses.h>
+#include <hpvi/equilibration/parallelogram_stresses.h>
 
-#include <functional>
+#include <array>
+#include <memory>
 #include <vector>
 
 namespace hpvi
@@ -20,8 +23,7 @@ namespace hpvi
 class EquilibratedStress
 {
 public:
-  /** Legendre coefficients of a polynomial on a contact face, that of one of its ends. */
-  using Parts = std::function<std::vector<double>(unsigned int face, unsigned int end)>;
+  using Parts = BoundaryTractions::Parts;
 
   /**
    * @p friction: l with `lam* = sum psi l`, psi the hat function that is 1 at the end; @p pressure: t with
@@ -43,11 +45,8 @@ public:
   /** Both components of the traction on each edge: Legendre coefficients, as in VertexPatches. */
   const std::vector<std::array<std::vector<double>, 2>> &tractions() const;
 
-  /** What loads and friction prescribe at s in [0,1] of an edge of the boundary. */
-  dealii::Tensor<1, 2> prescribed_traction(unsigned int edge, double s) const;
-
-  /** Points and weights on [0,1] for integrals with it. */
-  std::vector<std::pair<double, double>> prescribed_points(unsigned int edge) const;
+  /** What loads and contact prescribe on edges of the boundary. */
+  const BoundaryTractions &prescribed() const;
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
@@ -66,83 +65,22 @@ public:
   dealii::Tensor<2, 2> macro_value(unsigned int cell, const dealii::Point<2> &reference) const;
 
 private:
-  /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
-  struct Cell
-  {
-    const StressElement *element;
-    dealii::Tensor<2, 2> B;
-    double h; ///< of the element [length]
-    Modes<3> sigma;
-    Modes<2> force; ///< -F in the frame, from the points of the loads; without modes: none
-    unsigned int place, first_hat; ///< in its batch
-  };
-
-  /** What the contact prescribes, by end of a face; without pressure: none. */
-  struct ContactParts
-  {
-    std::array<std::vector<double>, 2> friction, pressure;
-  };
-
-  /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
-  static constexpr unsigned int n_bilinear = 4;
-
-  /** All data of the cells of one element. */
-  struct Batch
-  {
-    std::vector<unsigned int> cells;
-    unsigned int n_hats = 0;
-    std::vector<double> r;                  ///< for psi = 1, by cell
-    std::vector<double> gradients, defects; ///< G r and N' r by hat function
-  };
-
-  /** S_xy of a cell at one end of a boundary edge. */
-  struct EndShear
-  {
-    double known = 0, scale = 0; ///< what is prescribed of it, and of tractions
-    bool is_free = false;        ///< the tangential traction is unknown
-    bool leans = false;          ///< an unknown component has a weight in it
-  };
-
-  LoadRule<1> load_rule(const StressEdge &edge) const;
-  dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
-  dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
-                                   double bound) const;
-  void set_known_tractions(unsigned int edge);
-  void add_load(unsigned int edge, unsigned int end, double s, double weight,
-                const dealii::Tensor<1, 2> &traction);
-  void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
-  std::vector<unsigned int> marked_corners() const;
-  EndShear end_shear(unsigned int edge, unsigned int end) const;
-  void set_cells();
-  void set_data();
-  void set_stress(unsigned int cell, const Solution<2> &of);
-  void set_own_data(unsigned int cell);
-  void set_force(unsigned int cell);
-  void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
-  void set_data(unsigned int cell, double *r) const;
-  void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
-                   const std::vector<double> &r, std::vector<double> &result) const;
-  void set_tractions();
+  PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
+  void set_tractions(bool has_long_cells);
   void solve_patches();
   void solve_all_cells();
-  PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
-  void add_tractions(unsigned int cell, const TractionEnergy &element, double *target) const;
+  void add_tractions(unsigned int cell, double *target) const;
   std::vector<double> data_of(unsigned int cell) const;
   std::vector<double> macro_tractions(unsigned int cell) const;
   void measure_from(const Solution<2> &other);
   void measure();
 
-  const Solution<2> &solution;
-  std::vector<ContactParts> contact_parts; ///< by contact face
   EquilibrationCache &cache;
-  const Volume volume;
   const VertexPatches vertex_patches;
-  std::unique_ptr<const MacroStresses> macro_stresses; ///< or what follows, up to batches
-  std::vector<Cell> cells;
-  std::map<const StressElement *, Batch> batches;
-  /** psi times what is prescribed, by edge, end and component. */
-  std::vector<std::array<std::array<std::vector<double>, 2>, 2>> known;
-  std::vector<std::array<std::vector<double>, 2>> sums; ///< tractions
+  const BoundaryTractions boundary;
+  std::unique_ptr<const MacroStresses> macro_stresses;
+  std::unique_ptr<ParallelogramStresses> plain_stresses; ///< without macro cells
+  std::vector<std::array<std::vector<double>, 2>> sums;  ///< tractions
 };
 } // namespace hpvi
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_state_h
 #define hpvi_contact_state_h
 
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 #include <string>
 #include <vector>
@@ -22,29 +22,38 @@ enum class ContactMode
 
 std::string mode_name(ContactMode mode); ///< open, slip, stick
 
-/** What u_N, z_N do at one Gauss point of the contact boundary. Tractions are the contact's alone. */
+/** What u_N, z_N do at one point of the contact boundary where multipliers have their values. Tractions are the contact's alone. */
 template <int dim>
 struct ContactPoint
 {
   dealii::Point<dim> x;
-  double face_length;    ///< of the face that it lies on
-  double friction_bound; ///< g [stress], 0 on a face without multipliers
-  double lambda;         ///< z_N/g, 0 where g is, dimensionless
-  bool slips;            ///< |lambda| = 1 or g = 0
-  bool is_open; ///< no pressure acts: of the multiplier here, or of the nodes on both sides
-  double gap;   ///< u_0 - u_n of unilateral contact [length], else -u_n
-  double normal_displacement, tangential_displacement; ///< u_n, u_t [length]
+  double area = 0;           ///< that it stands for, of a quadrature rule [length^(dim-1)]
+  double face_length = 0;    ///< of the face that it lies on; in space the root of its area
+  double friction_bound = 0; ///< g [stress], 0 on a face without multipliers
+  Tangential<dim> lambda{};  ///< z_N/g, 0 where g is, dimensionless
+  bool slips = true;         ///< |lambda| = 1 or g = 0
+  bool is_open = false; ///< no pressure acts: of the multiplier here, or of the nodes on both sides
+  double gap = 0;       ///< u_0 - u_n of unilateral contact [length], else -u_n
+  double normal_displacement = 0;            ///< u_n [length]
+  Tangential<dim> tangential_displacement{}; ///< u_t [length]
   /**
    * T_n [stress], positive where it pulls: -lambda_n where contact has a multiplier for it, else
    * n.(sigma(u_N) n - G).
    */
-  double normal_traction;
-  double tangential_traction; ///< T_t = -z_N [stress]
-  double slip;                ///< u_t, in a load history less that of the load step before [length]
+  double normal_traction = 0;
+  Tangential<dim> tangential_traction{}; ///< T_t = -z_N [stress]
+  Tangential<dim> slip{}; ///< u_t, in a load history less that of the load step before [length]
 
   ContactMode mode() const
   {
     return is_open ? ContactMode::open : slips ? ContactMode::slip : ContactMode::stick;
+  }
+
+  template <class Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &x &area &face_length &friction_bound &lambda &slips &is_open &gap &normal_displacement
+        &tangential_displacement &normal_traction &tangential_traction &slip;
   }
 };
 
@@ -61,17 +70,23 @@ template <int dim>
 struct ContactState
 {
   dealii::types::boundary_id boundary = 0;
-  double length = 0;
-  /** Face by face along the tangent; a face without multipliers has one. */
+  double area = 0;               ///< [length^(dim-1)]: in the plane its length
+  double open_area = 0;          ///< of points in this mode, likewise
+  double slipping_area = 0;      ///< likewise
+  dealii::Point<dim> begin, end; ///< in the plane its ends, along the tangent
+  /**
+   * In the plane along the tangent, in space by x, y, z; a face without multipliers has one in each direction.
+   * On the first process alone, as transitions and zones, which are those of the plane.
+   */
   std::vector<ContactPoint<dim>> points;
   /**
    * Where u_N changes between open, stick and slip or turns its slip around: halfway between neighbouring
    * points whose states differ, along the tangent.
    */
   std::vector<dealii::Point<dim>> transitions;
-  std::vector<ContactZone<dim>> zones; ///< between the ends of the boundary, no two alike in a row
-  double normal_resultant = 0;         ///< int T_n [stress length^(dim-1)]
-  double friction_resultant = 0;       ///< int T_t = -int z_N, likewise
+  std::vector<ContactZone<dim>> zones;  ///< between the ends of the boundary, no two alike in a row
+  double normal_resultant = 0;          ///< int T_n [stress length^(dim-1)]
+  Tangential<dim> friction_resultant{}; ///< int T_t = -int z_N, likewise
   dealii::Tensor<1, dim> friction_force; ///< int T_t t, likewise
   double absolute_friction = 0;          ///< int |T_t|, likewise
   double open_friction = 0;              ///< that part of it where contact is open
@@ -83,11 +98,20 @@ struct ContactState
   /** max(u_n - u_0, 0) [length]; |u_n| where a multiplier holds u_n = 0. */
   double deepest_penetration = 0;
   dealii::Point<dim> deepest_penetration_point;
+
+  template <class Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &boundary &area &open_area &slipping_area &begin &end &normal_resultant
+        &friction_resultant &friction_force &absolute_friction &open_friction &tension
+            &highest_tension &highest_tension_point &highest_pressure &highest_pressure_point
+                &deepest_penetration &deepest_penetration_point;
+  }
 };
 
-/** Of each contact boundary, by id. */
+/** Of each contact boundary, by id, over all processes. Collective. */
 template <int dim>
-std::vector<ContactState<dim>> contact_states(const Solution<dim> &solution);
+std::vector<ContactState<dim>> contact_states(const Field<dim> &field);
 
 /** Those of all boundaries, one after the other. */
 template <int dim>

@@ -3,22 +3,28 @@
 #define hpvi_contact_traces_h
 
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 namespace hpvi
 {
-/** u_N and sigma(u_N) at the points of one contact face. */
+/** u_N and sigma(u_N) at the points of a table on one contact face. */
 template <int dim>
 class ContactTraces
 {
 public:
+  ContactTraces(const FieldFace<dim> &face, const ShapeTable<dim> &table, const Field<dim> &field)
+      : ContactTraces(face.face_no, *face.condition, field.scene.material_of(face.cell), face.map,
+                      table, field.coefficients(face.cell))
+  {
+  }
+
+  /** At Gauss points of a face of the reduced path. */
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
                 const Solution<dim> &solution)
-      : face(face), law(solution.scene.material_of(face.cell)), map(map_of<dim>(face.cell)),
-        table(solution.tables.face(face.degree, face.face_no, n_gauss))
+      : ContactTraces(face.face_no, *face.condition, solution.scene.material_of(face.cell),
+                      face.map, solution.tables.face(face.degree, face.face_no, n_gauss),
+                      solution.coefficients(face.cell->active_cell_index()))
   {
-    const std::vector<double> coefficients = solution.coefficients(face.cell->active_cell_index());
-    values = evaluate(table.values, coefficients);
-    derivatives = evaluate(table.derivatives, coefficients);
   }
 
   dealii::Tensor<1, dim> displacement(const unsigned int q) const
@@ -42,25 +48,35 @@ public:
   dealii::Tensor<1, dim> traction(const unsigned int q) const
   {
     const dealii::Point<dim> x = map.point(table.points[q]);
-    dealii::Tensor<1, dim> result = sigma(q) * map.normal(face.face_no, table.points[q]);
+    dealii::Tensor<1, dim> result = sigma(q) * map.normal(face_no, table.points[q]);
     for (unsigned int c = 0; c < dim; ++c)
-      if (face.condition->traction[c])
-        result[c] -= face.condition->traction[c]->value(x);
+      if (condition.traction[c])
+        result[c] -= condition.traction[c]->value(x);
     return result;
   }
 
   /** Its part along n: positive pulls. */
   double normal_traction(const unsigned int q) const
   {
-    return traction(q) * map.normal(face.face_no, table.points[q]);
+    return traction(q) * map.normal(face_no, table.points[q]);
   }
 
 private:
-  const ContactFace<dim> &face;
+  ContactTraces(const unsigned int face_no, const BoundaryCondition<dim> &condition,
+                const Material &material, const CellMap<dim> &map, const ShapeTable<dim> &table,
+                const std::vector<double> &coefficients)
+      : face_no(face_no), condition(condition), law(material), map(map), table(table),
+        values(evaluate(table.values, coefficients)),
+        derivatives(evaluate(table.derivatives, coefficients))
+  {
+  }
+
+  const unsigned int face_no;
+  const BoundaryCondition<dim> &condition;
   const HookesLaw<dim> law;
   const CellMap<dim> map;
   const ShapeTable<dim> &table;
-  std::vector<double> values, derivatives; ///< component by component
+  const std::vector<double> values, derivatives; ///< component by component
 };
 
 /** -T_n at one point of a contact face. */
@@ -73,28 +89,26 @@ struct PressurePoint
 };
 
 /**
- * At one Gauss point more than u_N has nodes, at which T_n of an affine cell is exact, and then where
- * the multiplier has its unknowns.
+ * At one Gauss point more in a direction than u_N has nodes, at which T_n of an affine cell is exact, and
+ * then where the multiplier has its unknowns.
  */
 template <int dim>
-std::vector<PressurePoint<dim>> pressure_points(const ContactFace<dim> &face,
-                                                const Solution<dim> &solution)
+std::vector<PressurePoint<dim>> pressure_points(const FieldFace<dim> &face, const Field<dim> &field)
 {
-  const dealii::QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
-  const ContactTraces<dim> traces(face, gauss.size(), solution);
+  const ShapeTable<dim> &table = field.tables.face(face.degree(), face.face_no, face.degree() + 1);
+  const ContactTraces<dim> traces(face, table, field);
   std::vector<PressurePoint<dim>> result;
-  for (unsigned int q = 0; q < gauss.size(); ++q)
+  for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    const double s = gauss.point(q)[0];
-    const ContactFrame<dim> frame = face.frame(s);
+    const FaceFrame<dim> frame = face.frame(table.points[q]);
     result.push_back({frame.x,
                       face.condition->has_pressure()
-                          ? solution.contact_space.pressure(face, solution.z, s)
+                          ? field.traction(face, table.points[q]).pressure
                           : -traces.normal_traction(q),
-                      gauss.weight(q) * frame.measure});
+                      table.weights[q] * frame.measure});
   }
-  for (unsigned int k = 0; k < face.normal_points.size(); ++k)
-    result.push_back({face.point(face.normal_points[k]), solution.z[face.pressures[k]], 0.});
+  for (const PressureValue<dim> &unknown : field.pressures(face))
+    result.push_back({unknown.x, unknown.pressure, 0.});
   return result;
 }
 
@@ -103,27 +117,27 @@ template <int dim>
 class EdgeDisplacement
 {
 public:
-  EdgeDisplacement(const ContactFace<dim> &face, const Solution<dim> &solution,
-                   dealii::Tensor<1, dim> ContactFrame<dim>::*const direction)
-      : basis(solution.tables.gauss_lagrange(face.degree + 1)), nodal(face.degree + 1)
+  /** Along the tangent, or along the normal. */
+  EdgeDisplacement(const FieldFace<dim> &face, const Field<dim> &field, const bool is_tangential)
+      : table(field.tables.face(face.degree(), face.face_no, face.degree() + 1)),
+        basis(field.tables.gauss_lagrange(face.degree() + 1)), nodal(face.degree() + 1)
   {
-    const ShapeTables<dim> &tables = solution.tables;
-    const std::vector<double> values =
-        evaluate(tables.face(face.degree, face.face_no, face.degree + 1).values,
-                 solution.coefficients(face.cell->active_cell_index()));
+    static_assert(dim == 2, "one coordinate along a face");
+    const std::vector<double> values = evaluate(table.values, field.coefficients(face.cell));
     for (unsigned int k = 0; k < nodal.size(); ++k)
     {
-      const ContactFrame<dim> frame = face.frame(tables.gauss(nodal.size()).point(k)[0]);
+      const FaceFrame<dim> frame = face.frame(table.points[k]);
+      const dealii::Tensor<1, dim> &direction = is_tangential ? frame.tangents[0] : frame.normal;
       for (unsigned int c = 0; c < dim; ++c)
-        nodal[k] += (frame.*direction)[c] * values[c * nodal.size() + k];
+        nodal[k] += direction[c] * values[c * nodal.size() + k];
     }
   }
 
   /** Counted from where the load step began. */
-  void subtract_past(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+  void subtract_past(const FieldFace<dim> &face, const Field<dim> &field)
   {
     for (unsigned int k = 0; k < nodal.size(); ++k)
-      nodal[k] -= face.past_slip(face.point(tables.gauss(nodal.size()).point(k)[0]));
+      nodal[k] -= field.past_slip(face, face.map.point(table.points[k]));
   }
 
   /** At reference coordinate s in [0,1] of the face. */
@@ -136,6 +150,7 @@ public:
   }
 
 private:
+  const ShapeTable<dim> &table;
   const std::vector<dealii::Polynomials::Polynomial<double>> &basis;
   std::vector<double> nodal;
 };

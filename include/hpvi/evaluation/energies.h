@@ -2,8 +2,8 @@
 #ifndef hpvi_energies_h
 #define hpvi_energies_h
 
-#include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 namespace hpvi
 {
@@ -64,9 +64,12 @@ Work work(const Solution<dim> &last, const Solution<dim> &next,
 template <int dim>
 Work work_from_rest(const Solution<dim> &next, const dealii::Vector<double> &loads);
 
-/** The integral of g |u_Nt| cuts each edge where g jumps or u_Nt changes sign. */
+/**
+ * Of a field with @p a = a(u_N,u_N) and @p work = L(u_N). The integral of g |u_Nt| cuts each edge where g jumps
+ * or u_Nt changes sign, and each face in space until cutting on changes it by less than 1e-8 of all. Collective.
+ */
 template <int dim>
-Energies energies(const Solution<dim> &solution, const ElasticSystem<dim> &system, double a);
+Energies energies(const Field<dim> &field, double a, double work);
 } // namespace hpvi
 
 #endif

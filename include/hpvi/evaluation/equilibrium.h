@@ -5,7 +5,8 @@
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/solution.h>
 
-#include <functional>
+#include <mpi.h>
+
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -41,38 +42,36 @@ struct Equilibrium
   double moment_imbalance = 0; ///< the same of moments
 };
 
-/** Adds up nodal forces by boundary, and their absolute values. */
+/** Nodal forces on the nodes of this process, whichever backend has them. */
 template <int dim>
-class Resultants
+struct NodalForces
 {
-public:
-  /** Moments are those about @p centre. */
-  Resultants(const Scene<dim> &scene, const dealii::Point<dim> &centre);
+  struct Load
+  {
+    unsigned int component;
+    double value;
+    dealii::Point<dim> x;
+  };
 
-  /** One component of a load at one node. */
-  void add_load(unsigned int component, double value, const dealii::Point<dim> &x);
+  struct Reaction
+  {
+    dealii::types::boundary_id boundary; ///< whose support or contact exerts it
+    dealii::Tensor<1, dim> force;
+    dealii::Point<dim> x;
+  };
 
-  void add_reaction(dealii::types::boundary_id boundary, const dealii::Tensor<1, dim> &force,
-                    const dealii::Point<dim> &x);
-
-  /** Each of its numbers gives way to @p total of it: to sums over processes. */
-  void replace(const std::function<double(double)> &total);
-
-  /** Without the boundaries that carry nothing. */
-  Equilibrium<dim> finish();
-
-private:
-  void add(BoundaryForce<dim> &sum, const dealii::Tensor<1, dim> &force,
-           const dealii::Point<dim> &x);
-
-  const Scene<dim> &scene;
-  Equilibrium<dim> result;
-  double absolute_force = 0, absolute_moment = 0;
+  std::vector<Load> loads;
+  std::vector<Reaction> reactions;
 };
 
-/** The forces of @p solution, whose loads and friction @p system holds. */
+/** Adds up @p forces by boundary, over all processes. Collective. */
 template <int dim>
-Equilibrium<dim> equilibrium(const Solution<dim> &solution, const ElasticSystem<dim> &system);
+Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &forces,
+                             MPI_Comm communicator = MPI_COMM_SELF);
+
+/** Of @p solution, whose loads and friction @p system holds. */
+template <int dim>
+NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem<dim> &system);
 
 /** What nodal reactions do on a displacement [stress length^dim]. */
 struct ReactionWork

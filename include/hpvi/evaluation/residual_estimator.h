@@ -2,13 +2,16 @@
 #ifndef hpvi_residual_estimator_h
 #define hpvi_residual_estimator_h
 
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 #include <vector>
 
 namespace hpvi
 {
-/** Squared contributions to eta_K^2, by active cell index; unit stress^2 length^dim. */
+/**
+ * Squared contributions to eta_K^2, by active cell index, zero on cells of other processes; unit stress^2
+ * length^dim.
+ */
 struct ErrorEstimate
 {
   std::vector<double> volume;  ///< h_K^2/p_K^2 |r_K|^2
@@ -35,19 +38,29 @@ struct ErrorEstimate
   double total() const;
 };
 
+/** Roots of the sums of its parts over the cells of all processes; 0 for those that are empty. */
+struct EstimateNorms
+{
+  double volume = 0, jumps = 0, neumann = 0, contact = 0;
+  double normal = 0, penetration = 0, tension = 0, excess = 0;
+  double total = 0; ///< eta
+};
+
+EstimateNorms norms(const ErrorEstimate &estimate, MPI_Comm communicator); ///< collective
+
 /**
  * The residual error indicator (4.44)-(4.51) of u_N, lambda_N. The local degree and size of each
- * cell weigh its own residuals; an edge with a hanging node counts as its two halves.
+ * cell weigh its own residuals; a face with hanging nodes counts as its halves or quarters. Collective.
  */
 template <int dim>
-ErrorEstimate estimate_error(const Solution<dim> &solution);
+ErrorEstimate estimate_error(const Field<dim> &field);
 
 /**
  * eta of round-off alone: of a displacement that is random and as large as the last bit of u_N on
- * each cell, without loads. No mesh brings the indicator below it.
+ * each cell, without loads. No mesh brings the indicator below it. Collective.
  */
 template <int dim>
-double round_off_of_estimate(const Solution<dim> &solution);
+double round_off_of_estimate(const Field<dim> &field);
 } // namespace hpvi
 
 #endif

@@ -21,12 +21,12 @@ struct TrueErrors
   double energy_norm = unknown;      ///< |u|_a, to relate it to
   double reference_energy = unknown; ///< J(u) of the exact or reference solution
   double l2 = unknown;               ///< |u - u_N|_{L2}, length^{1+dim/2}
-  double multiplier_l2 = unknown;    ///< |lambda - z_N/g|_{L2(Gamma_C)}, length^{(dim-1)/2}
+  double multiplier_l2 = unknown;    ///< |lambda - z_N/g|_{L2(Gamma_C)}, length^{1/2}, in the plane
   double pressure_l2 = unknown;      ///< |p - lambda_Nn|_{L2(Gamma_C)}, stress length^{(dim-1)/2}
   double transition = unknown;       ///< largest distance from a transition of u to u_N's, length
   /** Against an exact solution alone: squares of energy and of multiplier_l2. */
-  std::vector<double> of_cells; ///< by active cell index
-  std::vector<double> of_faces; ///< by contact face
+  std::vector<double> of_cells; ///< by active cell index, zero on cells of other processes
+  std::vector<double> of_faces; ///< by face of the field
 };
 
 /**
@@ -42,14 +42,13 @@ public:
   explicit TrueError(const Scene<dim> &scene);
   ~TrueError();
 
-  /** Of @p solution, on whose contact boundaries @p contact happens. */
-  TrueErrors measure(const Solution<dim> &solution,
-                     const std::vector<ContactState<dim>> &contact) const;
+  /** Of @p field, on whose contact boundaries @p contact happens. Collective. */
+  TrueErrors measure(const Field<dim> &field, const std::vector<ContactState<dim>> &contact) const;
 
 private:
-  void compare_with_exact(const Solution<dim> &solution,
-                          const std::vector<ContactState<dim>> &contact, TrueErrors &errors) const;
-  void compare_with_reference(const Solution<dim> &solution, TrueErrors &errors) const;
+  void compare_with_exact(const Field<dim> &field, const std::vector<ContactState<dim>> &contact,
+                          TrueErrors &errors) const;
+  void compare_with_reference(const Field<dim> &field, TrueErrors &errors) const;
 
   const Scene<dim> &scene;
   std::unique_ptr<const StoredSolution<dim>> reference;

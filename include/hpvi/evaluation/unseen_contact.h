@@ -3,6 +3,7 @@
 #define hpvi_unseen_contact_h
 
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 #include <vector>
 
@@ -25,9 +26,9 @@ struct UnseenContact
 template <int dim>
 std::vector<UnseenContact<dim>> unseen_contacts(const Solution<dim> &solution);
 
-/** How far u_N moves the nodes of the body, its nearest rigid motion aside [length]. */
+/** How far u_N moves the nodes of the body, its nearest rigid motion aside [length]. Collective. */
 template <int dim>
-double deformation(const Solution<dim> &solution);
+double deformation(const Field<dim> &field);
 
 /** A place where the contact conditions of an edge stand for another gap than the scene's. */
 template <int dim>

@@ -90,6 +90,7 @@ private:
   /** Null for the opening line of a known subsection. Throws where the name is unknown. */
   const Entry *known_entry(const Assignment &assignment) const;
   /** What to write instead: a hint, an entry of this name, a name that differs in few letters, or all that there are. */
+  std::string names_of_kind(const std::string &section) const;
   std::string instead_of_section(const std::string &section) const;
   std::string instead_of_entry(const std::string &section, const std::string &name) const;
   std::string hint(const std::string &word) const; ///< empty: there is none

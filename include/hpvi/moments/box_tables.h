@@ -23,7 +23,6 @@ struct BoxTable
   std::vector<double> weights;       ///< they sum to 1
   dealii::FullMatrix<double> values; ///< by point and shape function
   std::array<dealii::FullMatrix<double>, dim> gradients;
-  std::array<std::array<dealii::FullMatrix<double>, dim>, dim> second; ///< empty but inside cells
 };
 
 /** The coefficients of a field on a cell, by shape function and component. */
@@ -47,11 +46,12 @@ public:
   explicit BoxTables(unsigned int degree);
 
   const unsigned int degree;
-  const dealii::FESystem<dim> fe;      ///< of displacements
-  const unsigned int n_shapes;         ///< of the scalar element
-  const BoxTable<dim> cell;            ///< p+1 points in each direction
-  std::vector<BoxTable<dim>> faces;    ///< by face, likewise
-  std::vector<BoxTable<dim>> quarters; ///< by face and part(): one of the 2^(dim-1) parts of a face
+  const dealii::FESystem<dim> fe; ///< of displacements
+  const unsigned int n_shapes;    ///< of the scalar element
+  /** Of #fe by shape function and component; deal.II searches its list for each. */
+  const std::vector<std::array<unsigned int, dim>> numbers;
+  const BoxTable<dim> cell;                          ///< p+1 points in each direction
+  std::vector<BoxTable<dim>> faces;                  ///< by face, likewise
   std::vector<BoxTable<dim>> moment_points;          ///< by face: the Gauss points x_k
   std::vector<std::vector<unsigned int>> inner, rim; ///< shape functions of a face by face
   dealii::FullMatrix<double> M, M_inverse, W;        ///< the same for all faces
@@ -61,12 +61,6 @@ public:
   {
     return M.m();
   }
-
-  /** The index in #quarters of the part of @p face that lies on the side @p above of each axis. */
-  static unsigned int part(unsigned int face, const std::array<bool, dim> &above);
-
-  /** Another table on a face, with @p n_gauss points in each direction. */
-  BoxTable<dim> face_table(unsigned int face, unsigned int n_gauss) const;
 
   /** psi_k at a point of the unit face whose coordinates along the axes of the body are @p x. */
   double psi(unsigned int k, unsigned int face, const dealii::Point<dim> &x) const;
@@ -91,11 +85,6 @@ private:
 template <int dim>
 dealii::Tensor<2, dim> gradient(const BoxTable<dim> &table, unsigned int q,
                                 const CellField<dim> &field, const dealii::Tensor<1, dim> &size);
-
-/** Its value. */
-template <int dim>
-dealii::Tensor<1, dim> value(const BoxTable<dim> &table, unsigned int q,
-                             const CellField<dim> &field);
 
 /** The axes along a face, in rising order. */
 template <int dim>

@@ -3,23 +3,18 @@
 #define hpvi_contact_table_h
 
 #include <hpvi/evaluation/contact_state.h>
-#include <hpvi/primal/contact_points.h>
 
 #include <string>
 #include <vector>
 
 namespace hpvi
 {
-/** `contact-NN.csv`: the points of each contact boundary, along its tangent. */
-template <int dim>
-std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact);
-
 /**
- * The same of the primal path; in space the tangential columns are vectors along the axes of the body,
- * with the suffixes _x, _y, _z.
+ * `contact-NN.csv`: the points of each contact boundary, along its tangent; in space the tangential columns
+ * are vectors along the axes of the body, with the suffixes _x, _y, _z.
  */
 template <int dim>
-std::string contact_table(const Scene<dim> &scene, const std::vector<MomentPoint<dim>> &points);
+std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact);
 } // namespace hpvi
 
 #endif

@@ -7,6 +7,7 @@
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -42,6 +43,7 @@ public:
  * | `loading.csv` | a row per load step, where the scene has a history |
  * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
+ * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
  * | `reference.dat` | the last displacement, to measure other runs against |
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
@@ -50,6 +52,9 @@ public:
  * those of the scene. What the scene switches off is neither built nor written. Tractions of the
  * contact tables are those of the contact alone, without a load that acts on the same edge:
  * `n.(sigma n) - n.G` and `-g lambda`.
+ *
+ * On several processes all functions but give_up() are collective: each writes its own piece of `solution-NN.pvtu`, the first
+ * one all else.
  */
 template <int dim>
 class Output
@@ -60,7 +65,7 @@ public:
    * remove the files that an earlier run left there. Throws InputError naming the directory (see
    * ResultDirectory).
    */
-  Output(const Scene<dim> &scene, const std::string &path);
+  Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator = MPI_COMM_SELF);
 
   /** Write the files of one finished step and bring the tables up to date. Throws OutputFailure. */
   void write_step(const StepReport<dim> &step);
@@ -77,24 +82,34 @@ public:
   /** As in "steps 1 to 3 are safe": what a run leaves that ends here. */
   std::string safe_steps() const;
 
-  /** ResultDirectory::other_scene(): whose results are replaced. */
+  /** ResultDirectory::other_scene(), whose results are replaced; of the first process. */
   std::string replaced_scene() const;
 
 private:
+  void open(const std::string &path);
   void announce(const std::vector<std::string> &names);
   void write(const std::string &name, const std::string &content) const;
   void update(const std::string &name, const GrowingText &content);
   void check(const std::string &name, const std::error_code &error) const;
   void write_summary() const;
-  std::vector<std::string> write_pictures(const StepReport<dim> &step);
+  void write_pieces(const StepReport<dim> &step);
+  void write_pictures(const StepReport<dim> &step);
+  void add_to_collection(const StepReport<dim> &step);
+  void write_reference(const StepReport<dim> &step);
+  void write_tables(const StepReport<dim> &step);
 
   const Scene<dim> &scene;
-  ResultDirectory directory;
-  bool is_usable = false; ///< proved by writing `scene.prm`
+  const std::string path;
+  const MPI_Comm communicator;
+  const bool is_first;
+  const unsigned int n_processes;
+  std::unique_ptr<ResultDirectory> directory; ///< of the first process
+  bool is_usable = false;                     ///< proved by writing `scene.prm`
   Tables<dim> tables;
   Summary summary;
   GrowingText pvd;
-  std::vector<std::string> superseded; ///< by the files of the next step
+  std::vector<std::string> pictures;   ///< the files with the number of the step
+  std::vector<std::string> superseded; ///< by those of the next step
 };
 } // namespace hpvi
 

@@ -30,8 +30,8 @@ private:
 
   Record row;
   GrowingText rows, degree_rows, load_steps;
-  std::vector<std::vector<unsigned int>> elements; ///< by step and degree
-  std::size_t n_columns = 0;                       ///< the highest degree so far and 1
+  std::vector<std::vector<dealii::types::global_dof_index>> elements; ///< by step and degree
+  std::size_t n_columns = 0; ///< the highest degree so far and 1
 };
 
 /** Name and seconds of every stage. */

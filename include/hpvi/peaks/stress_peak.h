@@ -2,7 +2,7 @@
 #ifndef hpvi_stress_peak_h
 #define hpvi_stress_peak_h
 
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/field.h>
 
 #include <vector>
 
@@ -17,6 +17,12 @@ struct StressSample
   dealii::Point<dim> where;
   double
       length; ///< of the contact edge, or the longest one of the cell, on which it is the largest
+
+  template <class Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &boundary &value &where &length;
+  }
 };
 
 /** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well. */
@@ -25,10 +31,11 @@ double von_mises(const Material &material, const dealii::SymmetricTensor<2, dim>
 
 /**
  * The largest pressure on each contact edge, where it presses, and von Mises' stress in each cell, at about
- * half as many Gauss points as u_N has nodes in a direction.
+ * half as many Gauss points as u_N has nodes in a direction. On each process its own ones and the
+ * stress_peaks() of the others. Collective.
  */
 template <int dim>
-std::vector<StressSample<dim>> stress_samples(const Solution<dim> &solution);
+std::vector<StressSample<dim>> stress_samples(const Field<dim> &field);
 
 /** Within how much of a peak nothing is another one: 1 % of the body, or two of its edges. */
 template <int dim>

@@ -29,11 +29,11 @@ template <int dim>
 std::vector<StressSample<dim>>
 growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps);
 
-/** What there is to say of @p peaks, of which stress_samples() of @p solution are @p samples. */
+/** What there is to say of @p peaks, of which stress_samples() of @p field are @p samples. Collective. */
 template <int dim>
 std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
                                                      const std::vector<StressSample<dim>> &samples,
-                                                     const Solution<dim> &solution);
+                                                     const Field<dim> &field);
 } // namespace hpvi
 
 #endif

@@ -19,7 +19,7 @@ struct NewtonReport
   unsigned int line_searches = 0;   ///< steps that had to be shortened
   unsigned int augmented_steps = 0; ///< of the augmented Lagrangian
   bool is_cut_off = false;          ///< Newton's method was, and that took its place
-  unsigned int n_slipping = 0;      ///< discs, of all processes
+  unsigned int n_slipping = 0;      ///< discs where contact is closed, of all processes
   unsigned int n_pressing = 0;      ///< moments on which a pressure acts, likewise
   double residual = 0;              ///< relative to the load vector
   double error = 0;                 ///< estimated, in the energy norm

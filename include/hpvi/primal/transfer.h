@@ -8,6 +8,22 @@
 
 namespace hpvi
 {
+/** u_N and the multiplier on one cell: nodal values, then lambda face by face, first its friction, then its pressure. */
+struct CellValues
+{
+  std::vector<double> u, lambda;
+};
+
+template <int dim>
+CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSpace<dim> &space,
+                     const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
+
+/** Takes them for @p cell, or for its children: u at nodes, lambda at discs, which must be zero there. */
+template <int dim>
+void take_values(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                 const CellValues &values, const MomentSpace<dim> &space, DistributedVector &u,
+                 std::vector<ContactVector<dim>> &lambda);
+
 /**
  * Carries a displacement and its multiplier to the mesh that refinement makes, wherever cells go: made before the
  * mesh is refined, asked once afterwards. Children take the polynomials of their parent.
@@ -28,11 +44,6 @@ public:
 
 private:
   using Cell = typename dealii::Triangulation<dim>::cell_iterator;
-
-  static void take_multiplier(const MomentSpace<dim> &space, const Cell &cell, const Cell &parent,
-                              const std::vector<bool> &parent_components,
-                              const std::vector<double> &values,
-                              std::vector<ContactVector<dim>> &lambda);
 
   Mesh &mesh;
   unsigned int handle;

@@ -2,8 +2,8 @@
 #ifndef hpvi_terminal_h
 #define hpvi_terminal_h
 
-#include <hpvi/adaptivity/progress.h>
-#include <hpvi/adaptivity/stage_times.h>
+#include <hpvi/base/progress.h>
+#include <hpvi/base/stage_times.h>
 #include <hpvi/scene/scene.h>
 
 #include <chrono>

@@ -13,6 +13,9 @@
 
 namespace hpvi
 {
+/** By boundary id, of a box and a quadrilateral: the one list of them. */
+std::vector<std::string> boundary_names(int dim);
+
 enum class Shape
 {
   box,
@@ -41,6 +44,11 @@ struct Geometry
   /** Are all cells images of a square under an affine map? */
   bool has_affine_cells() const;
 
+  double diameter() const;           ///< the largest distance of two points of the body [length]
+  double radius() const;             ///< the largest distance of one from the centre [length]
+  dealii::Point<dim> centre() const; ///< the mean of the corners
+  bool contains(const dealii::Point<dim> &x) const; ///< up to round-off
+
   Shape shape = Shape::box;
   /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
   Corners<dim> corners;
@@ -58,10 +66,21 @@ struct Side
 
   std::array<unsigned int, n_corners> corners; ///< indices into Geometry::corners
   std::array<dealii::Point<dim>, n_corners> ends;
-  dealii::Tensor<1, dim> normal; ///< outer unit normal
+  unsigned int axis; ///< direction of Geometry::subdivisions in which no cells stand along it
+
+  dealii::Tensor<1, dim> normal(const dealii::Point<dim> &x) const; ///< outer unit normal there
+
+  /** t = (-n_y, n_x) there, in the plane. */
+  dealii::Tensor<1, dim> tangent(const dealii::Point<dim> &x) const;
 
   /** Equidistant points all over it, its corners exactly. */
   std::vector<dealii::Point<dim>> sample() const;
+
+private:
+  dealii::Tensor<1, dim> outward;
+
+  template <int other_dim>
+  friend std::vector<Side<other_dim>> sides_of(const Geometry<other_dim> &geometry);
 };
 
 /** All sides by boundary id. */
@@ -76,12 +95,14 @@ std::vector<dealii::Point<dim>> common_points(const Side<dim> &one, const Side<d
 template <int dim>
 std::vector<dealii::Point<dim>> sample_body(const Geometry<dim> &geometry);
 
-/** The angles of the body at its corners, in degrees and in the order of the corners. */
-std::array<double, 4> corner_angles(const Geometry<2> &geometry);
+/** A corner of the body with its angle. */
+struct Corner
+{
+  dealii::Point<2> at;
+  double degrees;
+};
 
-/** The mean of the corners. */
-template <int dim>
-dealii::Point<dim> centre_of(const Geometry<dim> &geometry);
+std::array<Corner, 4> corners_of(const Geometry<2> &geometry);
 
 /** A displacement that strains nothing: `translation + rotation e_z x (x - centre)`. */
 template <int dim>

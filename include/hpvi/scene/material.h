@@ -5,8 +5,16 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace hpvi
 {
+struct Entry;
+class Parameters;
+
 /** Which plane problem Section 2.1.3 of the thesis reduces Hooke's law to. */
 enum class PlaneModel
 {
@@ -15,8 +23,8 @@ enum class PlaneModel
 };
 
 /**
- * Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). HookesLaw
- * has the formulas.
+ * Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). Stages ask it and
+ * HookesLaw, which has the formulas; Lame's parameters are for closed forms and for what is below.
  */
 struct Material
 {
@@ -40,11 +48,51 @@ struct Material
     return dim == 2 && plane == PlaneModel::stress ? 2 * lame * mu() / (lame + 2 * mu()) : lame;
   }
 
+  /** Stress over shear [stress]: weighs residuals of parts with each other, makes tractions of displacements. */
+  double weight() const
+  {
+    return mu();
+  }
+
+  /** Stress over strain of a bar [stress]. */
+  double modulus() const
+  {
+    return young;
+  }
+
+  /** How much stiffer against changes of volume than against shear: low degrees lock where it is large. */
+  double locking_ratio(const int dim) const
+  {
+    return lambda(dim) / mu();
+  }
+
+  /** Why it locks, for messages: "Poisson's ratio 0.4999 is near 1/2 (lambda/mu = 5e+03)". */
+  std::string locking_in_words(int dim) const;
+
+  /** For messages: "Young's modulus 210000". */
+  std::string stiffness_in_words() const;
+
+  /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress]. */
+  double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma) const
+  {
+    return plane == PlaneModel::strain ? poisson * dealii::trace(sigma) : 0.;
+  }
+
   /** Is lambda above 20 mu, as from nu = 0.476 on? Below, mixed methods are no better than others. */
   bool is_nearly_incompressible(const int dim) const
   {
     return lambda(dim) > 20. * mu();
   }
+
+  /** By their names in expressions. */
+  std::map<std::string, double> constants() const;
+
+  /** What no material has: the entry that says it, why not, and its value. */
+  struct Flaw
+  {
+    std::string entry, problem, value;
+  };
+  std::optional<Flaw> flaw() const;
 
   /** The largest c [stress] with `c eps : eps <= sigma(eps) : eps`. */
   double coercivity(int dim) const;
@@ -55,6 +103,10 @@ struct Material
    */
   double kolosov() const;
 };
+
+/** The section `Material` of a body in so many dimensions, and what it says. */
+std::vector<Entry> material_entries(int dim);
+Material read_material(const Parameters &parameters, int dim);
 
 /**
  * Hooke's law of one material, with Lame's parameters at hand for loops over points and unknowns. The
@@ -108,6 +160,26 @@ public:
     const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
     const double divergence = dealii::trace(strain);
     return lambda * divergence * divergence + 2 * mu * dealii::scalar_product(strain, strain);
+  }
+
+  /** `s : C^-1 t` [stress] of two stresses, twice the density of complementary energy where they are one. */
+  template <class Stress>
+  double complementary_product(const Stress &s, const Stress &t) const
+  {
+    const double nu = lambda / (dim * lambda + 2 * mu);
+    return (dealii::scalar_product(s, t) - nu * dealii::trace(s) * dealii::trace(t)) / (2 * mu);
+  }
+
+  /** The factor of `(tr eps)^2` in energy_product() [stress], what locks where it is large. */
+  double volume_modulus() const
+  {
+    return lambda;
+  }
+
+  /** What of a stress with this @p trace resists the change of volume, `lambda tr(eps)` [stress]. */
+  double volumetric_stress(const double trace) const
+  {
+    return lambda / (dim * lambda + 2 * mu) * trace;
   }
 
   /**

@@ -5,11 +5,11 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/scene/data_scale.h>
 #include <hpvi/scene/exact_solution.h>
+#include <hpvi/scene/friction_law.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/function.h>
 
 #include <array>
 #include <functional>
@@ -21,18 +21,6 @@
 namespace hpvi
 {
 class Parameters;
-
-/** A function of x, y and in space z; null where there is none. */
-template <int dim>
-using Expression = std::shared_ptr<const dealii::Function<dim>>;
-
-/** The same @p value everywhere, for scenes built by code. */
-template <int dim>
-Expression<dim> expression(double value);
-
-/** Any function of a point. */
-template <int dim>
-Expression<dim> expression(const std::function<double(const dealii::Point<dim> &)> &function);
 
 /** What a plane below a boundary asks of it. */
 enum class Contact
@@ -49,20 +37,6 @@ enum class NormalContact
   multiplier, ///< in the moments of a multiplier lambda_n >= 0 of degree p + offset
   nodes,      ///< at the Gauss-Lobatto points of each edge, the thesis's set (3.67)
   automatic   ///< nodes where they are offered, see Scene::normal_contact()
-};
-
-/** What resists sliding on a contact boundary. */
-template <int dim>
-struct FrictionLaw
-{
-  Expression<dim> bound;       ///< Tresca's g(x) >= 0 [stress]; null: not Tresca's law
-  Expression<dim> coefficient; ///< Coulomb's mu_f(x): |T_t| <= mu_f max(0, -T_n); null: not his law
-  Expression<dim> past; ///< u_t(x) from which slip is counted [length], in a load history; null: 0
-
-  explicit operator bool() const
-  {
-    return bound || coefficient;
-  }
 };
 
 /** Everything that a scene says about one named part of the boundary. */
@@ -83,10 +57,10 @@ struct BoundaryCondition
   bool has_traction() const;     ///< is any component given?
   bool has_contact() const;
   bool is_unilateral() const;
-  bool
-  holds_normal() const; ///< u_n = 0 as a constraint of the space: bilateral without Coulomb's law
-  bool
-  has_pressure() const; ///< a multiplier of its own for T_n: unilateral, or bilateral with that law
+  bool holds_normal()
+      const; ///< u_n = 0 as a constraint of the space: bilateral, friction knows no pressure
+  bool has_pressure()
+      const; ///< a multiplier of its own for T_n: unilateral, or friction knows the pressure
   double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
 };
 
@@ -302,7 +276,7 @@ struct Scene
   /** `c |eps(v)|^2 <= a(v,v)` for every v: the least coercivity of all materials [stress]. */
   double coercivity() const;
 
-  double largest_mu() const; ///< of the stiffest material [stress], for bounds of round-off
+  double largest_weight() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
 
@@ -310,9 +284,9 @@ struct Scene
   bool is_nearly_incompressible() const;
   bool has_load_history() const;
   bool has_contact() const;
-  bool has_known_solution() const; ///< exact or reference: can the true error be measured?
-  bool has_friction() const;       ///< does any contact boundary name a bound or a coefficient?
-  bool has_coulomb_friction() const;
+  bool has_known_solution() const;   ///< exact or reference: can the true error be measured?
+  bool has_friction() const;         ///< has any contact boundary a law?
+  bool has_coulomb_friction() const; ///< one that knows the pressure?
   bool has_unilateral_contact() const;
   /** What SolverSettings::normal_contact asks for; automatic: nodes, but multiplier for Coulomb's law and on the primal path. */
   NormalContact normal_contact() const;

@@ -2,11 +2,7 @@
 #ifndef hpvi_macro_stress_element_h
 #define hpvi_macro_stress_element_h
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
-#include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/scene/material.h>
-#include <hpvi/stresses/triangle_stress.h>
+#include <hpvi/stresses/macro_triangle.h>
 
 #include <array>
 #include <vector>
@@ -41,13 +37,7 @@ public:
   const dealii::Point<2> crossing; ///< of the diagonals, from vertex 0, in units of h
   const unsigned int n_edges;      ///< coefficients of all faces
 
-  /** Of triangle @p f: the Jacobian of its map is `scale B`, |det B| = 1. */
-  struct Piece
-  {
-    dealii::Tensor<2, 2> B;
-    double scale;
-  };
-  const Piece &piece(unsigned int f) const;
+  const MacroTriangle &piece(unsigned int f) const;
 
   /** Stresses q and divergences `h div s`, in the frames of the triangles: `S = B^-1 s B^-T`, `Div S`. */
   struct Data
@@ -82,15 +72,6 @@ public:
   dealii::Tensor<2, 2> value(const Stress &stress, const dealii::Point<2> &x) const;
 
 private:
-  /** What one triangle adds, with its bubbles eliminated. */
-  struct Triangle : Piece
-  {
-    std::array<double, 6> energy;       ///< of components: C^-1 h^2, by pairs as in TriangleStress
-    std::array<unsigned int, 3> places; ///< of its edges among all
-    std::array<dealii::Tensor<2, 2>, 3> to_edge; ///< from tractions there to S nu
-    std::vector<double> L, X;                    ///< of the bubbles K = L L'; L^-1 Z'M R_e
-  };
-
   /** Of columns of data: stresses without tractions minus q, and what they add to bubbles and edges. */
   struct Reduced
   {
@@ -98,21 +79,16 @@ private:
     std::vector<double> gradient, defect; ///< of all edges; of the conditions of the triangles
   };
 
-  void set_pieces(const Vertices &vertices, const Material &material);
-  std::vector<double> eliminate_bubbles(Triangle &piece) const;
-  void add_energy(Triangle &piece, std::vector<double> &H) const;
+  void add_energy(MacroTriangle &piece, std::vector<double> &H) const;
   void add_conditions(unsigned int f, std::vector<double> &C) const;
   void set_conditions();
   void normalise_conditions();
   void eliminate(const std::vector<double> &H, const std::vector<double> &C);
-  void apply_energy(const Triangle &piece, unsigned int columns, std::vector<double> &S) const;
-  std::vector<double> edge_tractions(const Triangle &piece, const std::vector<double> &t) const;
   Reduced reduce(const Data &data) const;
-  void add_gradient(const Triangle &piece, const double *from, double *gradient) const;
   std::vector<double> all_tractions(const Reduced &reduced, const std::vector<double> &t) const;
 
-  std::array<Triangle, 4> triangles;
-  std::vector<double> N, N_divergence; ///< n_edges x 3; of each triangle n_divergence x 3
+  std::vector<MacroTriangle> triangles; ///< four
+  std::vector<double> N, N_divergence;  ///< n_edges x 3; of each triangle n_divergence x 3
   std::vector<double> G, L, W, Y, S, Q;
 };
 } // namespace hpvi

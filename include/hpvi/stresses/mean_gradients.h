@@ -2,9 +2,7 @@
 #ifndef hpvi_mean_gradients_h
 #define hpvi_mean_gradients_h
 
-#include <hpvi/body/displacement_space.h>
-
-#include <deal.II/lac/vector.h>
+#include <hpvi/evaluation/field.h>
 
 #include <vector>
 
@@ -20,11 +18,9 @@ struct MeanGradient
   double rotation() const;       ///< |curl u| / 2 [radians]
 };
 
-/** Of every coarse cell, by `int_K grad u = int_dK u n'` over the finest cells that it is made of. */
+/** Of every coarse cell, by `int_K grad u = int_dK u n'` over the finest cells that it is made of. Collective. */
 template <int dim>
-std::vector<MeanGradient<dim>> mean_gradients(const DisplacementSpace<dim> &space,
-                                              const ShapeTables<dim> &tables,
-                                              const dealii::Vector<double> &u);
+std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field);
 } // namespace hpvi
 
 #endif

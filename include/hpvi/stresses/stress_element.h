@@ -2,38 +2,14 @@
 #ifndef hpvi_stress_element_h
 #define hpvi_stress_element_h
 
-#include <deal.II/base/tensor.h>
-#include <hpvi/scene/material.h>
+#include <hpvi/stresses/stress_space.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace hpvi
 {
-/**
- * Polynomials in xi, eta on [-1,1]^2 by their Legendre coefficients c(i,j), i and j below n; those of a
- * stress are its components xx, yy, xy in the frame of the cell.
- */
-template <unsigned int n_components>
-struct Modes
-{
-  explicit Modes(const unsigned int n = 0) : n(n), coefficients(n_components * n * n)
-  {
-  }
-
-  double &operator()(const unsigned int k, const unsigned int i, const unsigned int j)
-  {
-    return coefficients[(k * n + i) * n + j];
-  }
-  double operator()(const unsigned int k, const unsigned int i, const unsigned int j) const
-  {
-    return coefficients[(k * n + i) * n + j];
-  }
-
-  unsigned int n;
-  std::vector<double> coefficients; ///< of one component after the other, j fastest
-};
-
 /**
  * Symmetric stresses with continuous tractions on one class of parallelograms (Hu, Man, Zhang,
  * arXiv:1304.5428). With edge vectors `2 h B`, det B = 1, h^2 a quarter of the area, a stress is
@@ -52,7 +28,7 @@ struct Modes
  * `F = -theta - sin(2 theta)/2 - (pi/4) cos(2 theta) + pi/4`, has shear 2 at the corner on the horizontal
  * edge and none on the vertical one.
  */
-class StressElement
+class StressElement : public StressSpace
 {
 public:
   /**
@@ -61,16 +37,6 @@ public:
    */
   StressElement(unsigned int degree, const dealii::Tensor<2, 2> &B, const Material &material,
                 unsigned int marked_corners);
-
-  const unsigned int m;
-  const unsigned int n_normal, n_tangential; ///< coefficients of a traction on an edge: m-1, m
-  const unsigned int n_divergence, n_edges, n_data;
-
-  /** Place of a coefficient of the traction of @p face among those of all edges. */
-  unsigned int edge_entry(const unsigned int face, const unsigned int tangential) const
-  {
-    return face * (n_normal + n_tangential) + tangential * n_normal;
-  }
 
   /**
    * r := (@p divergence; 0) - A q, where q of the space is nearest to @p stress in energy and A q are
@@ -105,24 +71,11 @@ public:
   Stress stress(const Modes<3> &stress, const double *r) const;
 
 private:
-  /** Calls f(row, entry) for the data of one mode of S. */
-  template <class F>
-  void for_each_datum(unsigned int component, unsigned int i, unsigned int j, const F &f) const;
-  bool has(unsigned int component, unsigned int i, unsigned int j) const;
-
-  void set_compliance(const dealii::Tensor<2, 2> &B, const Material &material);
-  void set_tractions(const dealii::Tensor<2, 2> &B);
   void add_corner_stress(unsigned int corner);
   void set_conditions(const dealii::Tensor<2, 2> &B);
   void add_condition(const std::vector<double> &condition);
   void factorise();
-  std::vector<double> corner_amplitudes(const Modes<3> &stress, const Modes<3> &q) const;
-  Modes<3> nearest(const Modes<3> &stress, std::vector<double> &amplitudes) const;
-  void subtract_data(const Modes<3> &q, double *r) const;
-  Modes<3> inverse_compliance(const Modes<3> &moments) const;
-  void set_nearest(unsigned int i, unsigned int j, const std::array<double, 3> &moments,
-                   Modes<3> &result) const;
-  Modes<3> moments(const Modes<3> &stress) const;
+  std::vector<double> corner_amplitudes(const Modes<3> &stress) const;
 
   /** The additional stress of a marked corner. */
   struct CornerStress
@@ -133,11 +86,6 @@ private:
     std::vector<double> data; ///< those of the corner stress
   };
 
-  std::array<std::array<double, 3>, 3> compliance; ///< C^-1 between components
-  /** Inverse of compliance for the components of a mode that exist, by their bits. */
-  std::array<std::array<std::array<double, 3>, 3>, 8> inverses;
-  /** Of edges along eta (0) and xi (1): T_n of the normal component, T_t of it and of the shear. */
-  std::array<std::array<double, 3>, 2> traction;
   std::vector<CornerStress> corners;
   std::vector<double>
       corner_energy; ///< of corner stresses minus their projections, and its inverse

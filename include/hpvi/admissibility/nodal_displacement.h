@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_nodal_displacement_h
+#define hpvi_nodal_displacement_h
+
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/discretisation/unknowns.h>
+
+#include <functional>
+#include <map>
+
+namespace hpvi
+{
+/** A displacement that is put together node by node from its components along the sides of the body. */
+template <int dim>
+class NodalDisplacement
+{
+public:
+  NodalDisplacement(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
+      : u(solution.u.size()), solution(solution), unknowns(unknowns)
+  {
+  }
+
+  /** `direction u = wanted(s)` at the nodes of a face. Two sides that meet at a corner are both heeded. */
+  void set(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
+           const std::function<double(double)> &wanted);
+
+  /** From now on what has been set may be overruled. */
+  void release()
+  {
+    heeded.clear();
+  }
+
+  dealii::Vector<double> u;
+
+private:
+  const Solution<dim> &solution;
+  const Unknowns<dim> &unknowns;
+  std::map<dealii::types::global_dof_index, dealii::Tensor<1, dim>>
+      heeded; ///< directions, by first component
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_primal_backend_h
+#define hpvi_primal_backend_h
+
+#include <hpvi/backends/backend.h>
+#include <hpvi/moments/primal_system.h>
+
+namespace hpvi
+{
+/**
+ * Newton's method on displacements and moments of contact: meshes of boxes, of one degree, in the plane and in
+ * space, distributed over any number of processes; no dense matrix. Each step starts from the solution of
+ * the one before.
+ */
+template <int dim>
+class PrimalBackend : public Backend<dim>
+{
+public:
+  /** Throws InputError where the path does not offer what the scene asks for. */
+  PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator);
+
+  void discretise() override;
+  void solve() override;
+  const Field<dim> &field() const override;
+  ProblemSize size() const override;
+  ErrorEstimate estimate() override;
+  Energies energies() override;
+  NodalForces<dim> nodal_forces() override;
+  std::optional<PrimalPart<dim>> primal() const override;
+  BoundOfStep bound(double own_stress) override;
+  double decay_rate(unsigned int cell) const override;
+  double round_off_estimate() const override;
+  void mark_unresolved(Refinement &refinement) const override;
+  double missed(const std::optional<ErrorBound> &bound) const override;
+  Warnings warnings(const std::vector<ContactState<dim>> &contact,
+                    const Equilibrium<dim> &balance) const override;
+  void refine(const Refinement &refinement) override;
+  Degrees degrees() const override;
+  SolutionValues values() const override;
+  bool restore(const SolutionValues &values) override;
+  std::unique_ptr<Backend<dim>> next_load_step(const Scene<dim> &scene,
+                                               const PastSlip<dim> &past) override;
+
+private:
+  using Backend<dim>::scene;
+  using Backend<dim>::times;
+  using Backend<dim>::begin;
+
+  PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator,
+                std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh);
+
+  void number();
+  void iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &matrix, DistributedVector &v,
+               const NewtonSettings &settings);
+  NewtonSettings first_settings() const;
+  bool is_exact(NewtonSettings &settings) const;
+  void take();
+
+  const std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh;
+  const BoxTables<dim> tables;
+  const ShapeTables<dim> shape_tables; ///< for its field
+  std::unique_ptr<const MomentSpace<dim>> space;
+  std::unique_ptr<PrimalSystem<dim>> system;          ///< of it; null before solve()
+  DistributedVector u;                                ///< on the current mesh, from the one before
+  std::vector<ContactVector<dim>> lambda;             ///< likewise
+  bool has_start = false;                             ///< are there both?
+  std::unique_ptr<const Field<dim>> values_at_points; ///< of both
+  ErrorEstimate estimated;                            ///< likewise
+  double error =
+      0; ///< estimated of the current step, or of the last one, in the energy norm; 0: none
+  NewtonReport report; ///< of the current step
+};
+} // namespace hpvi
+
+#endif

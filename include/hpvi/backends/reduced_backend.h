@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_reduced_backend_h
+#define hpvi_reduced_backend_h
+
+#include <hpvi/algebra/factored_system.h>
+#include <hpvi/backends/backend.h>
+#include <hpvi/contact/multiplier_trace.h>
+#include <hpvi/evaluation/legendre_smoothness.h>
+
+namespace hpvi
+{
+/**
+ * The body reduced to its contact boundary by a sparse factorisation, equations (5.6) and (5.7) of the
+ * thesis, and a dense quadratic program, or Coulomb's cones, for the multipliers: meshes of any degrees in the
+ * plane, on one process.
+ */
+template <int dim>
+class ReducedBackend : public Backend<dim>
+{
+public:
+  explicit ReducedBackend(const Scene<dim> &scene);
+
+  /** Of the next load step of a history: it takes over mesh, tables, factor and multiplier of @p last. */
+  ReducedBackend(const Scene<dim> &scene, ReducedBackend &last, const PastSlip<dim> &past);
+
+  void discretise() override;
+  void solve() override;
+  const Field<dim> &field() const override
+  {
+    return *values_at_points;
+  }
+
+  ProblemSize size() const override;
+  ErrorEstimate estimate() override;
+  Energies energies() override
+  {
+    return hpvi::energies(field(), algebraic.energy_product,
+                          discretisation->system.work(solution->u));
+  }
+
+  NodalForces<dim> nodal_forces() override
+  {
+    return hpvi::nodal_forces(*solution, discretisation->system);
+  }
+
+  std::optional<ReducedPart<dim>> reduced() const override;
+  BoundOfStep bound(double own_stress) override;
+  double decay_rate(const unsigned int cell) const override
+  {
+    return smoothness.decay_rate(*solution, cell);
+  }
+
+  void mark_unresolved(Refinement &refinement) const override;
+  double missed(const std::optional<ErrorBound> &bound) const override;
+  Warnings warnings(const std::vector<ContactState<dim>> &contact,
+                    const Equilibrium<dim> &balance) const override;
+  void refine(const Refinement &refinement) override;
+  Degrees degrees() const override
+  {
+    return cell_degrees;
+  }
+
+  SolutionValues values() const override;
+  bool restore(const SolutionValues &values) override;
+  std::unique_ptr<Backend<dim>> next_load_step(const Scene<dim> &scene,
+                                               const PastSlip<dim> &past) override;
+
+private:
+  using Backend<dim>::scene;
+  using Backend<dim>::times;
+  using Backend<dim>::begin;
+
+  ReducedBackend(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> tables);
+
+  void assemble();
+  void factor();
+  void keep_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
+  void take(dealii::Vector<double> u, const dealii::Vector<double> &z);
+  std::string dense_note() const;
+  bool needs_factor_again() const;
+  std::string no_bound() const;
+
+  std::shared_ptr<const dealii::Triangulation<dim>> mesh;
+  Degrees cell_degrees;
+  const std::shared_ptr<const ShapeTables<dim>> tables;
+  CondensedElements<dim> elements;
+  std::shared_ptr<const LoadRules<dim>> loads;
+  const LegendreSmoothness<dim> smoothness;
+  ErrorBounds error_bounds;
+  std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as all that follows
+  std::vector<MissedDisplacement<dim>> missed_displacements;
+  std::unique_ptr<const Discretisation<dim>> discretisation;
+  std::shared_ptr<FactoredSystem> factored;  ///< of it, or of the last load step
+  std::unique_ptr<LinearSolver> kept_factor; ///< for a bound that needs it once more
+  PastSlip<dim> past_slip;                   ///< of the load step before
+  bool is_load_step = false;                 ///< then the factor stays for the next one
+  MultiplierTrace<dim> previous; ///< multiplier of the previous step, zero unless it is wanted
+  dealii::Vector<double> motion; ///< likewise, of the free motions of the scene
+  ReducedSolution program;       ///< what solved it
+  AlgebraicError algebraic;
+  std::unique_ptr<const Solution<dim>> solution;
+  std::unique_ptr<const Field<dim>> values_at_points; ///< of the solution
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_equilibration_cache_h
+#define hpvi_equilibration_cache_h
+
+#include <hpvi/stresses/legendre.h>
+#include <hpvi/stresses/macro_stress_element.h>
+#include <hpvi/stresses/stress_element.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace hpvi
+{
+/** What a patch problem depends on besides its data: its matrices, factored. */
+struct PatchFactor
+{
+  std::vector<double> H;             ///< n x n: L of the energy of the unknown tractions
+  std::vector<double> conditions;    ///< n x present: columns C
+  std::vector<unsigned int> present; ///< conditions with columns, others hold by what is known
+  std::vector<unsigned int> chosen;  ///< places in present of those that imply all others
+  std::vector<double> W;             ///< n x chosen: L^-1 C
+  std::vector<double> S;             ///< chosen x chosen: L of W'W
+};
+
+/** What a run keeps from step to step: elements by class, patches by signature. */
+struct EquilibrationCache
+{
+  using Signature = std::vector<long>;
+  LegendreTables legendre;
+  TriangleStresses triangles;
+  std::map<Signature, std::unique_ptr<const StressElement>> elements;
+
+  /** What few other cells can share: kept as long as each step uses it. */
+  template <class T>
+  struct Kept
+  {
+    T value;
+    bool is_used = false;
+  };
+  std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
+  std::map<Signature, Kept<PatchFactor>> patches;
+  /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
+  std::map<Signature, std::vector<unsigned int>> independent_conditions;
+
+  /** Drops macro elements and patches that have not been used since the last call. */
+  void drop_unused();
+};
+} // namespace hpvi
+
+#endif

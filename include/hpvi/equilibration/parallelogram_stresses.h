@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_parallelogram_stresses_h
+#define hpvi_parallelogram_stresses_h
+
+#include <hpvi/body/element_matrices.h>
+#include <hpvi/equilibration/patch_problem.h>
+
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * What MacroStresses has for macro cells, for cells that are all parallelograms: the stresses near sigma(u_N) and near
+ * its products with hat functions, which are polynomials here.
+ */
+class ParallelogramStresses
+{
+public:
+  /**
+   * @p marked_corners as BoundaryTractions has them; @p volume: how the discrete equations count changes of volume.
+   * @p cache must outlive this object, and its elements must stay as long as this is asked for stresses.
+   */
+  ParallelogramStresses(const Solution<2> &solution, const VertexPatches &patches,
+                        const std::vector<unsigned int> &marked_corners, Volume volume,
+                        EquilibrationCache &cache);
+
+  /** Data of `psi sigma` with divergence `sigma grad psi - psi F`. */
+  PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
+
+  /** From now on sigma is that of another u_N, for all but patch_cell(). */
+  void measure_from(const Solution<2> &other);
+
+  /** Data of sigma with divergence -F, which tractions are added to. */
+  std::vector<double> data(unsigned int cell) const;
+
+  /** |s - sigma|^2 in energy of all cells, from data of each with its tractions. */
+  using WithTractions = std::function<std::vector<double>(unsigned int cell)>;
+  std::vector<double> squares(const WithTractions &with_tractions) const;
+
+  /** s for such data. */
+  StressElement::Stress stress(unsigned int cell, const std::vector<double> &data) const;
+
+  /** B of the element of a cell: `s = B S B'`. */
+  dealii::Tensor<2, 2> frame(unsigned int cell) const;
+
+  double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
+
+private:
+  /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
+  struct Cell
+  {
+    const StressElement *element;
+    dealii::Tensor<2, 2> B;
+    double h; ///< of the element [length]
+    Modes<3> sigma;
+    Modes<2> force; ///< -F in the frame, from the points of the loads; without modes: none
+    unsigned int place, first_hat; ///< in its batch
+  };
+
+  /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
+  static constexpr unsigned int n_bilinear = 4;
+
+  /** All data of the cells of one element. */
+  struct Batch
+  {
+    std::vector<unsigned int> cells;
+    unsigned int n_hats = 0;
+    std::vector<double> r;                  ///< for psi = 1, by cell
+    std::vector<double> gradients, defects; ///< G r and N' r by hat function
+  };
+
+  void set_cells(const std::vector<unsigned int> &marked_corners);
+  void set_data();
+  void set_stress(unsigned int cell, const Solution<2> &of);
+  void set_own_data(unsigned int cell);
+  void set_force(unsigned int cell);
+  void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
+  void set_data(unsigned int cell, double *r) const;
+  void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
+                   const std::vector<double> &r, std::vector<double> &result) const;
+
+  const Solution<2> &solution;
+  const VertexPatches &patches;
+  const Volume volume;
+  EquilibrationCache &cache;
+  std::vector<Cell> cells;
+  std::map<const StressElement *, Batch> batches;
+};
+} // namespace hpvi
+
+#endif

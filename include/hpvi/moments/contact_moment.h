@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_contact_moment_h
+#define hpvi_contact_moment_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/dofs/dof_handler.h>
+
+#include <array>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A vector along a contact face, its components those of tangents(); or, of a pressure, one number
+ * along the outer normal, the first component.
+ */
+template <int dim>
+using ContactVector = dealii::Tensor<1, dim - 1>;
+
+/**
+ * What acts at one Gauss point of a contact face against the moment m of the displacement, by a multiplier
+ * in a convex set whose force is `G lambda`:
+ *
+ *     friction   G |m|                   |lambda| <= 1, a disc     G = g(x_k) int psi_k
+ *     pressure   m <= u_0, else infinity  lambda >= 0 [stress]      G = int psi_k
+ *
+ * The gap u_0 is a moment as well.
+ */
+template <int dim>
+struct ContactMoment
+{
+  enum class Kind
+  {
+    friction,
+    pressure
+  };
+
+  Kind kind;
+  dealii::Point<dim> x;
+  double area;                                ///< int psi_k [length^(dim-1)]
+  double bound = 1;                           ///< g(x) [stress] of friction
+  double weight = 0;                          ///< G [force], of a pressure [area]
+  ContactVector<dim> gap;                     ///< u_0 where a pressure acts, else 0 [length]
+  double sign = 1;                            ///< of the outer normal along its axis, of a pressure
+  std::array<unsigned int, dim - 1> unknowns; ///< of its moments among those of this process
+
+  bool is_friction() const
+  {
+    return kind == Kind::friction;
+  }
+
+  unsigned int n_unknowns() const
+  {
+    return is_friction() ? dim - 1 : 1;
+  }
+
+  /** The projection onto the set of multipliers. */
+  ContactVector<dim> projected(const ContactVector<dim> &z) const;
+
+  /** Of `z = lambda + c (m - u_0)`: is m held, because a disc sticks or a pressure acts? */
+  bool holds(const ContactVector<dim> &z) const;
+};
+
+/** A face with moments, those of its Gauss points one after the other from #friction and #pressure on. */
+template <int dim>
+struct MomentFace
+{
+  typename dealii::DoFHandler<dim>::active_cell_iterator cell;
+  unsigned int face;
+  unsigned int friction = dealii::numbers::invalid_unsigned_int; ///< which means that there is none
+  unsigned int pressure = dealii::numbers::invalid_unsigned_int; ///< likewise
+
+  bool has_friction() const
+  {
+    return friction != dealii::numbers::invalid_unsigned_int;
+  }
+
+  bool has_pressure() const
+  {
+    return pressure != dealii::numbers::invalid_unsigned_int;
+  }
+
+  std::vector<unsigned int> axes() const; ///< the components that have moments
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_moment_field_h
+#define hpvi_moment_field_h
+
+#include <hpvi/evaluation/field.h>
+#include <hpvi/moments/moment_space.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace hpvi
+{
+/** The field of the primal path: u of nodal values, which knows its neighbours, and lambda by ContactMoment. */
+template <int dim>
+class MomentField : public Field<dim>
+{
+public:
+  using typename Field<dim>::Cell;
+
+  /** All of them live as long as this. */
+  MomentField(const MomentSpace<dim> &space, const ShapeTables<dim> &tables,
+              const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
+
+  std::vector<double> coefficients(const Cell &cell) const override;
+  double largest_displacement() const override;
+  void attach(dealii::DataOut<dim> &out) const override;
+  void attach(dealii::DataOut<dim> &out,
+              const dealii::DataPostprocessor<dim> &fields) const override;
+  ContactTraction<dim> traction(const FieldFace<dim> &face,
+                                const dealii::Point<dim> &reference) const override;
+  double bound(const FieldFace<dim> &face, const dealii::Point<dim> &reference) const override;
+  Tangential<dim> past_slip(const FieldFace<dim> &face, const dealii::Point<dim> &x) const override;
+  std::vector<double> friction_cuts(const FieldFace<dim> &face) const override;
+  std::vector<MultiplierPoint<dim>> multiplier_points(const FieldFace<dim> &face,
+                                                      double negligible) const override;
+  const ShapeTable<dim> &multiplier_table(const FieldFace<dim> &face) const override;
+  std::vector<PressureValue<dim>> pressures(const FieldFace<dim> &face) const override;
+  double contact_work() const override;
+  std::unique_ptr<const Field<dim>> last_bits(const Scene<dim> &unloaded) const override;
+
+private:
+  MomentField(const Scene<dim> &scene, const MomentSpace<dim> &space,
+              const ShapeTables<dim> &tables, std::shared_ptr<const DistributedVector> u,
+              std::shared_ptr<const std::vector<ContactVector<dim>>> lambda);
+
+  ContactTraction<dim> multiplier(const FieldFace<dim> &face, unsigned int k) const;
+
+  const MomentSpace<dim> &space;
+  const std::shared_ptr<const DistributedVector> u;
+  const std::shared_ptr<const std::vector<ContactVector<dim>>> lambda;
+  std::vector<const MomentFace<dim> *> moment_faces; ///< by face; null: it has no moments
+  std::vector<ShapeTable<dim>> moment_tables;        ///< by number of a face of the unit cell
+};
+} // namespace hpvi
+
+#endif

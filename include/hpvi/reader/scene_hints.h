@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_scene_hints_h
+#define hpvi_scene_hints_h
+
+#include <hpvi/input/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** For names that are not among scene_entries(): what users of other programs write first. Paths of entries stand in quotes. */
+std::vector<Hint> scene_hints(int dim, const std::vector<std::string> &boundaries);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_history_h
+#define hpvi_history_h
+
+#include <hpvi/peaks/stress_peak.h>
+
+#include <limits>
+#include <vector>
+
+namespace hpvi
+{
+/** What limits and warnings ask of a step when it is over, numbers of all processes. */
+template <int dim>
+struct PastStep
+{
+  double estimate;          ///< eta, stress length^(dim/2)
+  double relative_estimate; ///< as StepReport has it
+  /** ErrorBound::total / |u_N|_a, NaN where none is guaranteed. */
+  double relative_bound = std::numeric_limits<double>::quiet_NaN();
+  double seconds = 0;           ///< from the start of the run to the end of the step
+  bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
+  double own_stress = 0;        ///< ErrorBound::own_stress
+  std::vector<StressSample<dim>> peaks = {}; ///< stress_peaks(): which ones grow without bound
+};
+
+/** All finished steps of a run, the first one first. */
+template <int dim>
+using History = std::vector<PastStep<dim>>;
+} // namespace hpvi
+
+#endif

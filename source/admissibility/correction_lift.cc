@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/admissibility/correction_search.h>
+#include <hpvi/admissibility/nodal_displacement.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The polynomial over that of degree 1 or 2 which vanishes at some ends and is 1 at the other, or s (1 - s). */
+EdgePolynomial divided(const EdgePolynomial &polynomial, const std::array<bool, 2> &ends,
+                       const ShapeTables<2> &tables)
+{
+  const QGauss<1> &gauss = tables.gauss(polynomial.coefficients().size());
+  std::vector<double> values;
+  for (const Point<1> &point : gauss.get_points())
+  {
+    const double s = point[0];
+    values.push_back(polynomial(s) / ((ends[0] ? s : 1.) * (ends[1] ? 1. - s : 1.)));
+  }
+  return EdgePolynomial::through(values, gauss);
+}
+} // namespace
+
+double largest_value(const EdgePolynomial &polynomial, const double round_off)
+{
+  double result = 0.;
+  if (polynomial.largest() <= round_off || polynomial.enclosure().second <= 0.)
+    return result;
+  for (const double s : polynomial.extremes())
+    result = std::max(result, polynomial(s));
+  return result;
+}
+
+/**
+ * The unknowns of a displacement that is u_Nt where the body sticks and u_Nn - u_0 where it presses;
+ * elsewhere of no use.
+ */
+template <int dim>
+Vector<double> CorrectionSearch<dim>::fixed_displacement() const
+{
+  NodalDisplacement<dim> all(solution, discretisation.unknowns);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (slips[k].mode == Slip::nowhere)
+      all.set(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
+  all.release(); // a tangent of one side may be the normal of another, which matters more
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k] && openings[k]->mode == Opening::closed)
+      all.set(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
+  Vector<double> result = discretisation.unknowns.coordinates(all.u);
+  result.grow_or_shrink(A.n());
+  return result;
+}
+
+/** Is the normal displacement at an end of a face prescribed, so that w_n vanishes there? */
+template <int dim>
+std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) const
+{
+  const unsigned int n = faces[face].degree + 1;
+  const Tensor<1, dim> normal = faces[face].frame(0.5).normal;
+  const auto dofs = solution.displacement_space.cell_dofs(faces[face].cell->active_cell_index());
+  const std::vector<unsigned int> &on_edge =
+      solution.tables.numbering(faces[face].degree).edge[faces[face].face_no];
+  std::array<bool, 2> result{};
+  for (unsigned int end = 0; end < 2; ++end)
+    for (unsigned int c = 0; c < dim; ++c)
+      result[end] =
+          result[end] ||
+          (std::abs(normal[c]) > 1e-10 &&
+           discretisation.unknowns.terms(dofs[on_edge[c * n + (end == 0 ? 0 : n - 1)]]).size() ==
+               0);
+  return result;
+}
+
+/** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces on either side. */
+template <int dim>
+double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heights) const
+{
+  double result = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k])
+    {
+      const EdgePolynomial rest = openings[k]->penetration.rest(w);
+      const double depth = largest_value(rest, tolerance);
+      result = std::max(result, depth);
+      if (depth == 0.)
+        continue;
+      const std::array<bool, 2> held = held_ends(k);
+      const double height = held[0] || held[1]
+                                ? largest_value(divided(rest, held, solution.tables), tolerance)
+                                : depth;
+      if (held[0] && held[1])
+        heights.on_faces[k] = height;
+      for (unsigned int end = 0; end < 2; ++end)
+        if (!held[end])
+        {
+          double &at_vertex = heights.at_vertices[{
+              faces[k].condition->id, faces[k].cell->face(faces[k].face_no)->vertex_index(end)}];
+          at_vertex = std::max(at_vertex, height);
+        }
+    }
+  return result;
+}
+
+/**
+ * w_n += a function that takes away what penetrates, linear along each face, quadratic where both ends are held. Returns
+ * by how much it still does, because supports are in the way; 0 where that is round-off.
+ */
+template <int dim>
+double CorrectionSearch<dim>::lift(Vector<double> &w) const
+{
+  Heights heights;
+  if (penetration(w, heights) <= tolerance)
+    return 0.;
+  NodalDisplacement<dim> lifting(solution, discretisation.unknowns);
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (openings[k])
+    {
+      const auto face = faces[k].cell->face(faces[k].face_no);
+      const auto height = [&](const unsigned int end) {
+        return heights.at_vertices[{faces[k].condition->id, face->vertex_index(end)}];
+      };
+      const double first = height(0), last = height(1), inside = heights.on_faces[k];
+      if (first > 0. || last > 0. || inside > 0.)
+        lifting.set(faces[k], faces[k].frame(0.5).normal,
+                    [&](const double s) {
+                      return (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
+                    });
+    }
+  const Vector<double> lifted = discretisation.unknowns.coordinates(lifting.u);
+  for (unsigned int i = 0; i < lifted.size(); ++i)
+    w[i] += lifted[i];
+  const double rest = penetration(w, heights);
+  return rest <= std::max(tolerance, 1e-13 * solution.u.linfty_norm()) ? 0. : rest;
+}
+
+template Vector<double> CorrectionSearch<2>::fixed_displacement() const;
+template double CorrectionSearch<2>::lift(Vector<double> &) const;
+} // namespace hpvi

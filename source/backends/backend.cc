@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/backends/primal_backend.h>
+#include <hpvi/backends/reduced_backend.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
+#include <hpvi/checks/checks.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+unsigned int ProblemSize::p_min() const
+{
+  return std::find_if(cells_of_degree.begin(), cells_of_degree.end(),
+                      [](const auto n) { return n > 0; }) -
+         cells_of_degree.begin();
+}
+
+unsigned int ProblemSize::p_max() const
+{
+  return cells_of_degree.size() - 1;
+}
+
+template <int dim>
+Backend<dim>::Backend(const Scene<dim> &scene, MPI_Comm communicator)
+    : scene(scene), communicator(communicator)
+{
+}
+
+template <int dim>
+void Backend<dim>::begin(const std::string &stage, const std::string &note) const
+{
+  if (about_to)
+    about_to(stage, note);
+}
+
+template <int dim>
+double Backend<dim>::round_off_estimate() const
+{
+  return round_off_of_estimate(field());
+}
+
+template <int dim>
+std::optional<ReducedPart<dim>> Backend<dim>::reduced() const
+{
+  return std::nullopt;
+}
+
+template <int dim>
+std::optional<PrimalPart<dim>> Backend<dim>::primal() const
+{
+  return std::nullopt;
+}
+
+namespace
+{
+/** Does the primal path offer what the scene asks for, the bound of the error included where a limit needs it? */
+bool fits_primal_path(const Scene<2> &scene)
+{
+  if (scene.has_unilateral_contact() || // solved by nodes or multipliers, as the scene says
+      (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound))
+    return false;
+  try
+  {
+    check_primal_path(scene);
+  }
+  catch (const InputError &)
+  {
+    return false;
+  }
+  return true;
+}
+
+/**
+ * Would the dense algebra of the first mesh take longer than what the primal path takes? Of one
+ * core: `3e-10 s m^3` for m multipliers, and twelve times, for N unknowns,
+ * `1e-6 s N + 3e-9 s N^3/2`. `./run space` measures all three, doc/space.md has the chart.
+ */
+bool primal_path_pays(const Scene<2> &scene)
+{
+  const double p = scene.adaptivity.start_degree;
+  const auto &cells = scene.geometry.subdivisions;
+  const double unknowns = 2 * (1 + p * cells[0]) * (1 + p * cells[1]);
+  const std::vector<Side<2>> sides = sides_of(scene.geometry);
+  double multipliers = 0;
+  for (const auto &boundary : scene.boundaries)
+    if (boundary.has_contact() && boundary.friction)
+      multipliers += (p - 1) * cells[1 - sides[boundary.id].axis];
+  return fits_primal_path(scene) &&
+         3e-10 * std::pow(multipliers, 3) > 12 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
+}
+} // namespace
+
+template <int dim>
+bool takes_primal_path(const Scene<dim> &scene, const unsigned int n)
+{
+  if (scene.solver.path == SolutionPath::reduced && n > 1)
+    throw InputError(printable(scene.origin(), 400) +
+                     ": Solver/Path = reduced: works on one process, and " + std::to_string(n) +
+                     " were started; start one or set Path = primal");
+  if constexpr (dim == 2)
+    if (scene.solver.path == SolutionPath::automatic && primal_path_pays(scene))
+      return true;
+  return dim == 3 || scene.solver.path == SolutionPath::primal || n > 1;
+}
+
+template <int dim>
+std::unique_ptr<Backend<dim>> make_backend(const Scene<dim> &scene, MPI_Comm communicator)
+{
+  const bool has_mpi = Utilities::MPI::job_supports_mpi(),
+             needs_mpi = dim == 3 || scene.solver.path == SolutionPath::primal;
+  if (needs_mpi && !has_mpi)
+    throw InputError(printable(scene.origin(), 400) +
+                     ": the primal path needs MPI; make a dealii::Utilities::MPI::MPI_InitFinalize "
+                     "before the solver");
+  if (has_mpi && takes_primal_path(scene, hpvi::n_processes(communicator)))
+    return std::make_unique<PrimalBackend<dim>>(scene, communicator);
+  if constexpr (dim == 2)
+    return std::make_unique<ReducedBackend<dim>>(scene);
+  Assert(false, ExcInternalError());
+  return nullptr;
+}
+
+template class Backend<2>;
+template class Backend<3>;
+template bool takes_primal_path(const Scene<2> &, unsigned int);
+template bool takes_primal_path(const Scene<3> &, unsigned int);
+template std::unique_ptr<Backend<2>> make_backend(const Scene<2> &, MPI_Comm);
+template std::unique_ptr<Backend<3>> make_backend(const Scene<3> &, MPI_Comm);
+} // namespace hpvi

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/backends/primal_backend.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/checks/checks.h>
+#include <hpvi/primal/load_check.h>
+#include <hpvi/primal/memory_need.h>
+#include <hpvi/primal/moment_field.h>
+#include <hpvi/primal/nodal_forces.h>
+#include <hpvi/primal/transfer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** What Newton's method leaves, as a part of the estimated error. */
+constexpr double algebraic_part = 1e-2;
+
+/** Of the residual relative to the load vector: Newton's method has no less to reach. */
+constexpr double round_off = 1e-11;
+
+template <int dim>
+std::shared_ptr<typename MomentSpace<dim>::Mesh> coarse_mesh(const Scene<dim> &scene,
+                                                             MPI_Comm communicator)
+{
+  together(communicator, [&]() { check_primal_path(scene); });
+  const auto mesh = std::make_shared<typename MomentSpace<dim>::Mesh>(communicator);
+  make_mesh(scene, static_cast<Triangulation<dim> &>(*mesh));
+  const auto n = hpvi::n_processes(communicator);
+  if (mesh->n_global_active_cells() < n)
+    throw InputError(printable(scene.origin(), 400) +
+                     ": Geometry/Subdivisions: makes fewer cells, " +
+                     std::to_string(mesh->n_global_active_cells()) + ", than the " +
+                     std::to_string(n) + " processes; start fewer of them or take more cells");
+  return mesh;
+}
+} // namespace
+
+template <int dim>
+PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator,
+                                  std::shared_ptr<typename MomentSpace<dim>::Mesh> all_cells)
+    : Backend<dim>(scene, communicator), mesh(std::move(all_cells)),
+      tables(scene.adaptivity.start_degree)
+{
+}
+
+template <int dim>
+PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator)
+    : PrimalBackend(scene, communicator, coarse_mesh(scene, communicator))
+{
+}
+
+template <int dim>
+std::unique_ptr<Backend<dim>> PrimalBackend<dim>::next_load_step(const Scene<dim> &next,
+                                                                 const PastSlip<dim> &)
+{
+  std::unique_ptr<PrimalBackend> result(new PrimalBackend(next, this->communicator, mesh));
+  result->u = u;
+  result->lambda = lambda;
+  result->has_start = has_start;
+  return result;
+}
+
+template <int dim>
+void PrimalBackend<dim>::number()
+{
+  begin("numbering the unknowns of " + std::to_string(mesh->n_global_active_cells()) + " elements");
+  StageTimer timer(times.setup);
+  space = std::make_unique<const MomentSpace<dim>>(scene, *mesh, tables);
+}
+
+template <int dim>
+void PrimalBackend<dim>::discretise()
+{
+  if (system)
+    return; // prepare() has been here
+  if (!space)
+    number();
+  require_room(*space);
+  begin("assembling " + std::to_string(mesh->n_global_active_cells()) + " elements",
+        memory_note(*space));
+  StageTimer timer(times.assemble);
+  system = std::make_unique<PrimalSystem<dim>>(*space);
+}
+
+/** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
+template <int dim>
+void PrimalBackend<dim>::iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &matrix,
+                                 DistributedVector &v, const NewtonSettings &settings)
+{
+  const unsigned int steps_before = matrix.n_steps;
+  std::string place;
+  matrix.before_step = [&]()
+  {
+    begin("finding stick and slip: " + place + std::to_string(matrix.n_steps - steps_before) +
+          " steps of conjugate gradients");
+  };
+  report += newton.solve(v, lambda, settings,
+                         [&](const NewtonReport &sofar)
+                         {
+                           place =
+                               std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
+                                                                     : "Newton step ") +
+                               std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
+                         });
+}
+
+/** Before the error of this mesh is estimated: as if it were half of that before. */
+template <int dim>
+NewtonSettings PrimalBackend<dim>::first_settings() const
+{
+  NewtonSettings settings;
+  if (scene.solver.primal_tolerance > 0)
+    settings.residual = scene.solver.primal_tolerance;
+  else if (error > 0)
+  {
+    settings.residual = round_off;
+    settings.error = 0.5 * algebraic_part * error;
+  }
+  return settings;
+}
+
+/** Is the algebraic error small enough beside the estimated one? If not, what Newton's method is to reach. */
+template <int dim>
+bool PrimalBackend<dim>::is_exact(NewtonSettings &settings) const
+{
+  if (scene.solver.primal_tolerance > 0 || report.residual <= round_off ||
+      report.error <= algebraic_part * error)
+    return true;
+  settings.residual = round_off;
+  settings.error = 0.5 * algebraic_part * error;
+  return false;
+}
+
+/** The field of u and lambda, and its estimated error. */
+template <int dim>
+void PrimalBackend<dim>::take()
+{
+  values_at_points = std::make_unique<const MomentField<dim>>(*space, shape_tables, u, lambda);
+  begin("estimating the error");
+  StageTimer timer(times.estimate);
+  together(space->communicator(), [&]() { estimated = estimate_error(*values_at_points); });
+  error = norms(estimated, space->communicator()).total / std::sqrt(scene.coercivity());
+}
+
+// How exact is enough depends on the error of the mesh, which is estimated in between.
+template <int dim>
+void PrimalBackend<dim>::solve()
+{
+  Timer timer;
+  MomentMatrix<dim> matrix(*space, *system);
+  MomentNewton<dim> newton(*space, *system, matrix);
+  DistributedVector v = has_start ? space->moments(u) : space->owned_vector();
+  NewtonSettings settings = first_settings();
+  report = {};
+  has_start = true;
+  do
+  {
+    timer.restart();
+    iterate(newton, matrix, v, settings);
+    times.qp += timer.wall_time();
+    u = space->displacement(v);
+    take();
+  } while (!is_exact(settings));
+  times.factor += matrix.setup_seconds;
+  times.qp -= matrix.setup_seconds;
+}
+
+template <int dim>
+const Field<dim> &PrimalBackend<dim>::field() const
+{
+  return *values_at_points;
+}
+
+template <int dim>
+ProblemSize PrimalBackend<dim>::size() const
+{
+  ProblemSize result{mesh->n_global_active_cells(),
+                     space->dof_handler.n_dofs(),
+                     space->n_free,
+                     space->n_multipliers(),
+                     {}};
+  result.cells_of_degree.assign(tables.degree + 1, 0);
+  result.cells_of_degree.back() = result.n_cells;
+  return result;
+}
+
+template <int dim>
+ErrorEstimate PrimalBackend<dim>::estimate()
+{
+  return estimated;
+}
+
+template <int dim>
+Energies PrimalBackend<dim>::energies()
+{
+  return hpvi::energies(field(), system->energy_product(u), system->work(u));
+}
+
+template <int dim>
+NodalForces<dim> PrimalBackend<dim>::nodal_forces()
+{
+  return hpvi::nodal_forces(*space, *system, u, lambda);
+}
+
+template <int dim>
+std::optional<PrimalPart<dim>> PrimalBackend<dim>::primal() const
+{
+  return PrimalPart<dim>{*space, u, report};
+}
+
+template <int dim>
+BoundOfStep PrimalBackend<dim>::bound(double)
+{
+  return {std::nullopt, "the primal path has no guaranteed bound of the error"};
+}
+
+/** One degree stays: nobody asks. */
+template <int dim>
+double PrimalBackend<dim>::decay_rate(unsigned int) const
+{
+  return 0.;
+}
+
+/** Where Newton's method has no less to reach, also a few times what it has left. */
+template <int dim>
+double PrimalBackend<dim>::round_off_estimate() const
+{
+  const double norm = std::sqrt(std::max(system->energy_product(u), 0.)),
+               left = 5 * report.residual * norm * std::sqrt(scene.coercivity());
+  return std::max(Backend<dim>::round_off_estimate(), report.residual <= round_off ? left : 0.);
+}
+
+template <int dim>
+void PrimalBackend<dim>::mark_unresolved(Refinement &) const
+{
+}
+
+template <int dim>
+double PrimalBackend<dim>::missed(const std::optional<ErrorBound> &) const
+{
+  return 0.;
+}
+
+template <int dim>
+Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
+                                      const Equilibrium<dim> &balance) const
+{
+  Warnings result;
+  together(space->communicator(),
+           [&]()
+           {
+             const LoadCheck<dim> check(scene);
+             if (const std::string line = check.warning(balance.loads); !line.empty())
+               result.push_back({WarningKind::load, 0., line});
+           });
+  if (report.is_cut_off)
+    result.push_back({WarningKind::cut_off, double(report.steps),
+                      "Newton's method did not find stick and slip in " + to_string(report.steps) +
+                          " steps, and the augmented Lagrangian took its place"});
+  if (report.fell_back)
+    result.push_back({WarningKind::multigrid, 0.,
+                      "multigrid broke down, and a sparse factorisation took its place; "
+                      "Solver/Linear = direct begins with it"});
+  return result;
+}
+
+template <int dim>
+Degrees PrimalBackend<dim>::degrees() const
+{
+  return Degrees(mesh->n_global_active_cells(), tables.degree);
+}
+
+// The solution goes to the new mesh at once: there it is where the next one starts.
+template <int dim>
+void PrimalBackend<dim>::refine(const Refinement &refinement)
+{
+  begin("refining");
+  std::unique_ptr<Transfer<dim>> transfer;
+  {
+    StageTimer timer(times.refine);
+    for (const auto &cell : mesh->active_cell_iterators())
+      if (cell->is_locally_owned() && refinement.bisect[cell->global_active_cell_index()])
+        cell->set_refine_flag();
+    mesh->prepare_coarsening_and_refinement();
+    if (has_start)
+      transfer = std::make_unique<Transfer<dim>>(*mesh, *space, u, lambda);
+    mesh->execute_coarsening_and_refinement();
+  }
+  values_at_points.reset();
+  system.reset();
+  number();
+  StageTimer timer(times.refine);
+  if (transfer)
+    transfer->unpack(*space, u, lambda);
+}
+
+namespace
+{
+/** Numbers of cells of this process, by global_active_cell_index, as those of all processes. */
+using OfCells = std::vector<std::pair<types::global_cell_index, std::vector<double>>>;
+
+std::vector<std::vector<double>> of_all_cells(const OfCells &own, const unsigned int n_cells,
+                                              MPI_Comm communicator)
+{
+  std::vector<std::vector<double>> result(n_cells);
+  for (const OfCells &part : Utilities::MPI::all_gather(communicator, own))
+    for (const auto &[cell, numbers] : part)
+      result[cell] = numbers;
+  return result;
+}
+} // namespace
+
+// @sect3{Going on}
+//
+// Cells are counted along the curve that p4est orders them by, however many processes share them.
+template <int dim>
+SolutionValues PrimalBackend<dim>::values() const
+{
+  OfCells own_u, own_z;
+  for (const auto &cell : space->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const CellValues values = values_on(cell, *space, u, lambda);
+      own_u.emplace_back(cell->global_active_cell_index(), values.u);
+      own_z.emplace_back(cell->global_active_cell_index(), values.lambda);
+    }
+  const auto joined = [this](const OfCells &own)
+  {
+    std::vector<double> all;
+    for (const auto &numbers :
+         of_all_cells(own, mesh->n_global_active_cells(), space->communicator()))
+      all.insert(all.end(), numbers.begin(), numbers.end());
+    return Vector<double>(all.begin(), all.end());
+  };
+  return {joined(own_u), joined(own_z), {}};
+}
+
+template <int dim>
+bool PrimalBackend<dim>::restore(const SolutionValues &values)
+{
+  const unsigned int n = tables.fe.dofs_per_cell, n_cells = mesh->n_global_active_cells();
+  u = space->ghosted_vector();
+  lambda.assign(space->contact.size(), ContactVector<dim>());
+  OfCells sizes; // of the multiplier
+  for (const auto &cell : space->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      sizes.emplace_back(cell->global_active_cell_index(),
+                         std::vector<double>(1, values_on(cell, *space, u, lambda).lambda.size()));
+  std::vector<std::size_t> first(1, 0);
+  for (const auto &size : of_all_cells(sizes, n_cells, space->communicator()))
+    first.push_back(first.back() + size.front());
+  if (values.u.size() != n * n_cells || values.z.size() != first.back() || values.motion.size() > 0)
+    return false;
+  for (const auto &cell : space->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const auto k = cell->global_active_cell_index();
+      take_values<dim>(cell,
+                       {{values.u.begin() + n * k, values.u.begin() + n * (k + 1)},
+                        {values.z.begin() + first[k], values.z.begin() + first[k + 1]}},
+                       *space, u, lambda);
+    }
+  u.zero_out_ghost_values();
+  u.update_ghost_values();
+  has_start = true;
+  take();
+  return true;
+}
+
+template class PrimalBackend<2>;
+template class PrimalBackend<3>;
+} // namespace hpvi

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Reduced to the contact: the way to solve that the thesis takes. A sparse factorisation eliminates the
+// body, a dense program for friction and pressure remains. What steps share is little: tables of
+// shape functions, element matrices that come again, and the multiplier of the step before, as a
+// function on the contact boundary, from which the next one starts.
+#include <hpvi/backends/reduced_backend.h>
+#include <hpvi/base/dense_work.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/discretisation/loaded_motions.h>
+#include <hpvi/discretisation/negligible_solution.h>
+#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/stresses/edge_polynomial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+// @sect3{What steps share}
+//
+// The mesh is a shared pointer to a constant: a solution that a user keeps also keeps the mesh it lives on.
+template <int dim>
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene,
+                                    std::shared_ptr<const ShapeTables<dim>> all_tables)
+    : Backend<dim>(scene, MPI_COMM_SELF), tables(std::move(all_tables)), elements(scene, *tables),
+      smoothness(scene.adaptivity.reading)
+{
+  prepare_blas();
+}
+
+template <int dim>
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
+    : ReducedBackend(scene, std::make_shared<const ShapeTables<dim>>())
+{
+  const auto coarse = std::make_shared<Triangulation<dim>>();
+  make_mesh(scene, *coarse);
+  cell_degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
+  mesh = coarse;
+  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
+}
+
+template <int dim>
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &last,
+                                    const PastSlip<dim> &past)
+    : ReducedBackend(scene, last.tables)
+{
+  mesh = last.mesh;
+  cell_degrees = last.cell_degrees;
+  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
+  previous = last.previous;
+  motion = last.motion;
+  past_slip = past;
+  is_load_step = true;
+  if (last.factored)
+    last.factored->remember(last.discretisation->system.A, last.discretisation->stabilisation(),
+                            last.discretisation->contact_rows);
+  factored = std::move(last.factored);
+}
+
+template <int dim>
+std::unique_ptr<Backend<dim>> ReducedBackend<dim>::next_load_step(const Scene<dim> &scene,
+                                                                  const PastSlip<dim> &past)
+{
+  return std::make_unique<ReducedBackend>(scene, *this, past);
+}
+
+// @sect3{Discretise}
+//
+/** Of the step whose system is assembled. */
+template <int dim>
+std::string ReducedBackend<dim>::dense_note() const
+{
+  return DenseWork{discretisation->contact_rows.kept.size(), discretisation->contact_rows.n_rows()}
+      .note();
+}
+
+// Two objects make a step: the spaces, without any integral, and the discretisation, which has
+// assembled $A$ and $f$. The old discretisation dies only when the new one stands, for they share
+// element matrices: away from the refined cells most cells are congruent to cells that were there
+// before.
+template <int dim>
+void ReducedBackend<dim>::assemble()
+{
+  if (discretisation && &discretisation->spaces->displacement_space.triangulation() == mesh.get())
+    return; // prepare() has been here
+  begin("numbering the unknowns of " + std::to_string(cell_degrees.size()) + " elements");
+  std::shared_ptr<const Spaces<dim>> spaces;
+  {
+    StageTimer timer(times.setup);
+    spaces =
+        std::make_shared<const Spaces<dim>>(scene, mesh, cell_degrees, tables, loads, past_slip);
+  }
+  begin("assembling " + std::to_string(cell_degrees.size()) + " elements");
+  StageTimer timer(times.assemble);
+  unresolved = loads->unresolved(*mesh);
+  missed_displacements = loads->missed_displacements(*mesh, cell_degrees);
+  // The previous one goes last: it keeps the element matrices that the new one shares.
+  discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
+}
+
+// Where contact alone holds the body, statics has a say before anything is factored. Loads whose
+// resultant lies outside the foundation end the run. A resultant inside may still pass between the
+// last point of the multiplier and the end of the contact, where this mesh cannot press: cells are
+// bisected there until it can. The same mesh always leads to the same bisections, so that a run state
+// need not keep them.
+template <int dim>
+void ReducedBackend<dim>::discretise()
+{
+  assemble();
+  if (!discretisation->free_motions)
+    return;
+  require_equilibrium(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+  for (unsigned int levels_left = 8;; --levels_left)
+  {
+    const std::optional<MissingContact> missing =
+        missing_contact(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+    if (!missing)
+      return;
+    if (levels_left == 0 || missing->cells.empty())
+      throw NumericalFailure(missing->why);
+    Refinement refinement{std::vector<bool>(cell_degrees.size()), cell_degrees};
+    for (const unsigned int cell : missing->cells)
+      refinement.bisect[cell] = true;
+    refine(refinement);
+    assemble();
+  }
+}
+
+// @sect3{Solve}
+//
+// The sparse factorisation reduces the elastic body to its contact boundary, equations (5.6) and
+// (5.7). What remains is a quadratic program for friction and pressure, or Coulomb's cones, whose
+// solution gives the displacement back. The starting value is the multiplier of the step before:
+// stick and slip change little from mesh to mesh, and most programs then end after a few
+// factorisations. <code>IterativeRefinement</code> wraps the whole, because on deep meshes the
+// round-off of one solution is larger than the discretisation error of a well-resolved field.
+//
+// The load steps of a history that share a mesh share <code>factored</code>: prescribed values and loads
+// are in the right-hand side alone.
+template <int dim>
+void ReducedBackend<dim>::factor()
+{
+  const ElasticSystem<dim> &system = discretisation->system;
+  const ConditionRows &rows = discretisation->contact_rows;
+  if (factored && factored->is_of(system.A, discretisation->stabilisation(), rows))
+  {
+    factored->reduction.set_load(system.f, rows.prescribed);
+    return;
+  }
+  begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
+  factored.reset(); // there may not be room for two
+  factored = std::make_shared<FactoredSystem>(discretisation->factor(), system.f, rows);
+}
+
+template <int dim>
+void ReducedBackend<dim>::solve()
+{
+  const ElasticSystem<dim> &system = discretisation->system;
+  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
+  check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
+  {
+    StageTimer timer(times.factor);
+    factor();
+  }
+  begin(contact_space.n_multipliers() > 0
+            ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
+                  " multipliers"
+            : "finding the displacement");
+  program = {};
+  program.z = previous.values(contact_space, *tables);
+  if (system.f.all_zero()) // the start would set the tolerance of a solution that may be zero
+    program.z = 0.;
+  const auto &motions = discretisation->free_motions;
+  if (motions)
+    program.motion = motions->from_basis(motion);
+  const Timer timer;
+  Vector<double> u =
+      IterativeRefinement<dim>(*discretisation, elements, factored->solver, factored->reduction)
+          .solve(program, algebraic);
+  times.qp += program.seconds;
+  times.recover += timer.wall_time() - program.seconds;
+  if (drop_round_off(*discretisation, program.z, u))
+    algebraic = {};
+  keep_start(program.z, motions ? motions->in_basis(program.motion) : Vector<double>());
+  if (needs_factor_again())
+    kept_factor = std::make_unique<LinearSolver>(std::move(factored->solver));
+  if (kept_factor || !is_load_step)
+    factored.reset();
+  take(std::move(u), program.z);
+}
+
+/** Will the bound solve with it once more? */
+template <int dim>
+bool ReducedBackend<dim>::needs_factor_again() const
+{
+  const auto &faces = discretisation->spaces->contact_space.faces();
+  return scene.error_bound && discretisation->spaces->no_error_bound(scene).empty() &&
+         (scene.is_nearly_incompressible() ||
+          std::any_of(faces.begin(), faces.end(),
+                      [](const auto &face) { return varies(face.friction); }));
+}
+
+template <int dim>
+void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
+{
+  solution = std::make_unique<const Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
+  values_at_points = std::make_unique<const SolutionField<dim>>(*solution);
+}
+
+/** The next step begins where this one ends. */
+template <int dim>
+void ReducedBackend<dim>::keep_start(const Vector<double> &z, const Vector<double> &moved)
+{
+  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
+  if (contact_space.n_multipliers() == 0 || !scene.solver.qp_warm_start)
+    return;
+  previous = MultiplierTrace<dim>(contact_space, z);
+  motion = moved;
+}
+
+// @sect3{The bound}
+//
+// The guaranteed bound needs the whole discrete problem, not only its solution. Where there is none its
+// reason is kept, since "none" without a reason is no answer.
+/** Why the step at hand has no bound, as far as its data tell; else empty. */
+template <int dim>
+std::string ReducedBackend<dim>::no_bound() const
+{
+  if (!scene.error_bound)
+    return "Error/Bound = false";
+  if (const std::string none = solution->spaces->no_error_bound(scene);
+      !none.empty() || unresolved.empty())
+    return none;
+  const UnresolvedLoad<dim> &worst =
+      *std::max_element(unresolved.begin(), unresolved.end(),
+                        [](const auto &a, const auto &b) { return a.deviation < b.deviation; });
+  return lower_case(worst.name.substr(0, 1)) + worst.name.substr(1) + " is not resolved near " +
+         to_string(worst.where) + ", by " + text(worst.deviation / loads->sum().absolute, 2) +
+         " of all loads";
+}
+
+template <int dim>
+BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
+{
+  BoundOfStep result;
+  result.missing = no_bound();
+  if (!result.missing.empty())
+    return result;
+  begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
+  StageTimer timer(times.bound);
+  const ErrorBound bound =
+      error_bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
+  result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
+  result.imbalance = bound.imbalance;
+  if (result.missing.empty())
+    result.bound = bound;
+  return result;
+}
+
+// @sect3{What no indicator can see}
+//
+// A jump of the friction bound or the coefficient inside an edge, contact that the points of the
+// multiplier have missed, a gap, a bound or a coefficient that varies between these points, loads
+// that no quadrature resolves and displacements that nodes miss: their cells are bisected until it
+// is resolved.
+template <int dim>
+void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
+{
+  const auto bisect = [&](const auto &places)
+  {
+    for (const auto &place : places)
+      refinement.bisect[place.face->cell->active_cell_index()] = true;
+  };
+  bisect(solution->contact_space.unresolved_jumps(solution->z));
+  bisect(unseen_contacts(*solution));
+  bisect(unseen_gaps(*solution));
+  bisect(solution->contact_space.unresolved_bounds(solution->z));
+  for (const UnresolvedLoad<dim> &load : unresolved)
+    refinement.bisect[load.cell] = true;
+  for (const MissedDisplacement<dim> &displacement : missed_displacements)
+    refinement.bisect[displacement.cell] = true;
+}
+
+template <int dim>
+double ReducedBackend<dim>::missed(const std::optional<ErrorBound> &bound) const
+{
+  if (!unresolved.empty() || !missed_displacements.empty())
+    return std::numeric_limits<double>::infinity();
+  return bound ? bound->oscillation : 0.;
+}
+
+// @sect3{Refine}
+//
+// The mesh is copied, and the copy refined. That costs less than a hundredth of a step, and leaves
+// every solution its own mesh.
+template <int dim>
+void ReducedBackend<dim>::refine(const Refinement &refinement)
+{
+  begin("refining");
+  StageTimer timer(times.refine);
+  // Solutions keep the mesh that they live on.
+  const auto refined = std::make_shared<Triangulation<dim>>();
+  refined->copy_triangulation(*mesh);
+  cell_degrees = refine_mesh(*refined, cell_degrees, refinement);
+  mesh = refined;
+}
+
+// @sect3{What it tells of a step}
+//
+template <int dim>
+ErrorEstimate ReducedBackend<dim>::estimate()
+{
+  begin("estimating the error of " + std::to_string(cell_degrees.size()) + " elements");
+  StageTimer timer(times.estimate);
+  return estimate_error(field());
+}
+
+template <int dim>
+Warnings ReducedBackend<dim>::warnings(const std::vector<ContactState<dim>> &contact,
+                                       const Equilibrium<dim> &) const
+{
+  Warnings result = joined(multiplier_warnings(*solution, contact, algebraic, program.coulomb),
+                           unseen_warnings(*solution));
+  if (const std::string note = dense_note(); !note.empty())
+    result.push_back({WarningKind::dense_work, 0., note});
+  return result;
+}
+
+template <int dim>
+ProblemSize ReducedBackend<dim>::size() const
+{
+  const DisplacementSpace<dim> &space = discretisation->spaces->displacement_space;
+  ProblemSize result{types::global_dof_index(cell_degrees.size()),
+                     space.n_dofs(),
+                     space.n_free_dofs(),
+                     discretisation->spaces->contact_space.n_multipliers(),
+                     {}};
+  for (const unsigned int degree : cell_degrees)
+  {
+    result.cells_of_degree.resize(std::max<std::size_t>(result.cells_of_degree.size(), degree + 1));
+    ++result.cells_of_degree[degree];
+  }
+  return result;
+}
+
+template <int dim>
+std::optional<ReducedPart<dim>> ReducedBackend<dim>::reduced() const
+{
+  return ReducedPart<dim>{*solution,
+                          discretisation->system,
+                          algebraic,
+                          program.qp,
+                          program.coulomb,
+                          program.condition_raw,
+                          program.condition_scaled};
+}
+
+template <int dim>
+SolutionValues ReducedBackend<dim>::values() const
+{
+  return {solution->u, solution->z, motion};
+}
+
+template <int dim>
+bool ReducedBackend<dim>::restore(const SolutionValues &values)
+{
+  const Spaces<dim> &spaces = *discretisation->spaces;
+  if (values.u.size() != spaces.displacement_space.n_dofs() ||
+      values.z.size() != spaces.contact_space.n_multipliers() ||
+      !(values.motion.size() == 0 || values.motion.size() == scene.free_motions().size()))
+    return false;
+  keep_start(values.z, values.motion);
+  take(values.u, values.z);
+  return true;
+}
+
+template class ReducedBackend<2>;
+} // namespace hpvi

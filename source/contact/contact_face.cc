@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/contact_space.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+ContactFrame<dim> ContactFace<dim>::frame(const double s) const
+{
+  return contact_frame<dim>(map, face_no, Point<dim - 1>(s));
+}
+
+template <int dim>
+Point<dim> ContactFace<dim>::point(const double s) const
+{
+  return map.point(point_on_face<dim>(face_no, Point<dim - 1>(s)));
+}
+
+template <int dim>
+double ContactFace<dim>::friction_bound(const Point<dim> &x) const
+{
+  return condition->friction.bound_at(x);
+}
+
+template <int dim>
+double ContactFace<dim>::friction_coefficient(const Point<dim> &x) const
+{
+  return condition->friction.coefficient_at(x);
+}
+
+template <int dim>
+double ContactFace<dim>::friction_without_pressure() const
+{
+  double sum = 0;
+  for (const PointLimit &point : limits)
+    sum += point.weight * point.friction.limit(0.);
+  return length * sum;
+}
+
+template <int dim>
+double ContactFace<dim>::past_slip(const Point<dim> &x) const
+{
+  return past ? past->value(x) : 0.;
+}
+
+std::vector<double> lagrange_basis(const std::vector<double> &points, const double s)
+{
+  std::vector<double> values(points.size(), 1.);
+  for (unsigned int i = 0; i < values.size(); ++i)
+    for (unsigned int k = 0; k < values.size(); ++k)
+      if (k != i)
+        values[i] *= (s - points[k]) / (points[i] - points[k]);
+  return values;
+}
+
+template struct ContactFace<2>;
+} // namespace hpvi

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/boundary_tractions.h>
+#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/stresses/legendre.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Do the traction of an edge at the boundary and the outer normal agree, 1, or not, -1? */
+double outward(const StressEdge &edge)
+{
+  return edge.sides[0].face % 2 ? 1. : -1.;
+}
+} // namespace
+
+BoundaryTractions::BoundaryTractions(const Solution<2> &solution, const VertexPatches &patches,
+                                     const Parts &friction, const Parts &pressure)
+    : solution(solution), patches(patches), halves(patches.edges().size())
+{
+  const auto &faces = solution.contact_space.faces();
+  contact_parts.resize(faces.size());
+  for (unsigned int face = 0; face < faces.size(); ++face)
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      contact_parts[face].friction[end] = friction(face, end);
+      if (faces[face].condition->is_unilateral())
+        contact_parts[face].pressure[end] = pressure(face, end);
+    }
+  for (unsigned int e = 0; e < halves.size(); ++e)
+    if (patches.edges()[e].at_boundary())
+      set(e);
+}
+
+const BoundaryTractions::Halves &BoundaryTractions::of_hats(const unsigned int edge) const
+{
+  return halves[edge];
+}
+
+/** Adds `weight psi traction` at s in [0,1] of an edge, psi the hat function of one end. */
+void BoundaryTractions::add_load(const unsigned int index, const unsigned int end, const double s,
+                                 const double weight, const Tensor<1, 2> &traction)
+{
+  const StressEdge &edge = patches.edges()[index];
+  const std::vector<double> L = legendre::values(edge.degree, 2 * s - 1);
+  const double psi = end == 0 ? 1 - s : s;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    std::vector<double> &coefficients = halves[index][end][c];
+    const double value = 2 * weight * psi * (traction * edge.components[c].direction);
+    for (unsigned int i = 0; i < coefficients.size(); ++i)
+      coefficients[i] += value * L[i];
+  }
+}
+
+/** That of the discrete equations. */
+LoadRule<1> BoundaryTractions::load_rule(const StressEdge &edge) const
+{
+  const StressEdge::Side &side = edge.sides[0];
+  return solution.spaces->loads->traction(patches.cells()[side.cell].iterator, side.face,
+                                          solution.displacement_space.degrees()[side.cell]);
+}
+
+Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) const
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const StressEdge::Side &side = edge.sides[0];
+  const auto face = patches.cells()[side.cell].iterator->face(side.face);
+  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+  return outward(edge) * load_at<2>(condition.traction, x);
+}
+
+/** `-g l t` with the polynomial l of one end. */
+Tensor<1, 2> BoundaryTractions::friction_on(const StressEdge &edge, const unsigned int end,
+                                            const double s, const double bound) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  return -outward(edge) * bound *
+         legendre::evaluate(contact_parts[edge.contact_face].friction[end], 2 * s - 1) *
+         face.frame(s).tangent;
+}
+
+/**
+ * What loads and contact prescribe on an edge of the boundary, in the direction of the edge's traction.
+ * Loads have the quadrature of the discrete equations, so that moments are the same.
+ */
+void BoundaryTractions::set(const unsigned int index)
+{
+  const StressEdge &edge = patches.edges()[index];
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  Quadrature<1> loads;
+  if (condition.has_traction())
+    loads = load_rule(edge).quadrature;
+  for (unsigned int end = 0; end < 2; ++end)
+  {
+    for (unsigned int c = 0; c < 2; ++c)
+      halves[index][end][c].assign(edge.components[c].n, 0.);
+    for (unsigned int q = 0; q < loads.size(); ++q)
+      add_load(index, end, loads.point(q)[0], loads.weight(q), load_on(edge, loads.point(q)[0]));
+    if (edge.contact_face != numbers::invalid_unsigned_int)
+    {
+      const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
+                                              edge.degree - 2, solution.tables);
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+        add_load(index, end, rule.points[q], rule.weights[q],
+                 friction_on(edge, end, rule.points[q], rule.values[q]));
+      const std::vector<double> &t = contact_parts[edge.contact_face].pressure[end];
+      for (unsigned int i = 0; i < t.size(); ++i)
+        halves[index][end][0][i] -= t[i];
+    }
+    meet_ends(edge, end, value(index, end));
+  }
+}
+
+Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) const
+{
+  const StressEdge &edge = patches.edges()[index];
+  Tensor<1, 2> result = load_on(edge, s);
+  if (edge.contact_face == numbers::invalid_unsigned_int)
+    return result;
+  const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
+  const auto &[friction, pressure] = contact_parts[edge.contact_face];
+  const auto at = [s](const std::vector<double> &part)
+  { return legendre::evaluate(part, 2 * s - 1); };
+  const double l = (1 - s) * at(friction[0]) + s * at(friction[1]);
+  return result - outward(edge) * face.friction_bound(face.point(s)) * l * face.frame(s).tangent -
+         (at(pressure[0]) + at(pressure[1])) * edge.normal;
+}
+
+std::vector<std::pair<double, double>> BoundaryTractions::points(const unsigned int index) const
+{
+  const StressEdge &edge = patches.edges()[index];
+  std::vector<double> cuts = {0., 1.};
+  unsigned int n = 8;
+  if (solution.scene.boundaries[edge.boundary].has_traction())
+  {
+    const LoadRule<1> rule = load_rule(edge);
+    cuts = rule.cuts;
+    n = std::max(n, rule.most_points);
+  }
+  if (edge.contact_face != numbers::invalid_unsigned_int)
+  {
+    const auto &others = solution.contact_space.faces()[edge.contact_face].friction.cuts;
+    cuts.insert(cuts.end(), others.begin(), others.end());
+    std::sort(cuts.begin(), cuts.end());
+  }
+  const QGauss<1> &gauss = solution.tables.gauss(edge.degree + n);
+  std::vector<std::pair<double, double>> result;
+  for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double length = cuts[piece + 1] - cuts[piece];
+      result.emplace_back(cuts[piece] + length * gauss.point(q)[0], length * gauss.weight(q));
+    }
+  return result;
+}
+
+/**
+ * The shear at the ends of an edge is that of the neighbouring edges, whatever projections are; the two highest modes
+ * of a component that is known, of the tangential one if it is, make it so.
+ */
+void BoundaryTractions::meet_ends(const StressEdge &edge, const unsigned int end,
+                                  const Tensor<1, 2> &at_end)
+{
+  auto &parts = halves[&edge - patches.edges().data()][end];
+  std::array<double, 2> weights, missing{{0., 0.}};
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    const StressEdge::Component &component = edge.components[c];
+    weights[c] = component.is_unknown ? 0. : edge.weight_in_shear(component);
+    missing[end] += weights[c] * (at_end * component.direction);
+    for (unsigned int i = 0; i < component.n; ++i)
+      for (unsigned int side = 0; side < 2; ++side)
+        missing[side] -= weights[c] * parts[c][i] * legendre::at_end(i, side);
+  }
+  const unsigned int by = weights[1] != 0., n = edge.components[by].n;
+  for (const unsigned int i : {n - 2, n - 1})
+    for (unsigned int side = 0; weights[by] != 0. && side < 2; ++side)
+      parts[by][i] += missing[side] / weights[by] * legendre::at_end(i, side) / (2 * i + 1);
+}
+
+/** S_xy at one end of a boundary edge, as far as it is known. */
+BoundaryTractions::EndShear BoundaryTractions::end_shear(const unsigned int index,
+                                                         const unsigned int end) const
+{
+  const StressEdge &edge = patches.edges()[index];
+  EndShear result;
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    const StressEdge::Component &component = edge.components[c];
+    const double weight = edge.weight_in_shear(component);
+    if (component.is_unknown)
+    {
+      result.is_free |= std::abs(component.direction * edge.tangent) > 1. - 1e-12;
+      result.leans |= weight != 0.;
+      continue;
+    }
+    double value = 0;
+    for (unsigned int i = 0; i < component.n; ++i)
+      value += halves[index][end][c][i] * legendre::at_end(i, end);
+    result.known += weight * value;
+    result.scale += std::abs(value);
+  }
+  return result;
+}
+
+/**
+ * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. The cells
+ * of both share the difference, that of one cell takes it. So they do where other boundaries meet and the shear of one leans on an unknown traction that is not along it: 
+ * that alone could pay for the difference, but by the more the less it leans. Equal shears differ by round-off of the largest
+ * one, more so where vertices far from the origin are rounded.
+ */
+std::vector<unsigned int> BoundaryTractions::marked_corners() const
+{
+  std::vector<unsigned int> result(patches.cells().size());
+  std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> ends;
+  const std::vector<StressEdge> &all = patches.edges();
+  for (unsigned int e = 0; e < all.size(); ++e)
+    if (all[e].at_boundary())
+      for (unsigned int end = 0; end < 2; ++end)
+        ends[all[e].vertices[end]].emplace_back(e, end);
+  double largest = 0;
+  for (const auto &[vertex, edges] : ends)
+    for (const auto &[e, end] : edges)
+      largest = std::max(largest, end_shear(e, end).scale);
+  for (const auto &[vertex, edges] : ends)
+  {
+    const StressEdge &first = all[edges[0].first], &second = all[edges[1].first];
+    const EndShear one = end_shear(edges[0].first, edges[0].second),
+                   other = end_shear(edges[1].first, edges[1].second);
+    const bool differs = std::abs(one.known - other.known) > 1e-10 * largest,
+               leans = first.boundary != second.boundary && (one.leans || other.leans);
+    if (one.is_free || other.is_free || !(differs || leans))
+      continue;
+    for (const auto &[e, end] : edges)
+      result[all[e].sides[0].cell] |=
+          1u << GeometryInfo<2>::face_to_cell_vertices(all[e].sides[0].face, end);
+  }
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/processes.h>
+#include <hpvi/evaluation/field.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <limits>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+Tangential<dim> FaceFrame<dim>::tangential(const Tensor<1, dim - 1> &components) const
+{
+  if constexpr (dim == 2)
+    return components[0];
+  else
+  {
+    Tensor<1, dim> result;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      result += components[s] * tangents[s];
+    return result;
+  }
+}
+
+template <int dim>
+Tangential<dim> FaceFrame<dim>::tangential(const Tensor<1, dim> &u) const
+{
+  if constexpr (dim == 2)
+    return tangents[0] * u;
+  else
+    return u - (normal * u) * normal;
+}
+
+template <int dim>
+unsigned int FieldFace<dim>::degree() const
+{
+  return cell->get_fe().degree;
+}
+
+template <int dim>
+double FieldFace<dim>::area() const
+{
+  Point<dim - 1> middle;
+  for (unsigned int s = 0; s < dim - 1; ++s)
+    middle[s] = 0.5;
+  return map.face_measure(face_no, point_on_face<dim>(face_no, middle));
+}
+
+/** In space the tangents are those of the lines of coordinates: of boxes the axes to the last bit. */
+template <int dim>
+FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
+{
+  FaceFrame<dim> result;
+  result.x = map.point(reference);
+  result.normal = map.normal(face_no, reference);
+  result.measure = map.face_measure(face_no, reference);
+  if constexpr (dim == 2)
+    result.tangents = {{-cross_product_2d(result.normal)}};
+  else
+  {
+    const Tensor<2, dim> columns = transpose(map.jacobian(reference));
+    for (unsigned int d = 0, s = 0; d < dim; ++d)
+      if (d != face_no / 2)
+      {
+        const Tensor<1, dim> along =
+            map.is_affine() ? map.vertices()[1U << d] - map.vertices()[0] : columns[d];
+        result.tangents[s++] = along / along.norm();
+      }
+    const Tensor<1, dim> normal = cross_product_3d(result.tangents[0], result.tangents[1]);
+    result.normal = (normal * result.normal < 0 ? -1. : 1.) / normal.norm() * normal;
+  }
+  return result;
+}
+
+template <int dim>
+Field<dim>::Field(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                  const DoFHandler<dim> &dof_handler)
+    : scene(scene), tables(tables), dof_handler(dof_handler)
+{
+}
+
+template <int dim>
+MPI_Comm Field<dim>::communicator() const
+{
+  return dof_handler.get_communicator();
+}
+
+template <int dim>
+unsigned int Field<dim>::degree(const Cell &cell) const
+{
+  return cell->get_fe().degree;
+}
+
+template <int dim>
+void Field<dim>::add_face(const Cell &cell, const unsigned int face_no)
+{
+  const unsigned int number = contact_faces.size();
+  contact_faces.push_back({cell, face_no, &scene.boundaries[cell->face(face_no)->boundary_id()],
+                           map_of<dim>(cell), number});
+}
+
+template <int dim>
+const std::vector<FieldFace<dim>> &Field<dim>::faces() const
+{
+  return contact_faces;
+}
+
+namespace
+{
+/** The point of the unit cell that lies at @p x; null: @p cell has none. */
+template <int dim>
+std::optional<Point<dim>> reference_of(const typename Field<dim>::Cell &cell, const Point<dim> &x)
+{
+  const double hair = 1e-9;
+  if (!cell->bounding_box().point_inside(x, hair))
+    return std::nullopt;
+  try
+  {
+    const Point<dim> reference = StaticMappingQ1<dim>::mapping.transform_real_to_unit_cell(cell, x);
+    if (GeometryInfo<dim>::is_inside_unit_cell(reference, hair))
+      return GeometryInfo<dim>::project_to_unit_cell(reference);
+  }
+  catch (const typename Mapping<dim>::ExcTransformationFailed &) // far outside a distorted cell
+  {
+  }
+  return std::nullopt;
+}
+
+template <int dim>
+PointValue<dim> value_at(const Field<dim> &field, const typename Field<dim>::Cell &cell,
+                         const Point<dim> &reference)
+{
+  const ShapeTable<dim> table = tabulate<dim>(field.degree(cell), {reference}, {1.}, false);
+  const std::vector<double> coefficients = field.coefficients(cell),
+                            u = evaluate(table.values, coefficients),
+                            derivatives = evaluate(table.derivatives, coefficients);
+  PointValue<dim> result;
+  Tensor<2, dim> gradient;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    result.displacement[c] = u[c];
+    for (unsigned int j = 0; j < dim; ++j)
+      gradient[c][j] = derivatives[c * dim + j];
+  }
+  result.stress = HookesLaw<dim>(field.scene.material_of(cell))
+                      .stress(gradient * invert(map_of<dim>(cell).jacobian(reference)));
+  return result;
+}
+} // namespace
+
+/** Where cells meet and stresses differ the first cell of the first process has a say. */
+template <int dim>
+std::optional<PointValue<dim>> Field<dim>::at(const Point<dim> &x) const
+{
+  std::optional<PointValue<dim>> own;
+  for (const Cell &cell : dof_handler.active_cell_iterators())
+    if (!own && cell->is_locally_owned())
+      if (const auto reference = reference_of<dim>(cell, x))
+        own = value_at(*this, cell, *reference);
+  const unsigned int n = n_processes(communicator()), rank = rank_of(communicator()),
+                     first = Utilities::MPI::min(own ? rank : n, communicator());
+  if (first == n)
+    return std::nullopt;
+  if (n == 1)
+    return own;
+  std::pair<Tensor<1, dim>, SymmetricTensor<2, dim>> values;
+  if (own)
+    values = {own->displacement, own->stress};
+  values = Utilities::MPI::broadcast(communicator(), values, first);
+  return PointValue<dim>{values.first, values.second};
+}
+
+template struct FaceFrame<2>;
+template struct FaceFrame<3>;
+template struct FieldFace<2>;
+template struct FieldFace<3>;
+template class Field<2>;
+template class Field<3>;
+} // namespace hpvi

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/friction_rule.h>
+#include <hpvi/primal/moment_field.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <tuple>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** In the plane one boundary after the other, along the tangent; in space by boundary. */
+template <int dim>
+std::vector<std::pair<typename Field<dim>::Cell, unsigned int>>
+contact_faces(const MomentSpace<dim> &space)
+{
+  struct Place
+  {
+    typename Field<dim>::Cell cell;
+    unsigned int face;
+    types::boundary_id boundary;
+    double along;
+  };
+  std::vector<Place> places;
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->at_boundary())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face) && space.condition(cell, face).has_contact())
+        {
+          // t = (-n_y, n_x): up on the right, to the left on the top
+          const double sign = (face == 0 || face == 3) ? -1. : 1.;
+          places.push_back({cell, face, space.condition(cell, face).id,
+                            dim == 2 ? sign * cell->face(face)->center()[1 - face / 2] : 0.});
+        }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place &a, const Place &b)
+                   { return std::tie(a.boundary, a.along) < std::tie(b.boundary, b.along); });
+  std::vector<std::pair<typename Field<dim>::Cell, unsigned int>> result;
+  for (const Place &place : places)
+    result.emplace_back(place.cell, place.face);
+  return result;
+}
+} // namespace
+
+template <int dim>
+MomentField<dim>::MomentField(const MomentSpace<dim> &space, const ShapeTables<dim> &tables,
+                              const DistributedVector &u,
+                              const std::vector<ContactVector<dim>> &lambda)
+    : MomentField(space.scene, space, tables, {std::shared_ptr<void>(), &u},
+                  {std::shared_ptr<void>(), &lambda})
+{
+}
+
+template <int dim>
+MomentField<dim>::MomentField(const Scene<dim> &scene, const MomentSpace<dim> &space,
+                              const ShapeTables<dim> &tables,
+                              std::shared_ptr<const DistributedVector> u,
+                              std::shared_ptr<const std::vector<ContactVector<dim>>> lambda)
+    : Field<dim>(scene, tables, space.dof_handler), space(space), u(std::move(u)),
+      lambda(std::move(lambda))
+{
+  for (const auto &[cell, face] : contact_faces(space))
+  {
+    this->add_face(cell, face);
+    moment_faces.push_back(space.moment_face(cell, face));
+  }
+  for (const BoxTable<dim> &table : space.tables.moment_points)
+    moment_tables.push_back(tabulate<dim>(space.tables.degree, table.points, table.weights, false));
+}
+
+template <int dim>
+std::vector<double> MomentField<dim>::coefficients(const Cell &cell) const
+{
+  const LocalNumbering &numbering = this->tables.numbering(space.tables.degree);
+  std::vector<types::global_dof_index> dofs(numbering.shape.size());
+  cell->get_dof_indices(dofs);
+  std::vector<double> result(dofs.size());
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    result[numbering.component[i] * space.tables.n_shapes + numbering.shape[i]] = (*u)(dofs[i]);
+  return result;
+}
+
+template <int dim>
+double MomentField<dim>::largest_displacement() const
+{
+  return u->linfty_norm();
+}
+
+template <int dim>
+void MomentField<dim>::attach(DataOut<dim> &out) const
+{
+  out.add_data_vector(this->dof_handler, *u, std::vector<std::string>(dim, "displacement"),
+                      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
+                          dim, DataComponentInterpretation::component_is_part_of_vector));
+}
+
+template <int dim>
+void MomentField<dim>::attach(DataOut<dim> &out, const DataPostprocessor<dim> &fields) const
+{
+  out.add_data_vector(this->dof_handler, *u, fields);
+}
+
+/** At Gauss point @p k. Moments have the axes of the body, to which the tangent in the plane is parallel. */
+template <int dim>
+ContactTraction<dim> MomentField<dim>::multiplier(const FieldFace<dim> &face,
+                                                  const unsigned int k) const
+{
+  ContactTraction<dim> result;
+  const MomentFace<dim> *const own = moment_faces[face.number];
+  if (own && own->has_friction())
+  {
+    const double sign = dim == 2 && (face.face_no == 0 || face.face_no == 3) ? -1. : 1.;
+    result.friction = sign * space.contact[own->friction + k].bound * (*lambda)[own->friction + k];
+  }
+  if (own && own->has_pressure())
+    result.pressure = (*lambda)[own->pressure + k][0];
+  return result;
+}
+
+template <int dim>
+ContactTraction<dim> MomentField<dim>::traction(const FieldFace<dim> &face,
+                                                const Point<dim> &reference) const
+{
+  ContactTraction<dim> result;
+  for (unsigned int k = 0; moment_faces[face.number] && k < space.tables.n_moments(); ++k)
+  {
+    const double psi = space.tables.psi(k, face.face_no, reference);
+    const ContactTraction<dim> own = multiplier(face, k);
+    result.friction += psi * own.friction;
+    result.pressure += psi * own.pressure;
+  }
+  return result;
+}
+
+template <int dim>
+double MomentField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &reference) const
+{
+  const Expression<dim> &g = face.condition->friction.bound;
+  return g ? g->value(face.map.point(reference)) : 0.;
+}
+
+template <int dim>
+Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &, const Point<dim> &) const
+{
+  return {};
+}
+
+template <int dim>
+std::vector<double> MomentField<dim>::friction_cuts(const FieldFace<dim> &face) const
+{
+  const unsigned int p = space.tables.degree;
+  if (!moment_faces[face.number] || !moment_faces[face.number]->has_friction())
+    return {};
+  if constexpr (dim == 2)
+    return make_friction_rule([&](const double s)
+                              { return bound(face, point_on_face<2>(face.face_no, Point<1>(s))); },
+                              this->tables.gauss(p + 1), 2 * p - 2)
+        .cuts;
+  else
+    return {0., 1.};
+}
+
+template <int dim>
+std::vector<MultiplierPoint<dim>> MomentField<dim>::multiplier_points(const FieldFace<dim> &face,
+                                                                      const double negligible) const
+{
+  const ShapeTable<dim> &table = multiplier_table(face);
+  const MomentFace<dim> *const own = moment_faces[face.number];
+  const double area = face.area();
+  std::vector<MultiplierPoint<dim>> result;
+  for (unsigned int k = 0; k < table.points.size(); ++k)
+  {
+    const ContactTraction<dim> traction = multiplier(face, k);
+    result.push_back({table.points[k], table.weights[k] * area,
+                      own && own->has_friction() ? space.contact[own->friction + k].bound : 0.,
+                      traction,
+                      face.condition->is_unilateral() && traction.pressure <= negligible});
+  }
+  return result;
+}
+
+template <int dim>
+const ShapeTable<dim> &MomentField<dim>::multiplier_table(const FieldFace<dim> &face) const
+{
+  return moment_tables[face.face_no];
+}
+
+template <int dim>
+std::vector<PressureValue<dim>> MomentField<dim>::pressures(const FieldFace<dim> &face) const
+{
+  std::vector<PressureValue<dim>> result;
+  const MomentFace<dim> *const own = moment_faces[face.number];
+  for (unsigned int k = 0; own && own->has_pressure() && k < space.tables.n_moments(); ++k)
+    result.push_back({space.contact[own->pressure + k].x, (*lambda)[own->pressure + k][0]});
+  return result;
+}
+
+template <int dim>
+double MomentField<dim>::contact_work() const
+{
+  const DistributedVector v = space.moments(*u);
+  double sum = 0;
+  for (unsigned int k = 0; k < space.contact.size(); ++k)
+    sum += space.contact[k].weight * (*lambda)[k] * (space.moment(v, k) - space.contact[k].gap);
+  return Utilities::MPI::sum(sum, this->communicator());
+}
+
+template <int dim>
+std::unique_ptr<const Field<dim>> MomentField<dim>::last_bits(const Scene<dim> &unloaded) const
+{
+  std::mt19937 random;
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const auto bits = std::make_shared<DistributedVector>(space.ghosted_vector());
+  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  for (const Cell &cell : this->dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      double largest = 0;
+      for (const auto dof : dofs)
+        largest = std::max(largest, std::abs((*u)(dof)));
+      for (const auto dof : dofs)
+        if (space.owned.is_element(dof))
+          (*bits)(dof) = std::numeric_limits<double>::epsilon() * largest * uniform(random);
+    }
+  bits->update_ghost_values();
+  return std::unique_ptr<const Field<dim>>(
+      new MomentField(unloaded, space, this->tables, bits,
+                      std::make_shared<const std::vector<ContactVector<dim>>>(lambda->size())));
+}
+
+template class MomentField<2>;
+template class MomentField<3>;
+} // namespace hpvi

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/primal/nodal_forces.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <set>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** `G lambda` at Gauss point @p k of a face, along the axes of the body. */
+template <int dim>
+Tensor<1, dim> force_at(const MomentSpace<dim> &space, const MomentFace<dim> &face,
+                        const unsigned int k, const std::vector<ContactVector<dim>> &lambda)
+{
+  Tensor<1, dim> result;
+  for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
+    result[tangents<dim>(face.face)[s]] =
+        space.contact[face.friction + k].weight * lambda[face.friction + k][s];
+  if (face.has_pressure())
+  {
+    const ContactMoment<dim> &pressure = space.contact[face.pressure + k];
+    result[face.face / 2] = pressure.sign * pressure.weight * lambda[face.pressure + k][0];
+  }
+  return result;
+}
+
+/** What this process knows of nodes and of the forces there. */
+template <int dim>
+class NodalReactions
+{
+public:
+  using Cell = typename MomentSpace<dim>::Cell;
+
+  NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+                 const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
+  NodalForces<dim> forces() const;
+
+private:
+  void find_nodes();
+  void find_contact_forces(const std::vector<ContactVector<dim>> &lambda);
+  void carry_to_masters();
+
+  const MomentSpace<dim> &space;
+  DistributedVector loads, reactions;
+  struct Node
+  {
+    Point<dim> x;
+    unsigned int component = 0;
+    std::set<types::boundary_id> holds; ///< whose conditions hold it
+  };
+  std::vector<Node> nodes; ///< of the unknowns of this process
+  std::vector<typename NodalForces<dim>::Reaction>
+      contact_forces; ///< of nodes of faces of this process
+};
+
+template <int dim>
+NodalReactions<dim>::NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+                                    const DistributedVector &u,
+                                    const std::vector<ContactVector<dim>> &lambda)
+    : space(space), nodes(space.owned.n_elements())
+{
+  auto forces = system.nodal_forces(u);
+  loads.swap(forces.loads);
+  reactions.swap(forces.internal);
+  reactions -= loads;
+  find_contact_forces(lambda);
+  carry_to_masters();
+  find_nodes();
+}
+
+/** `-sum_k G_k lambda_k m_k(phi_i)`: on inner and rim nodes of contact faces what no support exerts. */
+template <int dim>
+void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<dim>> &lambda)
+{
+  const BoxTables<dim> &tables = space.tables;
+  DistributedVector sum = space.ghosted_vector();
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  for (const MomentFace<dim> &face : space.faces)
+  {
+    face.cell->get_dof_indices(dofs);
+    const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
+    {
+      for (unsigned int j = 0; j < shapes.size(); ++j)
+      {
+        Tensor<1, dim> force;
+        for (unsigned int k = 0; k < tables.n_moments(); ++k)
+          force -= moments(k, j) * force_at(space, face, k, lambda);
+        for (const unsigned int axis : face.axes())
+          sum(dofs[tables.numbers[shapes[j]][axis]]) += force[axis];
+        const unsigned int node = tables.numbers[shapes[j]][0];
+        contact_forces.push_back(
+            {face.cell->face(face.face)->boundary_id(), force,
+             MomentSpace<dim>::point_of(face.cell, tables.fe.unit_support_point(node))});
+      }
+    };
+    add(tables.M, tables.inner[face.face]);
+    add(tables.W, tables.rim[face.face]);
+  }
+  sum.compress(VectorOperation::add);
+  reactions -= sum;
+}
+
+/** What acts on a hanging node acts on those that it depends on. */
+template <int dim>
+void NodalReactions<dim>::carry_to_masters()
+{
+  AffineConstraints<double> hanging(space.relevant);
+  DoFTools::make_hanging_node_constraints(space.dof_handler, hanging);
+  hanging.close();
+  DistributedVector carried = space.ghosted_vector();
+  for (const auto dof : space.owned)
+    if (const auto *const entries = hanging.get_constraint_entries(dof))
+    {
+      for (const auto &[master, weight] : *entries)
+        carried(master) += weight * reactions(dof);
+      carried(dof) -= reactions(dof);
+    }
+  carried.compress(VectorOperation::add);
+  for (const auto dof : space.owned)
+    reactions(dof) += carried(dof);
+}
+
+template <int dim>
+void NodalReactions<dim>::find_nodes()
+{
+  const FESystem<dim> &fe = space.tables.fe;
+  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+  {
+    if (cell->is_artificial())
+      continue;
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      if (!space.owned.is_element(dofs[i]))
+        continue;
+      Node &node = nodes[space.owned.index_within_set(dofs[i])];
+      node.x = MomentSpace<dim>::point_of(cell, fe.unit_support_point(i));
+      node.component = fe.system_to_component_index(i).first;
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face) && fe.has_support_on_face(i, face))
+        {
+          const BoundaryCondition<dim> &condition = space.condition(cell, face);
+          if (condition.displacement[node.component] ||
+              (condition.holds_normal() && node.component == face / 2))
+            node.holds.insert(condition.id);
+        }
+    }
+  }
+}
+
+/** Where several boundaries hold a node they share the reaction. */
+template <int dim>
+NodalForces<dim> NodalReactions<dim>::forces() const
+{
+  NodalForces<dim> result;
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+  {
+    const Node &node = nodes[i];
+    if (const double load = loads.local_element(i); load != 0)
+      result.loads.push_back({node.component, load, node.x});
+    Tensor<1, dim> force;
+    force[node.component] =
+        reactions.local_element(i) / std::max<std::size_t>(1, node.holds.size());
+    for (const types::boundary_id boundary : node.holds)
+      result.reactions.push_back({boundary, force, node.x});
+  }
+  result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
+  return result;
+}
+} // namespace
+
+template <int dim>
+NodalForces<dim> nodal_forces(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+                              const DistributedVector &u,
+                              const std::vector<ContactVector<dim>> &lambda)
+{
+  return NodalReactions<dim>(space, system, u, lambda).forces();
+}
+
+template NodalForces<2> nodal_forces(const MomentSpace<2> &, const PrimalSystem<2> &,
+                                     const DistributedVector &,
+                                     const std::vector<ContactVector<2>> &);
+template NodalForces<3> nodal_forces(const MomentSpace<3> &, const PrimalSystem<3> &,
+                                     const DistributedVector &,
+                                     const std::vector<ContactVector<3>> &);
+} // namespace hpvi

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
+#include <hpvi/output/contact_report.h>
+#include <hpvi/output/output.h>
+#include <hpvi/primal/load_check.h>
+#include <hpvi/program/failure.h>
+#include <hpvi/program/interruption.h>
+#include <hpvi/program/run.h>
+#include <hpvi/program/started_processes.h>
+#include <hpvi/program/terminal.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace hpvi
+{
+namespace
+{
+/** A load history has one for its first load step. */
+template <int dim>
+bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
+{
+  return !is_primal && scene.error_bound &&
+         (scene.has_load_history() || scene.no_error_bound().empty());
+}
+
+/** The true error has a column only where there is something to compare with, time in a history. */
+template <int dim>
+void print_table_head(const Scene<dim> &scene, const bool is_primal)
+{
+  std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
+            << (has_bound_column(scene, is_primal) ? "     bound" : "")
+            << (scene.has_known_solution() ? "  true_error" : "")
+            << (is_primal ? "       slack  newton  cg_steps   seconds"
+                          : "       slack qp_products   seconds")
+            << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
+}
+
+template <int dim>
+void print_row(const StepReport<dim> &step)
+{
+  const bool is_primal = bool(step.primal);
+  std::ostringstream degrees;
+  degrees << step.size.p_min();
+  if (!is_primal)
+    degrees << '-' << step.size.p_max();
+  std::cout << std::setw(4) << step.number << std::setw(10) << step.size.n_cells << std::setw(11)
+            << step.size.n_free << std::setw(is_primal ? 12 : 10) << step.size.n_multipliers
+            << std::setw(is_primal ? 3 : 6) << degrees.str() << std::scientific
+            << std::setprecision(3) << std::setw(is_primal ? 12 : 11) << step.norms.total
+            << std::setprecision(1) << std::setw(10) << step.relative_estimate;
+  if (step.bound)
+    std::cout << std::setw(10) << step.relative_bound;
+  else if (has_bound_column(step.scene, is_primal))
+    std::cout << std::setw(10) << "-";
+  if (!std::isnan(step.errors.energy))
+    std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
+  std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack;
+  if (is_primal)
+    std::cout << std::setw(8) << step.primal->newton.steps + step.primal->newton.augmented_steps
+              << std::setw(10) << step.primal->newton.cg_steps;
+  else
+    std::cout << std::setw(12) << step.reduced->qp.multiplications;
+  std::cout << std::fixed << std::setprecision(2) << std::setw(10) << step.seconds;
+  if (step.load.number > 0)
+    std::cout << std::setw(10) << step.load.number << std::setprecision(4) << std::setw(8)
+              << step.load.t;
+  std::cout << std::endl;
+}
+
+/** What became of a history, nothing without one. */
+std::string work_in_words(const LoadStep &load)
+{
+  if (load.number == 0)
+    return {};
+  return "load history: work " + text(load.work, 6) + ", stored " + text(load.stored, 6) +
+         ", dissipated by friction " + text(load.dissipated, 6) + ", released " +
+         text(load.released, 2) + ", unbalanced " + text(load.unbalanced, 2) + "\n";
+}
+
+/** Why the last step has no bound of its error, where steps may have one; nothing else. */
+template <int dim>
+std::string missing_bound_in_words(const StepReport<dim> &step, const std::string &last_bound)
+{
+  if constexpr (dim == 2)
+    if (step.reduced && !step.solution().spaces->no_error_bound(step.scene).empty())
+      return {};
+  if (step.bound || step.primal || !step.scene.error_bound)
+    return {};
+  return "\nno bound of the error in step " + text(step.number) + ": " + step.no_bound +
+         (last_bound.empty() ? "" : "; " + last_bound) + "\n";
+}
+
+/** How well forces balance, and what Newton's method has to do with it. */
+template <int dim>
+std::string balance_in_words(const StepReport<dim> &step)
+{
+  const double tolerance = step.scene.solver.primal_tolerance;
+  return "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) + ", moments to " +
+         text(step.equilibrium.moment_imbalance, 2) + " of their absolute sums" +
+         (step.primal
+              ? ";\n  Newton's method left " + text(step.primal->newton.residual, 2) +
+                    " of the loads, for Solver/Primal tolerance = " + text(tolerance) +
+                    (tolerance > 0 ? ""
+                                   : ": enough beside the error of the mesh, 1e-10 balances them")
+              : "") +
+         "\n";
+}
+
+/** What is said when the last step is over. */
+struct Ending
+{
+  StageTimes times;
+  std::vector<std::string> warnings;
+  std::string words, reason;
+  std::string last_bound; ///< of the last step that has one
+
+  template <int dim>
+  void hear(const StepReport<dim> &step);
+};
+
+template <int dim>
+void Ending::hear(const StepReport<dim> &step)
+{
+  times += step.times;
+  reason = last_word(step.stopped_by, step.scene.adaptivity, bool(step.bound));
+  warnings = texts(step.warnings);
+  if (step.bound)
+    last_bound = "that of step " + text(step.number) + " is " + text(step.relative_bound, 2) +
+                 " of the solution";
+  if (!step.stopped_by.empty())
+    words = contact_in_words(step.scene, step.contact, step.equilibrium, step.unbounded) +
+            balance_in_words(step) + missing_bound_in_words(step, last_bound) +
+            work_in_words(step.load);
+}
+
+/** A signal reaches processes at different times: they stop where the first one has noticed. */
+void stop_all_if_interrupted()
+{
+  int signal = 0;
+  try
+  {
+    stop_if_interrupted();
+  }
+  catch (const Interruption &interruption)
+  {
+    signal = interruption.signal;
+  }
+  if (signal = dealii::Utilities::MPI::max(signal, MPI_COMM_WORLD); signal != 0)
+    throw Interruption(signal);
+}
+
+/** What the first step may still reject comes before anything is written; where it fails, the run will say so. */
+template <int dim>
+void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &)> &announce)
+{
+  try
+  {
+    solver.prepare(announce);
+  }
+  catch (const NumericalFailure &)
+  {
+  }
+}
+
+/** The resultant of all loads, a line; throws InputError where one is no number. */
+std::string loads_in_words(const Scene<2> &scene, const bool is_primal)
+{
+  return is_primal ? LoadCheck<2>(scene).in_words() + "\n" : loads_in_words(scene);
+}
+
+std::string loads_in_words(const Scene<3> &scene, bool)
+{
+  return LoadCheck<3>(scene).in_words() + "\n";
+}
+
+template <int dim>
+void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::string &directory,
+                const std::string &loads)
+{
+  const unsigned int n = n_started_processes();
+  std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
+            << legible(scene.title) << '\n'
+            << replacement_in_words(output.replaced_scene(), directory) << '\n'
+            << loads << std::endl;
+}
+
+template <int dim>
+void print_end(const Scene<dim> &scene, const Ending &ending, const std::string &directory)
+{
+  print_stages(ending.times);
+  std::cout << ending.words;
+  for (const std::string &warning : ending.warnings)
+    std::cout << "\nwarning: " << warning;
+  std::cout << (ending.warnings.empty() ? "" : "\n") << '\n'
+            << (scene.has_load_history()
+                    ? std::to_string(scene.loading.steps) + " load steps; the last "
+                    : "")
+            << ending.reason << "\nresults in " << directory << std::endl;
+  check_standard_output("; the results in " + printable(directory) + " are complete");
+}
+} // namespace
+
+template <int dim>
+void run(const Scene<dim> &scene, const std::string &directory)
+{
+  note_interruptions();
+  ProgressLine progress;
+  const auto announce = [&](const Progress &stage)
+  {
+    stop_all_if_interrupted();
+    progress.show(stage);
+  };
+  const bool is_primal = takes_primal_path(scene, n_started_processes());
+  LoadHistory<dim> solver(scene, MPI_COMM_WORLD);
+  const std::string loads = loads_in_words(scene, is_primal);
+  prepare(solver, announce);
+  progress.erase();
+  Output<dim> output(scene, directory, MPI_COMM_WORLD);
+  Ending ending;
+  print_head(scene, output, directory, loads);
+  print_table_head(scene, is_primal);
+  try
+  {
+    solver.run(
+        [&](const StepReport<dim> &step)
+        {
+          progress.erase();
+          print_row(step);
+          ending.hear(step);
+          output.write_step(step);
+        },
+        announce);
+  }
+  catch (const Interruption &interruption)
+  {
+    progress.erase();
+    output.give_up("interrupted", interruption.what());
+    throw Interruption(interruption.signal,
+                       "; " + output.safe_steps() + " in " + printable(directory));
+  }
+  catch (const std::exception &error)
+  {
+    output.give_up("failed", failure_line(error)); // the finished steps stay
+    throw;
+  }
+  output.finish();
+  print_end(scene, ending, directory);
+}
+
+template void run(const Scene<2> &, const std::string &);
+template void run(const Scene<3> &, const std::string &);
+} // namespace hpvi

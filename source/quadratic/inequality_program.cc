@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/quadratic/inequality_program.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int none = numbers::invalid_unsigned_int;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/** What counts as zero: of the slack of a row, and of the part of a row that no other one implies. */
+constexpr double round_off = 1e-14, dependent = 1e-10;
+
+/** `L^-1` with `H = LL'`. */
+FullMatrix<double> inverse_factor(const FullMatrix<double> &H)
+{
+  const unsigned int n = H.m();
+  FullMatrix<double> L(n, n), inverse(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+    {
+      double rest = H(i, j);
+      for (unsigned int k = 0; k < j; ++k)
+        rest -= L(i, k) * L(j, k);
+      if (i == j && !(rest > 0.))
+        throw NumericalFailure("the matrix of a quadratic program is not positive definite");
+      L(i, j) = i == j ? std::sqrt(rest) : rest / L(j, j);
+    }
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    inverse(i, i) = 1.;
+    for (unsigned int k = 0; k < i; ++k)
+      for (unsigned int j = 0; j <= k; ++j)
+        inverse(i, j) -= L(i, k) * inverse(k, j);
+    for (unsigned int j = 0; j <= i; ++j)
+      inverse(i, j) /= L(i, i);
+  }
+  return inverse;
+}
+} // namespace
+
+InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<double> &h)
+    : x(h.size()), J(inverse_factor(H)), R(h.size(), h.size())
+{
+  Vector<double> Jh(h.size());
+  J.vmult(Jh, h);
+  J.Tvmult(x, Jh);
+}
+
+bool InequalityProgram::add_equality(Vector<double> row, const double value)
+{
+  const double length = row.l2_norm();
+  rows.push_back({std::move(row), value, length, true});
+  is_in.push_back(false);
+  return take_in(rows.size() - 1);
+}
+
+void InequalityProgram::add_inequality(Vector<double> row, const double least)
+{
+  const double length = row.l2_norm();
+  rows.push_back({std::move(row), least, length, false});
+  is_in.push_back(false);
+}
+
+/** `row' x - bound`, zero where round-off of @p tolerance cannot tell. */
+double InequalityProgram::slack(const Row &row, const double tolerance) const
+{
+  double sum = -row.bound, size = std::abs(row.bound);
+  for (unsigned int i = 0; i < x.size(); ++i)
+  {
+    sum += row.coefficients[i] * x[i];
+    size += std::abs(row.coefficients[i] * x[i]);
+  }
+  return std::abs(sum) > tolerance * size ? sum : 0.;
+}
+
+/** Farthest from where it holds, of the inequalities. */
+unsigned int InequalityProgram::most_violated() const
+{
+  unsigned int result = none;
+  double worst = 0.;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    if (!is_in[i] && !rows[i].is_equality)
+    {
+      const double violation = -slack(rows[i], round_off) / rows[i].length;
+      if (violation > worst)
+      {
+        worst = violation;
+        result = i;
+      }
+    }
+  return result;
+}
+
+bool InequalityProgram::solve(const double implied)
+{
+  const unsigned int patience = 20 * (x.size() + rows.size());
+  for (unsigned int step = 0; step < patience; ++step)
+  {
+    const unsigned int row = most_violated();
+    if (row == none)
+      return true;
+    if (take_in(row))
+      continue;
+    if (slack(rows[row], implied) != 0.)
+      return false;
+    is_in[row] = true;
+  }
+  return false;
+}
+
+/** Move to the minimiser over the active rows and this one, giving up inequalities on the way. */
+bool InequalityProgram::take_in(const unsigned int row)
+{
+  Vector<double> d(x.size()), z(x.size());
+  for (double multiplier = 0.;;)
+  {
+    J.vmult(d, rows[row].coefficients);
+    const std::vector<double> r = combination(d);
+    double dual_step = infinity;
+    unsigned int blocking = none;
+    for (unsigned int k = 0; k < r.size(); ++k)
+      if (!rows[active[k]].is_equality && r[k] > 0. && y[k] / r[k] < dual_step)
+      {
+        dual_step = y[k] / r[k];
+        blocking = k;
+      }
+    Vector<double> free(d);
+    std::fill(free.begin(), free.begin() + r.size(), 0.);
+    const bool is_independent = free.l2_norm() > dependent * d.l2_norm();
+    if (!is_independent && rows[row].is_equality)
+      return slack(rows[row], dependent) == 0.; // what others imply need not be active
+    double full_step = infinity;
+    if (is_independent)
+      full_step = -slack(rows[row], 0.) / free.norm_sqr();
+    const double step = std::min(dual_step, full_step);
+    if (step == infinity)
+      return false;
+    if (is_independent)
+    {
+      J.Tvmult(z, free);
+      x.add(step, z);
+    }
+    for (unsigned int k = 0; k < r.size(); ++k)
+      y[k] -= step * r[k];
+    multiplier += step;
+    if (step == full_step)
+    {
+      activate(row, multiplier, d);
+      return true;
+    }
+    drop(blocking);
+  }
+}
+
+/** The row as a sum over active ones, as far as it is one: `R^-1 d_1`, d_1 the first entries of d. */
+std::vector<double> InequalityProgram::combination(const Vector<double> &d) const
+{
+  std::vector<double> r(active.size());
+  for (unsigned int i = r.size(); i-- > 0;)
+  {
+    r[i] = d[i];
+    for (unsigned int k = i + 1; k < r.size(); ++k)
+      r[i] -= R(i, k) * r[k];
+    r[i] /= R(i, i);
+  }
+  return r;
+}
+
+/** Turn rows i and i + 1 of J so that (a, b) becomes (length, 0). */
+InequalityProgram::Rotation InequalityProgram::rotate(const unsigned int i, const double a,
+                                                      const double b)
+{
+  const double length = std::hypot(a, b);
+  const Rotation turn{length == 0. ? 1. : a / length, length == 0. ? 0. : b / length};
+  for (unsigned int k = 0; k < J.n(); ++k)
+    turn.apply(J(i, k), J(i + 1, k));
+  return turn;
+}
+
+/** The last active row from now on is @p row with `d = J row`. */
+void InequalityProgram::activate(const unsigned int row, const double multiplier, Vector<double> &d)
+{
+  const unsigned int q = active.size();
+  for (unsigned int i = d.size() - 1; i > q; --i)
+    rotate(i - 1, d[i - 1], d[i]).apply(d[i - 1], d[i]);
+  for (unsigned int i = 0; i <= q; ++i)
+    R(i, q) = d[i];
+  active.push_back(row);
+  y.push_back(multiplier);
+  is_in[row] = true;
+}
+
+void InequalityProgram::drop(const unsigned int place)
+{
+  is_in[active[place]] = false;
+  active.erase(active.begin() + place);
+  y.erase(y.begin() + place);
+  for (unsigned int k = place; k < active.size(); ++k)
+    for (unsigned int i = 0; i <= k + 1; ++i)
+      R(i, k) = R(i, k + 1);
+  for (unsigned int k = place; k < active.size(); ++k)
+  {
+    const Rotation turn = rotate(k, R(k, k), R(k + 1, k));
+    for (unsigned int column = k; column < active.size(); ++column)
+      turn.apply(R(k, column), R(k + 1, column));
+  }
+}
+
+const Vector<double> &InequalityProgram::minimiser() const
+{
+  return x;
+}
+
+std::vector<double> InequalityProgram::multipliers() const
+{
+  std::vector<double> result(rows.size());
+  for (unsigned int k = 0; k < active.size(); ++k)
+    result[active[k]] = y[k];
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/scene_hints.h>
+
+namespace hpvi
+{
+namespace
+{
+std::vector<Hint> hints_about_body()
+{
+  const std::string elasticity = "\"Material/Young's modulus\" and \"Material/Poisson's ratio\"";
+  return {{{"e", "young", "modulus", "elastic modulus", "modulus of elasticity", "stiffness"},
+           "set \"Material/Young's modulus\""},
+          {{"nu", "poisson", "poisson number"}, "set \"Material/Poisson's ratio\""},
+          {{"lambda", "shear modulus", "bulk modulus", "lame parameters", "elasticity"},
+           "set " + elasticity},
+          {{"density", "rho", "gravity", "weight", "g", "self weight"},
+           "weight is \"Body force/Expression\" = Fx; Fy, density times gravity"},
+          {{"domain", "box", "size", "width", "height", "length", "dimensions", "corner"},
+           "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\""},
+          {{"mesh", "mesh size", "grid", "cells", "elements", "element size", "resolution", "nx",
+            "ny", "n", "h", "refinement", "refinements", "refinement levels", "initial refinement",
+            "global refinement"},
+           "\"Geometry/Subdivisions\" makes the coarse mesh, and \"Adaptivity/Method\" refines it"},
+          {{"2d", "3d", "dim", "space"}, "set \"Dimension\" to 2 or 3, outside of subsections"},
+          {{"constants", "constant", "function constants", "variables", "parameters"},
+           "no names can be declared; expressions know x and y and the constants pi, E, nu and mu"},
+          {{"name", "description"}, "set \"Title\", outside of subsections"}};
+}
+
+std::vector<Hint> hints_about_conditions()
+{
+  return {
+      {{"pressure"},
+       "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, which is -p n for a pressure "
+       "p, n "
+       "the outer normal"},
+      {{"force", "forces", "load", "loads", "surface load", "line load", "point load", "neumann",
+        "neumann boundary", "surface force", "surface traction"},
+       "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, a force per area, and one in "
+       "the body \"Body force/Expression\" = Fx; Fy"},
+      {{"volume force", "volume load", "body load", "body forces"},
+       "set \"Body force/Expression\" = Fx; Fy"},
+      {{"fixed", "fix", "clamped", "clamp", "support", "supports", "dirichlet",
+        "dirichlet boundary", "constraint", "constraints", "held", "u", "ux", "uy", "uz"},
+       "a support is \"Boundary left/Displacement\" = ux; uy, with `free` for a component that may "
+       "move"},
+      {{"symmetry", "roller", "sliding"},
+       "a plane that the body slides along is \"Boundary left/Contact\" = bilateral"},
+      {{"obstacle", "foundation", "clearance", "interference", "penetration"},
+       "set \"Boundary bottom/Gap\", with \"Boundary bottom/Contact\" = unilateral"},
+      {{"unilateral", "bilateral", "frictionless", "contact type", "contact pair"},
+       "set \"Boundary bottom/Contact\" to bilateral, unilateral or tangential"},
+      {{"penalty", "contact stiffness", "penalty parameter"},
+       "contact has no constant to choose; remove it"}};
+}
+
+std::vector<Hint> hints_about_method()
+{
+  return {{{"degree", "order", "polynomial degree", "element order", "p", "finite element"},
+           "set \"Adaptivity/Start degree\""},
+          {{"steps", "max steps", "number of steps", "iterations"},
+           "the number of adaptive steps is \"Adaptivity/Maximum steps\", that of load steps "
+           "\"Loading/Steps\""},
+          {{"max unknowns", "maximum dofs", "max dofs"}, "set \"Adaptivity/Maximum unknowns\""},
+          {{"max seconds", "time limit"}, "set \"Adaptivity/Maximum seconds\""},
+          {{"error", "accuracy", "precision"}, "set \"Adaptivity/Tolerance\""},
+          {{"adaptive", "adaptive refinement", "refine", "strategy"}, "set \"Adaptivity/Method\""},
+          {{"output directory", "directory", "folder"},
+           "the directory is that of the option --output"}};
+}
+
+const std::vector<std::string> words_of_friction = {
+    "friction", "coefficient",     "friction law", "coulomb", "coulomb friction",
+    "tresca",   "tresca friction", "mu_f",         "mu",      "coefficient of friction"};
+
+std::vector<Hint> hints_in_plane()
+{
+  return {
+      {words_of_friction,
+       "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
+       "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
+       "modulus\" and \"Material/Poisson's ratio\""},
+      {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
+      {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
+      {{"thickness"},
+       "there is none: loads are stresses, and forces those of a body of thickness 1"},
+      {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
+       "a load history has \"Loading/Steps\", in which t runs from 0 to 1"}};
+}
+
+std::vector<Hint> hints_in_space()
+{
+  return {{words_of_friction,
+           "friction is \"Boundary bottom/Friction bound\", Tresca's; a shear modulus follows from "
+           "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
+          {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
+          {{"corners"}, "space has no shape but the box; remove it"},
+          {{"exact solution"}, "space offers no closed form; remove it"},
+          {{"mesh picture"}, "it shows a plane; remove it, solution-NN.vtu has the mesh"},
+          {{"bound", "bound on distorted cells"},
+           "space has no guaranteed bound of the error, but an indicator; remove it"}};
+}
+} // namespace
+
+std::vector<Hint> scene_hints(const int dim, const std::vector<std::string> &boundaries)
+{
+  std::vector<Hint> hints{
+      {{"boundary", "boundaries", "boundary condition", "boundary conditions", "bc"},
+       "conditions stand in the subsections Boundary " + listed(boundaries, "and")}};
+  for (const std::vector<Hint> &some :
+       {dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),
+        hints_about_conditions(), hints_about_method()})
+    hints.insert(hints.end(), some.begin(), some.end());
+  for (Hint &hint : hints)
+    if (dim == 3)
+      hint.remedy = in_space(hint.remedy);
+  return hints;
+}
+} // namespace hpvi

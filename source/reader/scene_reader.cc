@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/reader/scene_reader.h>
+
+#include <hpvi/base/text.h>
+#include <hpvi/closed_forms/closed_form.h>
+#include <hpvi/input/expressions.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/scene_hints.h>
+#include <hpvi/shapes/shape.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <type_traits>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** The enumerator whose name is the value of an entry. */
+template <class Enum>
+Enum read_choice(const Parameters &parameters, const std::string &section, const std::string &name,
+                 const std::vector<std::string> &names)
+{
+  const auto found = std::find(names.begin(), names.end(), parameters.text(section, name));
+  return static_cast<Enum>(found - names.begin());
+}
+
+/** Takes the value of an entry, for for_each_value(). */
+struct ReadValue
+{
+  const Parameters &parameters;
+
+  void operator()(const char *section, const char *name, double &value) const
+  {
+    value = parameters.number(section, name);
+  }
+
+  void operator()(const char *section, const char *name, bool &value) const
+  {
+    value = parameters.boolean(section, name);
+  }
+
+  template <class Integer>
+  void operator()(const char *section, const char *name, Integer &value) const
+  {
+    value = parameters.integer(section, name);
+  }
+};
+
+/** What expressions may use; the time @p t in a load history. */
+std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
+{
+  std::map<std::string, double> constants = material.constants();
+  constants.emplace("pi", numbers::PI);
+  if (t)
+    constants.emplace("t", *t);
+  return constants;
+}
+
+// ---------------------------------------------------------------- the exact solution
+
+/** The value of a friction bound that is the same all along @p side; NaN if it is not. */
+double constant_friction_bound(const Parameters &parameters, const ExpressionReader<2> &expressions,
+                               const std::string &boundary, const Side<2> &side)
+{
+  const std::vector<Point<2>> points = side.sample();
+  const auto bound =
+      expressions.read_bound(boundary, "Friction bound", points, "Tresca's bound needs g >= 0");
+  if (bound == nullptr || parameters.text(boundary, "Contact") == "none")
+    return 0.;
+  const double value = bound->value(points[0]);
+  const bool constant =
+      std::all_of(points.begin(), points.end(),
+                  [&](const Point<2> &point) { return bound->value(point) == value; });
+  return constant ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/** Every one of them slides along a side of the body, on y = 0. */
+std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &parameters,
+                                                            const ExpressionReader<2> &expressions,
+                                                            const Scene<2> &scene)
+{
+  const std::string solution = parameters.text("Exact solution", "Solution");
+  const auto form = std::find_if(closed_forms().begin(), closed_forms().end(),
+                                 [&](const ClosedForm &one) { return one.name == solution; });
+  if (form == closed_forms().end())
+    return nullptr;
+  const auto is_below = [](const Side<2> &side)
+  {
+    const std::vector<Point<2>> points = side.sample();
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Point<2> &x) { return x[1] == 0. && side.normal(x)[1] <= 0; });
+  };
+  const std::vector<Side<2>> sides = sides_of(scene.geometry);
+  const auto side = std::find_if(sides.begin(), sides.end(), is_below);
+  if (side == sides.end())
+    parameters.reject("Exact solution", "Solution",
+                      "slides along y = 0 below the body; put the bottom edge there");
+  const std::string boundary = "Boundary " + scene.boundaries[side - sides.begin()].name;
+  const auto bound = [&]()
+  { return constant_friction_bound(parameters, expressions, boundary, *side); };
+  return form->read({parameters, scene.materials[0], boundary, bound});
+}
+
+// ---------------------------------------------------------------- the rest
+
+/** What `exact` stands for on @p boundary; nothing in space, where no closed form is offered. */
+template <int dim>
+std::array<typename ExpressionReader<dim>::ExactField, 2>
+exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boundary)
+{
+  if constexpr (dim == 2)
+    if (scene.exact_solution != nullptr)
+      return {{[&scene](const unsigned int c)
+               { return std::make_shared<ExactDisplacement<2>>(scene.exact_solution, c); },
+               [&scene, boundary](const unsigned int c)
+               {
+                 return std::make_shared<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
+                                                           sides_of(scene.geometry)[boundary], c);
+               }}};
+  const auto none = [](const unsigned int) { return nullptr; };
+  (void)scene, (void)boundary;
+  return {{none, none}};
+}
+
+template <int dim>
+void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                   const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
+{
+  const std::vector<Point<dim>> points = sides_of(scene.geometry)[boundary.id].sample();
+  const auto [exact_displacement, exact_traction] =
+      exact_displacement_and_traction(scene, boundary.id);
+
+  const std::string section = "Boundary " + boundary.name;
+  boundary.displacement =
+      expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
+  boundary.traction =
+      expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
+  boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
+  boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
+  boundary.friction.bound =
+      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
+  boundary.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
+                                                         "Coulomb's coefficient needs mu_f >= 0");
+  boundary.friction.form =
+      read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
+  // Even a zero is one too many.
+  if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
+    parameters.reject(section, "Gap", gap_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty())
+    parameters.reject(section, "Friction bound", friction_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction coefficient").empty())
+    parameters.reject(section, "Friction coefficient", friction_needs_contact);
+}
+
+template <int dim>
+void read_method(const Parameters &parameters, Scene<dim> &scene)
+{
+  for_each_value(scene, ReadValue{parameters});
+  const auto choose = [&](auto &value, const char *section, const char *name, const auto &names)
+  { value = read_choice<std::decay_t<decltype(value)>>(parameters, section, name, names); };
+  choose(scene.adaptivity.method, "Adaptivity", "Method", method_names);
+  choose(scene.adaptivity.indicator, "Adaptivity", "Indicator", indicator_names);
+  choose(scene.adaptivity.tolerance_on, "Adaptivity", "Tolerance on", indicator_names);
+  choose(scene.adaptivity.reading, "Adaptivity", "Smoothness reading", reading_names);
+  choose(scene.output.steps, "Output", "Steps", output_steps_names);
+  choose(scene.solver.path, "Solver", "Path", path_names);
+  choose(scene.solver.linear, "Solver", "Linear", linear_names);
+  choose(scene.solver.qp_solver, "Solver", "QP solver", qp_solver_names);
+  choose(scene.solver.coulomb_method, "Solver", "Coulomb solver", coulomb_method_names);
+  choose(scene.solver.normal_contact, "Solver", "Normal contact", normal_contact_names);
+}
+
+bool is_in_space(const Parameters &parameters)
+{
+  return parameters.text("", "Dimension") == "3";
+}
+
+/** Does the scene leave it to the program when to stop, and is its error the only thing to look at? */
+bool names_no_end(const Parameters &parameters)
+{
+  const std::vector<std::string> limits = {"Maximum steps", "Maximum unknowns", "Maximum seconds"};
+  return std::none_of(limits.begin(), limits.end(),
+                      [&](const std::string &limit)
+                      { return parameters.is_named("Adaptivity", limit); }) &&
+         parameters.text("Loading", "Steps").empty() &&
+         (is_in_space(parameters) || parameters.text("Exact solution", "Solution") == "none") &&
+         parameters.text("Error", "Reference solution").empty() &&
+         !parameters.boolean("Output", "Reference solution");
+}
+
+/** The number for Adaptivity/Tolerance = automatic; returns whether it is the default. */
+bool choose_tolerance(Parameters &parameters, const SceneUse use)
+{
+  if (parameters.text("Adaptivity", "Tolerance") != "automatic")
+    return false;
+  const bool is_default = use == SceneUse::solve && names_no_end(parameters);
+  parameters.set("Adaptivity", "Tolerance", is_default ? default_tolerance : "0");
+  // No bound is asked for where there can be none.
+  if (is_default && !parameters.is_named("Adaptivity", "Tolerance on") &&
+      (is_in_space(parameters) || parameters.text("Solver", "Path") == "primal"))
+    parameters.set("Adaptivity", "Tolerance on", "residual");
+  return is_default;
+}
+
+/** What the file leaves to the program, which scene.prm shall say. */
+void complete(Parameters &parameters, const std::string &name)
+{
+  if (parameters.text("", "Title").empty())
+    parameters.set("", "Title", storable(name));
+  if (parameters.integer("Adaptivity", "Start degree") == 0)
+    parameters.set("Adaptivity", "Start degree",
+                   std::to_string(own_start_degree(
+                       read_choice<Method>(parameters, "Adaptivity", "Method", method_names))));
+}
+
+/** What `automatic` is for the scene that was read, in it and for scene.prm. */
+template <int dim>
+void settle_normal_contact(Parameters &parameters, Scene<dim> &scene)
+{
+  scene.solver.normal_contact = scene.normal_contact();
+  parameters.set("Solver", "Normal contact",
+                 normal_contact_names[static_cast<unsigned int>(scene.solver.normal_contact)]);
+}
+
+/** All but the load history; @p t is its time, if there is one. */
+template <int dim>
+Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
+                        const std::string &name, const std::optional<double> t)
+{
+  Scene<dim> scene;
+  scene.parameters = parameters;
+  scene.name = name;
+  scene.title = parameters->text("", "Title");
+  scene.length_unit = parameters->text("Units", "Length");
+  scene.stress_unit = parameters->text("Units", "Stress");
+
+  scene.geometry = read_geometry<dim>(*parameters);
+  read_method(*parameters, scene);
+
+  // Expressions are tried on the body and know its material: both must be sound.
+  scene.materials = {read_material(*parameters, dim)};
+  scene.check_body();
+  const ExpressionReader<dim> expressions(*parameters, constants_of(scene.materials[0], t));
+  scene.body_force =
+      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
+  if constexpr (dim == 2)
+    scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
+  for (BoundaryCondition<dim> &boundary : scene.boundaries)
+    read_boundary(*parameters, expressions, scene, boundary);
+  scene.reference_solution = parameters->text("Error", "Reference solution");
+  return scene;
+}
+
+/** A history has the functions of every load step, which are those of one problem with t frozen. */
+template <int dim>
+Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
+                          const std::string &name)
+{
+  Loading<dim> loading;
+  loading.adapt =
+      read_choice<LoadAdaptivity>(*parameters, "Loading", "Adapt", load_adaptivity_names);
+  if (!parameters->text("Loading", "Steps").empty())
+  {
+    loading.steps = parameters->integer("Loading", "Steps");
+    loading.at = [=](const double t) { return read_problem<dim>(parameters, name, t); };
+  }
+  else if (loading.adapt != LoadAdaptivity::every_step)
+    parameters->reject("Loading", "Adapt", "has no load step to mean; set Steps or remove it");
+  return loading;
+}
+} // namespace
+
+template <int dim>
+Scene<dim> read_scene(const std::string &file,
+                      const std::vector<std::pair<std::string, std::string>> &overrides,
+                      const SceneUse use)
+{
+  const auto parameters = std::make_shared<Parameters>(scene_entries(dim, boundary_names(dim)),
+                                                       scene_hints(dim, boundary_names(dim)), file);
+  parameters->read(overrides);
+  if (parameters->text("", "Dimension") != std::to_string(dim))
+    parameters->reject("", "Dimension",
+                       "is not that of the program; set Dimension = " + std::to_string(dim));
+  const std::string name = std::filesystem::path(file).stem().string();
+  complete(*parameters, name);
+  const bool is_default_tolerance = choose_tolerance(*parameters, use);
+  const Loading<dim> loading = read_loading<dim>(parameters, name);
+  Scene<dim> scene =
+      loading.at ? loading.at(loading.time(1)) : read_problem<dim>(parameters, name, std::nullopt);
+  settle_normal_contact(*parameters, scene);
+  scene.loading = loading;
+  scene.adaptivity.is_default_tolerance = is_default_tolerance;
+  scene.check(use);
+  return scene;
+}
+
+int scene_dimension(const std::string &file,
+                    const std::vector<std::pair<std::string, std::string>> &overrides)
+{
+  std::string dimension = "2";
+  for (const Assignment &assignment : read_parameter_file(file))
+    if (assignment.section.empty() && assignment.name == "Dimension")
+      dimension = assignment.value;
+  for (const auto &[entry, value] : overrides)
+    if (single_spaced(entry) == "Dimension")
+      dimension = Utilities::trim(value);
+  return dimension == "3" ? 3 : 2;
+}
+
+std::string default_parameters()
+{
+  return Parameters(scene_entries(2, boundary_names(2)), {}, "").print(true);
+}
+
+template Scene<2> read_scene(const std::string &,
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+template Scene<3> read_scene(const std::string &,
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+} // namespace hpvi

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/data_scale.h>
+#include <hpvi/warnings/line.h>
+#include <hpvi/warnings/warnings.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** A stress that the last bits of u make, or that is nothing beside the data, is none. */
+template <int dim>
+double round_off_stress(const Scene<dim> &scene, const BodyState<dim> &body)
+{
+  return round_off_of_data *
+         std::max(scene.largest_weight() * body.displacement / scene.geometry.diameter(),
+                  data_scale(scene).stress);
+}
+
+/** The pulling part of the normal traction is compared with the whole; a corner alone is not worth a word. */
+template <int dim>
+Warnings tensile_contact(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                         const BodyState<dim> &body)
+{
+  double tension = 0, all = 0;
+  const ContactState<dim> *worst = nullptr;
+  for (const ContactState<dim> &state : contact)
+  {
+    if (scene.boundaries[state.boundary].contact != Contact::bilateral)
+      continue;
+    tension += state.tension;
+    all += 2 * state.tension - state.normal_resultant;
+    if (!worst || state.highest_tension > worst->highest_tension)
+      worst = &state;
+  }
+  if (!worst || !(tension > 0.01 * all && worst->highest_tension > round_off_stress(scene, body)))
+    return {};
+  return {
+      {WarningKind::tension, tension / all,
+       line("bilateral contact pulls: ", 100 * tension / all,
+            " % of the normal traction is tensile, up to ",
+            labelled(worst->highest_tension, scene.stress_unit), " at (",
+            worst->highest_tension_point, "); a body that may lift off needs unilateral contact")}};
+}
+
+/** Pressures are positive at the points of the multiplier, the polynomial through them need not be. */
+template <int dim>
+Warnings pulling_pressure(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                          const BodyState<dim> &body)
+{
+  const ContactState<dim> *worst = nullptr;
+  double share = 0.05;
+  for (const ContactState<dim> &state : contact)
+    if (scene.boundaries[state.boundary].is_unilateral() &&
+        state.highest_tension > share * state.highest_pressure &&
+        state.highest_tension > round_off_stress(scene, body))
+    {
+      worst = &state;
+      share = state.highest_tension / state.highest_pressure;
+    }
+  if (!worst)
+    return {};
+  return {{WarningKind::pulling_pressure, share,
+           line("contact pulls between the points of its multiplier, with up to ",
+                labelled(worst->highest_tension, scene.stress_unit), " at (",
+                worst->highest_tension_point, "), ", 100 * share,
+                " % of the largest pressure; refine there")}};
+}
+
+/** The foundation holds the body at points or in moments only. Rigid motions of the whole scene do not change the verdict. */
+template <int dim>
+Warnings penetration(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                     const BodyState<dim> &body)
+{
+  const ContactState<dim> *worst = nullptr;
+  for (const ContactState<dim> &state : contact)
+    if (!worst || state.deepest_penetration > worst->deepest_penetration)
+      worst = &state;
+  if (!worst || !(worst->deepest_penetration > 0.01 * body.deformation))
+    return {};
+  return {{WarningKind::penetration, worst->deepest_penetration,
+           line("the body penetrates the foundation of ", scene.boundaries[worst->boundary].name,
+                " by up to ", labelled(worst->deepest_penetration, scene.length_unit), " at (",
+                worst->deepest_penetration_point, "), more than 1 % of the ",
+                labelled(body.deformation, scene.length_unit),
+                " by which it deforms; refine there, or put a vertex where Gap has a kink or a "
+                "jump")}};
+}
+} // namespace
+
+template <int dim>
+Warnings contact_warnings(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                          const BodyState<dim> &body)
+{
+  return joined(tensile_contact(scene, contact, body), pulling_pressure(scene, contact, body),
+                penetration(scene, contact, body));
+}
+
+template Warnings contact_warnings(const Scene<2> &, const std::vector<ContactState<2>> &,
+                                   const BodyState<2> &);
+template Warnings contact_warnings(const Scene<3> &, const std::vector<ContactState<3>> &,
+                                   const BodyState<3> &);
+} // namespace hpvi

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/warnings/line.h>
+#include <hpvi/warnings/warnings.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+std::vector<std::string> texts(const Warnings &warnings)
+{
+  Warnings sorted = warnings;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Warning &a, const Warning &b) { return a.kind < b.kind; });
+  std::vector<std::string> result;
+  for (const Warning &warning : sorted)
+    result.push_back(warning.text);
+  return result;
+}
+
+void keep_worst(Warnings &worst, const Warnings &found, const std::string &place)
+{
+  for (const Warning &warning : found)
+  {
+    const auto known =
+        std::find_if(worst.begin(), worst.end(),
+                     [&](const Warning &other) { return other.kind == warning.kind; });
+    const Warning with_place{warning.kind, warning.size, warning.text + " (" + place + ")"};
+    if (known == worst.end())
+      worst.push_back(with_place);
+    else if (warning.size > known->size)
+      *known = with_place;
+  }
+}
+
+Warnings tolerance_warnings(const Adaptivity &adaptivity, const std::string &no_bound)
+{
+  if (adaptivity.tolerance == 0 || adaptivity.tolerance_on != Indicator::bound || no_bound.empty())
+    return {};
+  return {{WarningKind::no_bound, 0.,
+           "Adaptivity/Tolerance was compared with the residual indicator, which guarantees "
+           "nothing: there is no bound of the error, because " +
+               no_bound}};
+}
+
+Warnings bound_warnings(const double relative, const double imbalance)
+{
+  if (!(relative < 1e-9 && relative > 1e-12)) // below that a run ends as exact to round-off
+    return {};
+  return {{WarningKind::bound_round_off, relative,
+           line("the bound of the error is ", relative,
+                " of the solution, where round-off counts: it leaves patches of cells out of "
+                "balance by ",
+                imbalance, " of their stresses")}};
+}
+
+template <int dim>
+Warnings warnings(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
+                  const BodyState<dim> &body, const History<dim> &history)
+{
+  return joined(contact_warnings(scene, contact, body), friction_warnings(scene, contact),
+                mesh_warnings(scene, body), history_warnings(scene, history));
+}
+
+template Warnings warnings(const Scene<2> &, const std::vector<ContactState<2>> &,
+                           const BodyState<2> &, const History<2> &);
+template Warnings warnings(const Scene<3> &, const std::vector<ContactState<3>> &,
+                           const BodyState<3> &, const History<3> &);
+} // namespace hpvi

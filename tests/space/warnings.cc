@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Each warning that any solution may deserve, on both paths in the plane and in space.
+#include "runs.h"
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/warnings/warnings.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace space;
+
+/** A unit square or cube, solved once with degree 2 unless @p entries say otherwise. */
+template <int dim>
+Scene<dim> block(const Overrides &entries)
+{
+  Overrides all{{"Units/Length", ""},
+                {"Units/Stress", ""},
+                {"Geometry/Upper corner", dim == 2 ? "1, 1" : "1, 1, 1"},
+                {"Geometry/Subdivisions", dim == 2 ? "2, 2" : "2, 2, 2"},
+                {"Boundary left/Traction", ""},
+                {"Boundary right/Displacement", ""},
+                {"Boundary bottom/Contact", "none"},
+                {"Boundary bottom/Friction bound", ""},
+                {"Solver/Normal contact", "multiplier"},
+                {"Adaptivity/Method", "hup2"},
+                {"Adaptivity/Maximum steps", "1"}};
+  all.insert(all.end(), entries.begin(), entries.end());
+  return read_scene<dim>(dim == 2 ? "prm/han-6-12.prm" : "prm/slab.prm", all);
+}
+
+template <int dim>
+Warnings by_primal_path(const Scene<dim> &scene)
+{
+  Warnings result;
+  steps_of<dim>(scene, [&](const StepReport<dim> &step) { result = step.warnings; });
+  return result;
+}
+
+Warnings by_reduced_path(const Scene<2> &scene)
+{
+  Warnings result;
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = step.warnings; });
+  return result;
+}
+
+bool has(const Warnings &warnings, const WarningKind kind, const std::string &words)
+{
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const Warning &warning)
+                     { return warning.kind == kind && warning.text.find(words) == 0; });
+}
+
+/** What differs from block() in the plane and in space, and what is said of it. */
+struct Case
+{
+  WarningKind kind;
+  std::string words;
+  Overrides plane, space;
+};
+
+/** @p u on all sides. */
+Overrides moved(const std::string &u, const bool in_space)
+{
+  Overrides entries;
+  for (const std::string side : {"left", "right", "bottom", "top", "front", "back"})
+    if (in_space || (side != "front" && side != "back"))
+      entries.emplace_back("Boundary " + side + "/Displacement", in_space ? u + "; 0" : u);
+  return entries;
+}
+
+/** The top is moved to @p top, onto a foundation. */
+Overrides pressed(const std::string &top, const Overrides &more, const bool in_space)
+{
+  Overrides entries{{"Boundary top/Displacement", in_space ? top + "; 0" : top},
+                    {"Boundary bottom/Contact", "unilateral"}};
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+Overrides clamped(const Overrides &more, const bool in_space)
+{
+  Overrides entries{{"Boundary right/Displacement", in_space ? "0; 0; 0" : "0; 0"},
+                    {"Boundary left/Traction", in_space ? "1e-3; 0; 0" : "1e-3; 0"}};
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+std::vector<Case> cases()
+{
+  std::vector<Case> result;
+  const auto add = [&](const WarningKind kind, const std::string &words, const auto &entries) {
+    result.push_back({kind, words, entries(false), entries(true)});
+  };
+  add(WarningKind::strain, "the strain is 5.1 % on average",
+      [](const bool in_space) { return moved("0; -0.051*y", in_space); });
+  add(WarningKind::rotation, "the body turns by 5.73 degrees on average",
+      [](const bool in_space) { return moved("-0.1*y; 0.1*x", in_space); });
+  add(WarningKind::elongation, "elements up to 20 times as long as wide",
+      [](const bool in_space) {
+        return clamped({{"Geometry/Subdivisions", in_space ? "1, 20, 1" : "1, 20"}}, in_space);
+      });
+  add(WarningKind::locking, "Poisson's ratio 0.4999 is near 1/2",
+      [](const bool in_space)
+      {
+        Overrides entries = clamped({{"Material/Poisson's ratio", "0.4999"}}, in_space);
+        if (!in_space)
+          entries.emplace_back("Material/Plane", "strain");
+        return entries;
+      });
+  add(WarningKind::penetration, "the body penetrates the foundation of bottom by up to 0.0",
+      [](const bool in_space) {
+        return pressed("0; -0.2", {{"Boundary bottom/Gap", "0.1*abs(x - 0.3)"}}, in_space);
+      });
+  add(WarningKind::slip, "the body slides by 0.2",
+      [](const bool in_space) {
+        return pressed("0.2; -0.02", {{"Boundary bottom/Friction bound", "1e-6"}}, in_space);
+      });
+  add(WarningKind::open_friction, "friction acts where contact is open: ",
+      [](const bool in_space)
+      {
+        return pressed("0.03; -0.02",
+                       {{"Boundary bottom/Gap", "0.1*max(0, x - 0.25)"},
+                        {"Boundary bottom/Friction bound", "0.05"},
+                        {"Geometry/Subdivisions", in_space ? "4, 2, 1" : "4, 2"}},
+                       in_space);
+      });
+  add(WarningKind::tension, "bilateral contact pulls: ",
+      [](const bool in_space) {
+        return pressed("0; 0.01", {{"Boundary bottom/Contact", "bilateral"}}, in_space);
+      });
+  add(WarningKind::load, "Traction on left is not resolved near (0 ",
+      [](const bool in_space)
+      {
+        const std::string jump = "if(y < 0.3, 1e-3, 0); 0";
+        return clamped({{"Boundary left/Traction", in_space ? jump + "; 0" : jump},
+                        {"Geometry/Subdivisions", in_space ? "1, 1, 1" : "1, 1"}},
+                       in_space);
+      });
+  return result;
+}
+
+TEST(Warnings, StandOnBothPathsInThePlaneAndInSpace)
+{
+  for (const Case &row : cases())
+  {
+    const Scene<2> plane = block<2>(row.plane);
+    if (row.kind != WarningKind::load) // the reduced path cuts its rules
+    {
+      EXPECT_TRUE(has(by_reduced_path(plane), row.kind, row.words)) << row.words;
+    }
+    EXPECT_TRUE(has(by_primal_path(plane), row.kind, row.words)) << row.words;
+    EXPECT_TRUE(has(by_primal_path(block<3>(row.space)), row.kind, row.words)) << row.words;
+  }
+}
+
+TEST(Warnings, DoNotStandWhereNothingAsksForCare)
+{
+  const std::vector<std::string> none;
+  EXPECT_EQ(texts(by_reduced_path(block<2>(clamped({}, false)))), none);
+  EXPECT_EQ(texts(by_primal_path(block<2>(clamped({}, false)))), none);
+  EXPECT_EQ(texts(by_primal_path(block<3>(clamped({}, true)))), none);
+}
+
+/** Of steps there is the same to say wherever they were. */
+TEST(Warnings, OfTheHistoryInSpace)
+{
+  const auto said = [](const std::vector<double> &estimates)
+  {
+    History<3> history;
+    for (const double estimate : estimates)
+      history.push_back({estimate, 0.});
+    const std::vector<std::string> lines = texts(history_warnings(Scene<3>(), history));
+    return lines.empty() ? "" : lines.front();
+  };
+  EXPECT_EQ(said({1., 0.95, 0.9, 0.8}), "");
+  EXPECT_NE(said({1., 0.95, 0.9, 0.85}).find("1 three steps ago, 0.85 now"), std::string::npos);
+  EXPECT_EQ(said({1., 0.3, 1.1}), "");
+  EXPECT_NE(said({1., 0.3, 1.3}).find("from 0.3 in step 2 to 1.3 in step 3"), std::string::npos);
+}
+
+/** The worst by its size, whatever numbers stand in its text; lines by kind, not in the order in which they came. */
+TEST(Warnings, OfLoadStepsKeepTheWorstOfEachKind)
+{
+  Warnings worst;
+  keep_worst(worst, {{WarningKind::slip, 0.2, "9 slips"}, {WarningKind::strain, 0.1, "strain"}},
+             "load step 1");
+  keep_worst(worst, {{WarningKind::slip, 0.3, "1 slips"}}, "load step 2");
+  keep_worst(worst, {{WarningKind::slip, 0.25, "5 slips"}, {WarningKind::tension, 0., "pulls"}},
+             "load step 3");
+  EXPECT_EQ(texts(worst), (std::vector<std::string>{"pulls (load step 3)", "strain (load step 1)",
+                                                    "1 slips (load step 2)"}));
+}
+} // namespace
