@@ -10,9 +10,11 @@
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -66,6 +68,7 @@ struct AdaptiveSolver<dim>::Stages
   const Scene<dim> &scene;
   const std::unique_ptr<Backend<dim>> backend;
   const TrueError<dim> true_error;
+  DataScale data;
   ErrorEstimate estimate; ///< of the current step, as the next
   BoundOfStep bound;
   History<dim> history;                ///< of the finished steps
@@ -74,6 +77,7 @@ struct AdaptiveSolver<dim>::Stages
   Stages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
       : scene(scene), backend(std::move(backend)), true_error(scene)
   {
+    together(this->backend->communicator, [&]() { data = data_scale(scene); });
   }
 
   void hear(const Announce &about_to);
@@ -248,10 +252,10 @@ template <int dim>
 std::string AdaptiveSolver<dim>::Stages::end_of_run(const Refinement &refinement) const
 {
   const Field<dim> &field = backend->field();
-  const std::string limit = reached_limit(scene, history,
-                                          {backend->size().n_free, field.largest_displacement(),
-                                           backend->missed(bound.bound),
-                                           [&]() { return backend->round_off_estimate(); }});
+  const std::string limit = reached_limit(
+      scene, history,
+      {backend->size().n_free, std::max(field.largest_displacement(), data.displacement),
+       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); }});
   return limit.empty() && refinement.is_empty(backend->degrees()) ? nothing_marked(scene.adaptivity)
                                                                   : limit;
 }
@@ -265,8 +269,10 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
   for (const PastStep<dim> &past : history)
     peaks.push_back(past.peaks);
   step.unbounded = unbounded_stresses(growing_peaks(peaks), stress_samples(step.field), step.field);
-  step.warnings = joined(warnings(scene, step.contact, body_state(step.field), history),
-                         backend->warnings(step.contact, step.equilibrium),
+  const BodyState<dim> body = body_state(step.field);
+  Warnings of_all;
+  together(backend->communicator, [&]() { of_all = warnings(scene, step.contact, body, history); });
+  step.warnings = joined(of_all, backend->warnings(step.contact, step.equilibrium),
                          tolerance_warnings(scene.adaptivity, bound.missing),
                          bound.bound ? bound_warnings(step.relative_bound, bound.bound->imbalance)
                                      : Warnings());

@@ -2,7 +2,6 @@
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
-#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +34,7 @@ void check_underflow(const Scene<dim> &scene, const double largest)
 template <int dim>
 bool is_exact_to_round_off(const Scene<dim> &scene, const double estimate, const LastSolution &last)
 {
-  const double largest = std::max(last.displacement, data_scale(scene).displacement),
-               small = 1e-7 * scene.largest_weight() * largest,
+  const double small = 1e-7 * scene.largest_weight() * last.displacement,
                larger = std::max(estimate, last.missed * std::sqrt(scene.coercivity()));
   return larger <= small && larger <= 4 * last.round_off();
 }

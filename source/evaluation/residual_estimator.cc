@@ -8,67 +8,18 @@
 //
 // The print of (4.51) sums $\eta_K$ for $\eta_K^2$. Two parts of the weights are theory, one is
 // practice: where $p$ is high the indicator overestimates, by a factor that grows with $p$.
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/body/load_quadrature.h>
 #include <hpvi/evaluation/residual_estimator.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hpvi
 {
 using namespace dealii;
-
-double ErrorEstimate::indicator(const unsigned int cell) const
-{
-  double sum = volume[cell] + jumps[cell] + neumann[cell] + contact[cell];
-  for (const auto *part : {&normal, &penetration, &tension, &excess})
-    sum += part->empty() ? 0. : (*part)[cell];
-  return std::sqrt(sum);
-}
-
-std::vector<double> ErrorEstimate::indicators() const
-{
-  std::vector<double> eta(volume.size());
-  for (unsigned int cell = 0; cell < eta.size(); ++cell)
-    eta[cell] = indicator(cell);
-  return eta;
-}
-
-double ErrorEstimate::total() const
-{
-  double sum = 0;
-  for (const auto *part :
-       {&volume, &jumps, &neumann, &contact, &normal, &penetration, &tension, &excess})
-    sum = std::accumulate(part->begin(), part->end(), sum);
-  return std::sqrt(sum);
-}
-
-EstimateNorms norms(const ErrorEstimate &estimate, MPI_Comm communicator)
-{
-  const auto root = [&](const double sum)
-  { return std::sqrt(Utilities::MPI::sum(sum, communicator)); };
-  EstimateNorms result;
-  double all = 0;
-  const auto add = [&](const std::vector<double> &part)
-  {
-    all = std::accumulate(part.begin(), part.end(), all);
-    return root(std::accumulate(part.begin(), part.end(), 0.));
-  };
-  result.volume = add(estimate.volume);
-  result.jumps = add(estimate.jumps);
-  result.neumann = add(estimate.neumann);
-  result.contact = add(estimate.contact);
-  result.normal = add(estimate.normal);
-  result.penetration = add(estimate.penetration);
-  result.tension = add(estimate.tension);
-  result.excess = add(estimate.excess);
-  result.total = root(all);
-  return result;
-}
 
 // @sect3{One pass over the cells}
 //
@@ -151,20 +102,6 @@ double Residuals<dim>::weight(const unsigned int cell) const
 // $r_K = -\mathrm{div}\,\sigma(u_N) - F$ (4.44) needs second derivatives of $u_N$. On a
 // parallelogram they are those on the reference cell, transformed twice; on other quadrilaterals
 // the second derivatives of the map come in.
-/** d u_c / d x_j from reference derivatives of point q in @p derivatives (see evaluate()). */
-template <int dim>
-Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
-                                 const unsigned int first_row, const unsigned int n_rows,
-                                 const Tensor<2, dim> &inverse_jacobian)
-{
-  Tensor<2, dim> gradient;
-  for (unsigned int c = 0; c < dim; ++c)
-    for (unsigned int r = 0; r < dim; ++r)
-      for (unsigned int j = 0; j < dim; ++j)
-        gradient[c][j] += derivatives[c * n_rows + first_row + r] * inverse_jacobian[r][j];
-  return gradient;
-}
-
 /**
  * -div sigma(u) - F at a point; second derivatives by the chain rule
  * `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
@@ -205,12 +142,7 @@ void Residuals<dim>::add_volume(const Cell &cell)
     }
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
     if (scene.has_body_force())
-    {
-      const Point<dim> x = maps[index].point(table.points[q]);
-      for (unsigned int c = 0; c < dim; ++c)
-        if (scene.body_force[c])
-          residual[c] -= scene.body_force[c]->value(x);
-    }
+      residual -= load_at<dim>(scene.body_force, maps[index].point(table.points[q]));
     sum += table.weights[q] * std::abs(determinant(J)) * residual.norm_square();
   }
   result.volume[index] = weight(index) * weight(index) * sum;
@@ -320,14 +252,13 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   const auto own = tractions(cell, table, points.normals);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
+  {
+    const Tensor<1, dim> residual =
+        own[q] - load_at<dim>(condition.traction, maps[index].point(table.points[q]));
     for (unsigned int c = 0; c < dim; ++c)
       if (!condition.displacement[c])
-      {
-        double residual = own[q][c];
-        if (condition.traction[c])
-          residual -= condition.traction[c]->value(maps[index].point(table.points[q]));
-        sum += points.weights[q] * residual * residual;
-      }
+        sum += points.weights[q] * residual[c] * residual[c];
+  }
   result.neumann[index] += weight(index) * sum;
 }
 
@@ -354,19 +285,10 @@ void Residuals<dim>::add_contact(const FieldFace<dim> &face)
     const FaceFrame<dim> frame = face.frame(table.points[q]);
     const ContactTraction<dim> contact = field.traction(face, table.points[q]);
     const double ds = table.weights[q] * frame.measure;
-    double across = own[q] * frame.normal + contact.pressure;
+    const Tensor<1, dim> missing = own[q] - load_at<dim>(condition.traction, frame.x);
     for (unsigned int s = 0; s < dim - 1; ++s)
-    {
-      double along = own[q] * frame.tangents[s] + contact.friction[s];
-      for (unsigned int c = 0; c < dim; ++c)
-        if (condition.traction[c])
-          along -= frame.tangents[s][c] * condition.traction[c]->value(frame.x);
-      tangential += ds * along * along;
-    }
-    for (unsigned int c = 0; c < dim; ++c)
-      if (condition.traction[c])
-        across -= frame.normal[c] * condition.traction[c]->value(frame.x);
-    normal += ds * across * across;
+      tangential += ds * std::pow(missing * frame.tangents[s] + contact.friction[s], 2);
+    normal += ds * std::pow(missing * frame.normal + contact.pressure, 2);
     tension += condition.is_unilateral() ? ds * std::pow(std::min(contact.pressure, 0.), 2) : 0.;
     if (condition.friction.knows_pressure())
       excess += ds * std::pow(std::max(0., size_of(frame.tangential(contact.friction)) -

@@ -2,14 +2,13 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/body/load_quadrature.h>
+#include <hpvi/evaluation/field_difference.h>
+#include <hpvi/evaluation/graded_boxes.h>
 #include <hpvi/evaluation/true_error.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
-#include <utility>
 
 namespace hpvi
 {
@@ -17,136 +16,6 @@ using namespace dealii;
 
 namespace
 {
-/** A part of the reference cell with sides along its axes. */
-template <int dim>
-struct Box
-{
-  Point<dim> origin;
-  std::array<double, dim> sides = ones();
-
-  Box child(const unsigned int c) const
-  {
-    Box result(*this);
-    for (unsigned int d = 0; d < dim; ++d)
-      result = result.half(d, (c >> d) & 1);
-    return result;
-  }
-
-  Box half(const unsigned int d, const bool is_upper) const
-  {
-    Box result(*this);
-    result.sides[d] /= 2;
-    if (is_upper)
-      result.origin[d] += result.sides[d];
-    return result;
-  }
-
-  Point<dim> point(const Point<dim> &reference) const
-  {
-    Point<dim> x(origin);
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] += sides[d] * reference[d];
-    return x;
-  }
-
-  double volume() const
-  {
-    return std::accumulate(sides.begin(), sides.end(), 1., std::multiplies<>());
-  }
-
-private:
-  static std::array<double, dim> ones()
-  {
-    std::array<double, dim> result;
-    result.fill(1.);
-    return result;
-  }
-};
-
-/** Displacement and gradient at one point. */
-template <int dim>
-struct Values
-{
-  Tensor<1, dim> u;
-  Tensor<2, dim> gradient; ///< d u_i / d x_j
-
-  Values operator-(const Values &other) const
-  {
-    return {u - other.u, gradient - other.gradient};
-  }
-};
-
-/** Sums of squares: of the difference of two fields, and of the one to relate it to. */
-struct Squares
-{
-  double energy = 0, l2 = 0, norm = 0;
-
-  Squares &operator+=(const Squares &other)
-  {
-    energy += other.energy;
-    l2 += other.l2;
-    norm += other.norm;
-    return *this;
-  }
-};
-
-/** A polynomial on one cell of a mesh. */
-template <int dim>
-struct LocalField
-{
-  unsigned int degree;
-  std::vector<double> coefficients;
-  CellMap<dim> map;
-
-  /** Values at Gauss points of a part of the cell. */
-  std::vector<Values<dim>> at(const Box<dim> &box, const Quadrature<dim> &gauss) const
-  {
-    std::vector<Point<dim>> points;
-    for (const Point<dim> &q : gauss.get_points())
-      points.push_back(box.point(q));
-    const ShapeTable<dim> table = tabulate<dim>(degree, points, gauss.get_weights(), false);
-    const std::vector<double> u = evaluate(table.values, coefficients);
-    const std::vector<double> derivatives = evaluate(table.derivatives, coefficients);
-    std::vector<Values<dim>> result(points.size());
-    for (unsigned int q = 0; q < points.size(); ++q)
-    {
-      const Tensor<2, dim> inverse = invert(map.jacobian(points[q]));
-      for (unsigned int c = 0; c < dim; ++c)
-      {
-        result[q].u[c] = u[c * points.size() + q];
-        for (unsigned int r = 0; r < dim; ++r)
-          for (unsigned int j = 0; j < dim; ++j)
-            result[q].gradient[c][j] +=
-                derivatives[c * points.size() * dim + q * dim + r] * inverse[r][j];
-      }
-    }
-    return result;
-  }
-};
-
-template <int dim>
-LocalField<dim> local_field(const Field<dim> &field, const typename Field<dim>::Cell &cell)
-{
-  return {field.degree(cell), field.coefficients(cell), map_of<dim>(cell)};
-}
-
-template <int dim>
-void add_squares(const HookesLaw<dim> &law, const Values<dim> &field, const Values<dim> &truth,
-                 const double weight, Squares &sums)
-{
-  const Values<dim> difference = truth - field;
-  sums.energy += weight * law.energy_product(difference.gradient);
-  sums.l2 += weight * difference.u.norm_square();
-  sums.norm += weight * law.energy_product(truth.gradient);
-}
-
-/** Over all processes. */
-Squares total(const Squares &own, MPI_Comm communicator)
-{
-  return {Utilities::MPI::sum(own.energy, communicator), Utilities::MPI::sum(own.l2, communicator),
-          Utilities::MPI::sum(own.norm, communicator)};
-}
-
 /** Walks through the cells of this process and another mesh that descends from the same coarse mesh. */
 template <int dim>
 class CommonRefinement
@@ -159,16 +28,18 @@ public:
   {
   }
 
-  Squares integrate()
+  DifferenceSquares integrate()
   {
+    const auto unit = create_unit_bounding_box<dim>();
     auto other = reference.triangulation().begin(0);
     for (auto cell = mesh.begin(0); cell != mesh.end(0); ++cell, ++other)
-      descend(cell, {}, other, {});
+      descend(cell, unit, other, unit);
     return sums;
   }
 
 private:
-  void descend(const Cell &a, const Box<dim> &in_a, const Cell &b, const Box<dim> &in_b)
+  void descend(const Cell &a, const BoundingBox<dim> &in_a, const Cell &b,
+               const BoundingBox<dim> &in_b)
   {
     if (!a->has_children() && !a->is_locally_owned())
       return;
@@ -180,7 +51,8 @@ private:
                 b->has_children() ? b->child(c) : b, b->has_children() ? in_b : in_b.child(c));
   }
 
-  void integrate_over_leaf(const Cell &a, const Box<dim> &in_a, const Cell &b, const Box<dim> &in_b)
+  void integrate_over_leaf(const Cell &a, const BoundingBox<dim> &in_a, const Cell &b,
+                           const BoundingBox<dim> &in_b)
   {
     const unsigned int j = b->active_cell_index();
     const LocalField<dim> own = local_field(
@@ -192,71 +64,17 @@ private:
     const double share = in_a.volume();
     const HookesLaw<dim> law(field.scene.material_of(a));
     for (unsigned int q = 0; q < gauss.size(); ++q)
-      add_squares(law, field_values[q], truth_values[q],
-                  gauss.weight(q) * share *
-                      std::abs(determinant(own.map.jacobian(in_a.point(gauss.point(q))))),
-                  sums);
+      sums.add(law, field_values[q], truth_values[q],
+               gauss.weight(q) * share *
+                   std::abs(determinant(own.map.jacobian(in_a.unit_to_real(gauss.point(q))))));
   }
 
   const Field<dim> &field;
   const Triangulation<dim> &mesh;
   const StoredSolution<dim> &reference;
-  Squares sums;
+  DifferenceSquares sums;
 };
 
-/** Lengths of the sides of @p box in space, measured in its middle. */
-template <int dim>
-std::array<double, dim> lengths(const CellMap<dim> &map, const Box<dim> &box,
-                                const Point<dim> &middle)
-{
-  const auto jacobian = map.jacobian(middle);
-  std::array<double, dim> result;
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    double square = 0;
-    for (unsigned int c = 0; c < dim; ++c)
-      square += jacobian[c][d] * jacobian[c][d];
-    result[d] = box.sides[d] * std::sqrt(square);
-  }
-  return result;
-}
-
-/**
- * Parts of a cell, small near singular points: no part is much larger than its distance. Sides below
- * a quarter of the longest are not cut: of a cell of 1:1000 that would make a thousand parts a level.
- */
-template <int dim>
-void add_graded_boxes(const CellMap<dim> &map, const Box<dim> &box,
-                      const std::vector<Point<dim>> &singularities, const unsigned int levels_left,
-                      std::vector<Box<dim>> &boxes)
-{
-  Point<dim> centre;
-  for (unsigned int d = 0; d < dim; ++d)
-    centre[d] = 0.5;
-  const Point<dim> middle = box.point(centre), in_space = map.point(middle);
-  const std::array<double, dim> sides = lengths(map, box, middle);
-  const double diameter =
-      std::sqrt(std::inner_product(sides.begin(), sides.end(), sides.begin(), 0.));
-  const bool near =
-      std::any_of(singularities.begin(), singularities.end(),
-                  [&](const Point<dim> &x) { return x.distance(in_space) < 1.2 * diameter; });
-  if (!near || levels_left == 0)
-  {
-    boxes.push_back(box);
-    return;
-  }
-  std::vector<Box<dim>> parts{box};
-  for (unsigned int d = 0; d < dim; ++d)
-    if (sides[d] > *std::max_element(sides.begin(), sides.end()) / 4)
-    {
-      const std::vector<Box<dim>> lower = std::exchange(parts, {});
-      for (const bool is_upper : {false, true})
-        for (const Box<dim> &part : lower)
-          parts.push_back(part.half(d, is_upper));
-    }
-  for (const Box<dim> &part : parts)
-    add_graded_boxes(map, part, singularities, levels_left - 1, boxes);
-}
 } // namespace
 
 template <int dim>
@@ -284,7 +102,7 @@ TrueErrors TrueError<dim>::measure(const Field<dim> &field,
 template <int dim>
 void TrueError<dim>::compare_with_reference(const Field<dim> &field, TrueErrors &errors) const
 {
-  const Squares sums =
+  const DifferenceSquares sums =
       total(CommonRefinement<dim>(field, *reference).integrate(), field.communicator());
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
@@ -341,14 +159,12 @@ double integrate_over(const FlatFace<dim> &face, const ExactSolution<dim> &exact
       along[s] = (x - face.origin) * face.edges[s] / face.edges[s].norm();
     singular.push_back(along);
   }
-  std::vector<Box<dim - 1>> boxes;
-  add_graded_boxes<dim - 1>(face.map(), {}, singular, 40, boxes);
   const QGauss<dim - 1> gauss(n_gauss);
   double sum = 0;
-  for (const Box<dim - 1> &box : boxes)
+  for (const BoundingBox<dim - 1> &box : graded_boxes(face.map(), singular, 40))
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      const Point<dim - 1> s = box.point(gauss.point(q));
+      const Point<dim - 1> s = box.unit_to_real(gauss.point(q));
       Point<dim> x = face.origin;
       for (unsigned int d = 0; d < dim - 1; ++d)
         x += s[d] * face.edges[d];
@@ -403,10 +219,7 @@ double boundary_potential(const BoundaryCondition<dim> &boundary, const FlatFace
                         [&](const Point<dim> &, const Point<dim> &x)
                         {
                           const Tensor<1, dim> u = exact.displacement(x);
-                          double density = 0;
-                          for (unsigned int c = 0; c < dim; ++c)
-                            if (boundary.traction[c])
-                              density -= boundary.traction[c]->value(x) * u[c];
+                          double density = -(load_at<dim>(boundary.traction, x) * u);
                           if (boundary.friction)
                             density += boundary.friction.limit(x, 0.) *
                                        (u - (u * face.normal) * face.normal).norm();
@@ -434,33 +247,29 @@ double transition_error(const std::vector<Point<dim>> &found, const ExactSolutio
 
 /** Squares on one cell; @p body_work gets `int F u` of the exact solution. */
 template <int dim>
-Squares compare_cell(const Field<dim> &field, const typename Field<dim>::Cell &cell,
-                     const ExactSolution<dim> &exact, double &body_work)
+DifferenceSquares compare_cell(const Field<dim> &field, const typename Field<dim>::Cell &cell,
+                               const ExactSolution<dim> &exact, double &body_work)
 {
   const Scene<dim> &scene = field.scene;
   const LocalField<dim> own = local_field(field, cell);
   // Boxes shrink to about 1e-8 of the body: what a stress like r^{-1/2} leaves out there is far
   // below round-off of the sum.
   const unsigned int levels = std::max(1, 27 - cell->level());
-  std::vector<Box<dim>> boxes;
-  add_graded_boxes<dim>(own.map, {}, exact.singularities(), levels, boxes);
   const QGauss<dim> gauss(own.degree + 5);
   const HookesLaw<dim> law(scene.material_of(cell));
-  Squares sums;
-  for (const Box<dim> &box : boxes)
+  DifferenceSquares sums;
+  for (const BoundingBox<dim> &box : graded_boxes(own.map, exact.singularities(), levels))
   {
     const auto field_values = own.at(box, gauss);
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
-      const Point<dim> reference_point = box.point(gauss.point(q));
+      const Point<dim> reference_point = box.unit_to_real(gauss.point(q));
       const Point<dim> x = own.map.point(reference_point);
       const double weight =
           gauss.weight(q) * box.volume() * std::abs(determinant(own.map.jacobian(reference_point)));
       const Tensor<1, dim> u = exact.displacement(x);
-      add_squares(law, field_values[q], {u, exact.gradient(x)}, weight, sums);
-      for (unsigned int c = 0; c < dim; ++c)
-        if (scene.body_force[c])
-          body_work += weight * scene.body_force[c]->value(x) * u[c];
+      sums.add(law, field_values[q], {u, exact.gradient(x)}, weight);
+      body_work += weight * (load_at<dim>(scene.body_force, x) * u);
     }
   }
   return sums;
@@ -473,7 +282,7 @@ void TrueError<dim>::compare_with_exact(const Field<dim> &field,
                                         TrueErrors &errors) const
 {
   const ExactSolution<dim> &exact = *scene.exact_solution;
-  Squares own;
+  DifferenceSquares own;
   double potential = 0, friction = 0, pressure = 0;
   errors.of_cells.resize(field.dof_handler.get_triangulation().n_active_cells());
   bool has_multipliers = false;
@@ -484,7 +293,7 @@ void TrueError<dim>::compare_with_exact(const Field<dim> &field,
              for (const auto &cell : field.dof_handler.active_cell_iterators())
                if (cell->is_locally_owned())
                {
-                 const Squares here = compare_cell<dim>(field, cell, exact, body_work);
+                 const DifferenceSquares here = compare_cell<dim>(field, cell, exact, body_work);
                  errors.of_cells[cell->active_cell_index()] = here.energy;
                  own += here;
                }
@@ -506,7 +315,7 @@ void TrueError<dim>::compare_with_exact(const Field<dim> &field,
              }
            });
   const MPI_Comm all = field.communicator();
-  const Squares sums = total(own, all);
+  const DifferenceSquares sums = total(own, all);
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);

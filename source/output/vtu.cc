@@ -23,6 +23,16 @@ using namespace dealii;
 
 namespace
 {
+/** d u_c / d x_j at a point. */
+template <int dim>
+Tensor<2, dim> gradient(const DataPostprocessorInputs::Vector<dim> &inputs, const unsigned int q)
+{
+  Tensor<2, dim> result;
+  for (unsigned int c = 0; c < dim; ++c)
+    result[c] = inputs.solution_gradients[q][c];
+  return result;
+}
+
 /** von Mises' stress and the components of sigma as scalar fields. */
 template <int dim>
 class StressFields : public DataPostprocessor<dim>
@@ -38,10 +48,8 @@ public:
     const Material &material = scene.material_of(inputs.template get_cell<dim>());
     for (unsigned int q = 0; q < fields.size(); ++q)
     {
-      Tensor<2, dim> gradient;
-      for (unsigned int c = 0; c < dim; ++c)
-        gradient[c] = inputs.solution_gradients[q][c];
-      const SymmetricTensor<2, dim> sigma = HookesLaw<dim>(material).stress(gradient);
+      const SymmetricTensor<2, dim> sigma =
+          HookesLaw<dim>(material).stress(gradient<dim>(inputs, q));
       fields[q][0] = von_mises(material, sigma);
       for (unsigned int i = 0; i < sigma.n_independent_components; ++i)
         fields[q][1 + i] = sigma.access_raw_entry(i);
@@ -91,11 +99,9 @@ public:
     const Material &material = scene.material_of(inputs.template get_cell<dim>());
     for (unsigned int q = 0; q < fields.size(); ++q)
     {
-      Tensor<2, dim> gradient;
-      for (unsigned int c = 0; c < dim; ++c)
-        gradient[c] = inputs.solution_gradients[q][c];
       if constexpr (dim == 2)
-        fields[q][0] = material.transverse_stress(HookesLaw<dim>(material).stress(gradient));
+        fields[q][0] =
+            material.transverse_stress(HookesLaw<dim>(material).stress(gradient<dim>(inputs, q)));
     }
   }
 

@@ -17,8 +17,9 @@ namespace hpvi
 struct LastSolution
 {
   dealii::types::global_dof_index n_free; ///< unknowns
-  double displacement;                    ///< the largest component of u_N at a node [length]
-  double missed;                          ///< what u_N misses of the data in the energy norm
+  double
+      displacement; ///< the largest of u_N's components at a node, and of the data's scale [length]
+  double missed;    ///< what u_N misses of the data in the energy norm
   /** round_off_of_estimate(); asked only where the indicator is small, on all processes at once. */
   std::function<double()> round_off;
 };

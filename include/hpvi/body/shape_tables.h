@@ -143,6 +143,22 @@ std::vector<double> evaluate(const dealii::FullMatrix<double> &table,
 template <int dim>
 ShapeTable<dim> tabulate(unsigned int degree, const std::vector<dealii::Point<dim>> &points,
                          const std::vector<double> &weights, bool second_derivatives);
+/**
+ * d u_c / d x_j at a point whose derivatives on the reference cell stand in the dim rows from
+ * @p first_row on, of @p n_rows a component, as evaluate() stores them.
+ */
+template <int dim>
+dealii::Tensor<2, dim> physical_gradient(const std::vector<double> &derivatives,
+                                         const unsigned int first_row, const unsigned int n_rows,
+                                         const dealii::Tensor<2, dim> &inverse_jacobian)
+{
+  dealii::Tensor<2, dim> gradient;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int r = 0; r < dim; ++r)
+      for (unsigned int j = 0; j < dim; ++j)
+        gradient[c][j] += derivatives[c * n_rows + first_row + r] * inverse_jacobian[r][j];
+  return gradient;
+}
 } // namespace hpvi
 
 #endif
