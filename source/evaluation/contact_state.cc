@@ -118,8 +118,8 @@ template <int dim>
 class OwnContact
 {
 public:
-  explicit OwnContact(const Field<dim> &field)
-      : field(field), data(data_scale(field.scene)), negligible(negligible_pressure(field, data))
+  OwnContact(const Field<dim> &field, const DataScale &data)
+      : field(field), data(data), negligible(negligible_pressure(field, data))
   {
   }
 
@@ -334,8 +334,10 @@ std::string mode_name(const ContactMode mode)
 template <int dim>
 std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
 {
+  DataScale data;
+  together(field.communicator(), [&]() { data = data_scale(field.scene); });
+  const OwnContact<dim> contact(field, data);
   std::vector<ContactState<dim>> own;
-  const OwnContact<dim> contact(field);
   together(field.communicator(), [&]() { own = contact.states(); });
   std::vector<ContactState<dim>> states = gathered(std::move(own), field.communicator());
   if constexpr (dim == 2)
