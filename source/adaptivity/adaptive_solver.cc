@@ -8,6 +8,7 @@
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
+#include <hpvi/adaptivity/thickness.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/scene/data_scale.h>
@@ -189,7 +190,8 @@ PastStep<dim> AdaptiveSolver<dim>::Stages::past_step(const EstimateNorms &norms,
   const auto reduced = backend->reduced();
   PastStep<dim> past;
   past.estimate = norms.total;
-  past.relative_estimate = ratio(norms.total / std::sqrt(scene.coercivity()), energies.norm);
+  past.relative_estimate =
+      ratio(norms.total / std::sqrt(scene.reference_coercivity()), energies.norm);
   if (bound.bound)
   {
     past.relative_bound = ratio(bound.bound->total, energies.norm);
@@ -234,7 +236,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report()
                        bound.imbalance,
                        backend->reduced(),
                        backend->primal()};
-  step.scaled_estimate = norms.total / std::sqrt(scene.coercivity());
+  step.scaled_estimate = norms.total / std::sqrt(scene.reference_coercivity());
   step.relative_estimate = past.relative_estimate;
   step.relative_bound = past.relative_bound;
   step.energies = energies;
@@ -363,6 +365,7 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
     finished = !step.stopped_by.empty();
     if (finished)
       stages->conclude(step);
+    take_thickness(step);
     finished_step(step);
     if (!finished)
       stages->refine(refinement);

@@ -35,7 +35,7 @@ template <int dim>
 bool is_exact_to_round_off(const Scene<dim> &scene, const double estimate, const LastSolution &last)
 {
   const double small = 1e-7 * scene.largest_weight() * last.displacement,
-               larger = std::max(estimate, last.missed * std::sqrt(scene.coercivity()));
+               larger = std::max(estimate, last.missed * std::sqrt(scene.reference_coercivity()));
   return larger <= small && larger <= 4 * last.round_off();
 }
 } // namespace

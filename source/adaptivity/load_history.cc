@@ -4,6 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
 #include <hpvi/discretisation/interpolation.h>
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
     return;
   }
   const PastSlip<dim> slip = slip_so_far();
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   for (const auto &[boundary, u_t] : slip)
     for (const Point<dim> &x : sides[boundary].sample())
       next->past_data.displacement =
@@ -166,10 +167,10 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
     const Vector<double> &loads = part.system.loads();
     const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
                            : work_from_rest(solution, loads);
-    load.work += done.external;
-    load.dissipated += done.dissipated;
-    load.released += done.released;
-    load.unbalanced += done.unbalanced;
+    load.work += scene.thickness * done.external;
+    load.dissipated += scene.thickness * done.dissipated;
+    load.released += scene.thickness * done.released;
+    load.unbalanced += scene.thickness * done.unbalanced;
     past.emplace(Past<dim>{current, solution});
   }
 }

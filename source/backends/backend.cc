@@ -5,6 +5,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/checks/checks.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -85,9 +86,9 @@ bool fits_primal_path(const Scene<2> &scene)
 bool primal_path_pays(const Scene<2> &scene)
 {
   const double p = scene.adaptivity.start_degree;
-  const auto &cells = scene.geometry.subdivisions;
+  const std::array<unsigned int, 2> cells{{scene.geometry.n_cells(0), scene.geometry.n_cells(1)}};
   const double unknowns = 2 * (1 + p * cells[0]) * (1 + p * cells[1]);
-  const std::vector<Side<2>> sides = sides_of(scene.geometry);
+  const std::vector<Side<2>> sides = sides_of(scene);
   double multipliers = 0;
   for (const auto &boundary : scene.boundaries)
     if (boundary.has_contact() && boundary.friction)

@@ -150,7 +150,7 @@ void PrimalBackend<dim>::take()
   begin("estimating the error");
   StageTimer timer(times.estimate);
   together(space->communicator(), [&]() { estimated = estimate_error(*values_at_points); });
-  error = norms(estimated, space->communicator()).total / std::sqrt(scene.coercivity());
+  error = norms(estimated, space->communicator()).total / std::sqrt(scene.reference_coercivity());
 }
 
 // How exact is enough depends on the error of the mesh, which is estimated in between.
@@ -237,7 +237,7 @@ template <int dim>
 double PrimalBackend<dim>::round_off_estimate() const
 {
   const double norm = std::sqrt(std::max(system->energy_product(u), 0.)),
-               left = 5 * report.residual * norm * std::sqrt(scene.coercivity());
+               left = 5 * report.residual * norm * std::sqrt(scene.reference_coercivity());
   return std::max(Backend<dim>::round_off_estimate(), report.residual <= round_off ? left : 0.);
 }
 

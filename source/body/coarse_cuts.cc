@@ -9,7 +9,7 @@ using namespace dealii;
 
 bool varies(const Expression<2> &component)
 {
-  return component && !dynamic_cast<const Functions::ConstantFunction<2> *>(component.get());
+  return component && !is_constant<2>(component);
 }
 
 unsigned int coarse_index(Cell cell)
@@ -77,6 +77,6 @@ CutRule cut_edge(const Function<2> &f, const Cell &cell, const unsigned int face
   const CellMap<2> map = map_of<2>(cell);
   return make_cut_rule(
       [&](const double s) { return f.value(map.point(point_on_face<2>(face, Point<1>(s)))); },
-      gauss, {0, 1, 2}, n_parts(cell, 32, scene.geometry.subdivisions[1 - face / 2], 4));
+      gauss, {0, 1, 2}, n_parts(cell, 32, scene.geometry.n_cells(1 - face / 2), 4));
 }
 } // namespace hpvi::coarse_cuts

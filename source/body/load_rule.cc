@@ -17,20 +17,20 @@ constexpr unsigned int inside = numbers::invalid_unsigned_int;
 constexpr unsigned int along = 16,
                        across = 8; ///< Gauss points of a piece when coarse edges and cells are cut
 
-bool varies(const std::array<Expression<2>, 2> &load)
+bool varies(const Load<2> &load)
 {
   return coarse_cuts::varies(load[0]) || coarse_cuts::varies(load[1]);
 }
 
 /** What varies of a body force, per reference area. */
-BoxCutter::Function force_in_cell(const Scene<2> &scene, const CellMap<2> &map)
+BoxCutter::Function force_in_cell(const Load<2> &load, const CellMap<2> &map)
 {
-  return [&scene, map](const Point<2> &s)
+  return [&load, map](const Point<2> &s)
   {
     Tensor<1, 2> force;
     for (unsigned int c = 0; c < 2; ++c)
-      if (coarse_cuts::varies(scene.body_force[c]))
-        force[c] = scene.body_force[c]->value(map.point(s));
+      if (coarse_cuts::varies(load[c]))
+        force[c] = load[c]->value(map.point(s));
     return std::abs(determinant(map.jacobian(s))) * force;
   };
 }
@@ -46,7 +46,7 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
     const unsigned int id = cell->index();
-    if (varies(scene.body_force))
+    if (varies(scene.body_force_in(cell)))
       coarse[{id, inside}] = cut(cell, inside);
     if (scene.has_body_force())
       add(cell, inside);
@@ -68,8 +68,7 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
 {
   const unsigned int degree = scene.adaptivity.start_degree;
   const CellMap<dim> map = map_of<dim>(cell);
-  const auto add_point =
-      [&](const std::array<Expression<dim>, dim> &load, const Point<dim> &x, const double weight)
+  const auto add_point = [&](const Load<dim> &load, const Point<dim> &x, const double weight)
   {
     const Tensor<1, dim> force = weight * load_at<dim>(load, x);
     const Tensor<1, dim> arm = x - total.centre;
@@ -83,7 +82,7 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
     for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
     {
       const Point<dim> &s = rule.quadrature.point(q);
-      add_point(scene.body_force, map.point(s),
+      add_point(scene.body_force_in(cell), map.point(s),
                 rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s))));
     }
     return;
@@ -100,9 +99,10 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
 template <int dim>
 typename LoadRules<dim>::Pieces LoadRules<dim>::cut_cell(const Cell &cell) const
 {
-  const auto &n_cells = scene.geometry.subdivisions;
-  BoxCutter cutter(force_in_cell(scene, map_of<dim>(cell)), tables->gauss(across),
-                   {{n_parts(cell, 12, n_cells[0], 2), n_parts(cell, 12, n_cells[1], 2)}});
+  const Geometry<dim> &body = scene.geometry;
+  BoxCutter cutter(
+      force_in_cell(scene.body_force_in(cell), map_of<dim>(cell)), tables->gauss(across),
+      {{n_parts(cell, 12, body.n_cells(0), 2), n_parts(cell, 12, body.n_cells(1), 2)}});
   Pieces result;
   double worst = 0;
   for (const BoxCutter::Piece &piece : cutter.cut())
@@ -201,7 +201,7 @@ LoadRule<dim> LoadRules<dim>::body_force(const Cell &cell, const unsigned int de
 {
   const CellMap<dim> map = map_of<dim>(cell);
   return rule_on<dim>(
-      pieces(cell, inside).boxes, degree, scene.body_force,
+      pieces(cell, inside).boxes, degree, scene.body_force_in(cell),
       [&](const Function<dim> &component, const Point<dim> &s)
       { return component.value(map.point(s)); },
       *tables);

@@ -3,8 +3,11 @@
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/text.h>
 #include <hpvi/body/mesh.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace hpvi
 {
@@ -15,7 +18,43 @@ namespace
 template <int dim>
 std::vector<unsigned int> repetitions(const Geometry<dim> &geometry)
 {
-  return {geometry.subdivisions.begin(), geometry.subdivisions.end()};
+  std::vector<unsigned int> result;
+  for (unsigned int d = 0; d < dim; ++d)
+    result.push_back(geometry.n_cells(d));
+  return result;
+}
+
+/** Where the vertices of an equidistant grid in the unit cube are wanted. */
+template <int dim>
+class GridLines
+{
+public:
+  explicit GridLines(const Geometry<dim> &geometry) : geometry(geometry)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      lines[d] = geometry.grid_lines(d);
+  }
+
+  Point<dim> operator()(const Point<dim> &equidistant) const
+  {
+    Point<dim> unit;
+    for (unsigned int d = 0; d < dim; ++d)
+      unit[d] = lines[d][std::lround(equidistant[d] * (lines[d].size() - 1))];
+    return geometry.point(unit);
+  }
+
+private:
+  const Geometry<dim> &geometry;
+  std::array<std::vector<double>, dim> lines;
+};
+
+template <int dim>
+void set_parts(const Scene<dim> &scene, Triangulation<dim> &triangulation)
+{
+  for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+      if (scene.has_parts() && face->at_boundary())
+        face->set_boundary_id(boundary_at(scene, face->boundary_id(), face->center()));
 }
 
 /** deal.II colours the cells of a box by octants; a scene says itself what they are made of. */
@@ -57,7 +96,9 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
 {
   const Geometry<dim> &geometry = scene.geometry;
   constexpr unsigned int last = GeometryInfo<dim>::vertices_per_cell - 1;
-  if (geometry.shape == Shape::box)
+  const bool is_cut = std::any_of(geometry.cuts.begin(), geometry.cuts.end(),
+                                  [](const auto &lines) { return !lines.empty(); });
+  if (geometry.shape == Shape::box && !is_cut)
     GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry),
                                               geometry.corners[0], geometry.corners[last],
                                               /*colorize=*/true);
@@ -68,11 +109,12 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
       one[d] = 1.;
     GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry), Point<dim>(),
                                               one, /*colorize=*/true);
-    GridTools::transform([&](const Point<dim> &x) { return geometry.point(x); }, triangulation);
+    GridTools::transform(GridLines<dim>(geometry), triangulation);
   }
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.
   AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
               ExcMessage("The scene has no boundary of the number that a face carries."));
+  set_parts(scene, triangulation);
   set_materials(scene, triangulation);
   grade_towards_points(geometry, triangulation);
 }

@@ -179,6 +179,13 @@ void check_exact_solution(const Scene<2> &scene)
     reject(scene, "Exact solution", "Solution",
            "knows one material, and the scene has " + std::to_string(scene.materials.size()) +
                "; measure errors by Error/Reference solution");
+  if (scene.has_parts())
+    reject(scene, "Exact solution", "Solution",
+           "knows whole sides, and Boundary " + scene.boundaries.back().name +
+               " is a part; measure errors by Error/Reference solution");
+  if (scene.thickness != 1)
+    reject(scene, "Exact solution", "Solution",
+           "is that of a body of unit thickness; remove Material/Thickness");
   for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
     ExactSolutionCheck(scene, b).run();
 }

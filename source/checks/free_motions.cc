@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/checks/supports.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <array>
@@ -112,26 +113,27 @@ struct Rows
   std::vector<RigidMotion<dim>> held, resisted;
 };
 
-/** Conditions at the corners of each side, for a rigid-body motion is linear along it. */
+/** Conditions at the corners of each piece, for a rigid-body motion is linear along it. */
 template <int dim>
 Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const double length)
 {
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   Rows<dim> rows;
   for (unsigned int f = 0; f < sides.size(); ++f)
-    for (const Point<dim> &end : sides[f].ends)
-    {
-      const BoundaryCondition<dim> &boundary = scene.boundaries[f];
-      const Tensor<1, dim> arm = (end - centre) / length;
-      for (const PointCondition<dim> &condition : conditions_at(
-               boundary, sides[f].normal(end), boundary.contact == Contact::bilateral, end))
-        // Coulomb's law has a multiplier where bilateral contact is a support else.
-        (boundary.has_pressure() ? rows.resisted : rows.held)
-            .push_back(row_of(condition.direction, arm));
-      if constexpr (dim == 2)
-        if (boundary.friction) // where it vanishes, the mesh decides
-          rows.resisted.push_back(row_of(sides[f].tangent(end), arm));
-    }
+    for (const auto &piece : sides[f].pieces)
+      for (const Point<dim> &end : piece)
+      {
+        const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+        const Tensor<1, dim> arm = (end - centre) / length;
+        for (const PointCondition<dim> &condition : conditions_at(
+                 boundary, sides[f].normal(end), boundary.contact == Contact::bilateral, end))
+          // Coulomb's law has a multiplier where bilateral contact is a support else.
+          (boundary.has_pressure() ? rows.resisted : rows.held)
+              .push_back(row_of(condition.direction, arm));
+        if constexpr (dim == 2)
+          if (boundary.friction) // where it vanishes, the mesh decides
+            rows.resisted.push_back(row_of(sides[f].tangent(end), arm));
+      }
   rows.resisted.insert(rows.resisted.end(), rows.held.begin(), rows.held.end());
   return rows;
 }

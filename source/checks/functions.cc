@@ -3,6 +3,7 @@
 #include <hpvi/checks/checks.h>
 #include <hpvi/checks/rejection.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <array>
@@ -26,9 +27,10 @@ struct EntryFunctions
 template <int dim>
 std::vector<EntryFunctions<dim>> functions_of(const Scene<dim> &scene)
 {
-  std::vector<EntryFunctions<dim>> result{
-      {"Body force", "Expression", scene.body_force, sample_body(scene.geometry)}};
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  std::vector<EntryFunctions<dim>> result;
+  for (const Load<dim> &force : scene.body_forces())
+    result.push_back({"Body force", "Expression", force, sample_body(scene.geometry)});
+  const std::vector<Side<dim>> sides = sides_of(scene);
   for (unsigned int b = 0; b < sides.size(); ++b)
   {
     const BoundaryCondition<dim> &boundary = scene.boundaries[b];
@@ -94,6 +96,17 @@ void check_friction(const Scene<dim> &scene, const std::string &section,
            name_of(boundary.contact));
 }
 
+/** The entry of a boundary that gives its load, in a file; Traction where several do. */
+template <int dim>
+std::string entry_of_load(const Scene<dim> &scene, const std::string &section)
+{
+  for (const std::string entry : {"Pressure", "Shear"})
+    if (scene.parameters && scene.parameters->text(section, "Traction").empty() &&
+        (dim == 2 || entry == "Pressure") && !scene.parameters->text(section, entry).empty())
+      return entry;
+  return "Traction";
+}
+
 /** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
 template <int dim>
 void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
@@ -102,7 +115,7 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
   const std::string section = section_of(boundary);
   for (unsigned int d = 0; d < dim; ++d)
     if (boundary.traction[d] != nullptr && boundary.displacement[d] != nullptr)
-      reject(scene, section, "Traction",
+      reject(scene, section, entry_of_load(scene, section),
              std::string("acts on the component ") + "xyz"[d] +
                  " that Displacement prescribes; make that component 0 here or free "
                  "there");
@@ -113,21 +126,37 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
     reject(scene, section, "Displacement",
            "stands beside Contact = " + name_of(boundary.contact) + "; keep only one of the two");
 }
+/** What code may have done to Scene::boundaries. */
+template <int dim>
+void check_list(const Scene<dim> &scene)
+{
+  constexpr unsigned int n_sides = GeometryInfo<dim>::faces_per_cell;
+  if (scene.boundaries.size() < n_sides)
+    fail(printable(scene.origin()), "Boundary",
+         "has " + std::to_string(scene.boundaries.size()) + " instead of " +
+             std::to_string(n_sides) + "; change those of a new scene, add parts and remove none");
+  for (unsigned int b = 0; b < scene.boundaries.size(); ++b)
+  {
+    const BoundaryCondition<dim> &boundary = scene.boundaries[b];
+    const std::string section = "Boundary " + boundary.name;
+    if (boundary.id != b)
+      fail(printable(scene.origin()), section,
+           "has the id " + std::to_string(boundary.id) + " and stands at " + std::to_string(b) +
+               "; leave ids and order as they are in a new scene, and give parts the next ids");
+    if (b < n_sides ? boundary.side != b || boundary.where : boundary.side >= n_sides)
+      fail(printable(scene.origin()), section,
+           "lies on side " + std::to_string(boundary.side) +
+               "; sides lie on themselves and have no Where, parts on one of them");
+  }
+}
 } // namespace
 
 template <int dim>
 void check_boundaries(const Scene<dim> &scene)
 {
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
-  if (scene.boundaries.size() != sides.size())
-    fail(printable(scene.origin()), "Boundary",
-         "has " + std::to_string(scene.boundaries.size()) + " instead of " +
-             std::to_string(sides.size()) + "; change those of a new scene, add and remove none");
-  for (unsigned int b = 0; b < sides.size(); ++b)
-    if (scene.boundaries[b].id != b)
-      fail(printable(scene.origin()), "Boundary " + scene.boundaries[b].name,
-           "has the id " + std::to_string(scene.boundaries[b].id) + " and stands at " +
-               std::to_string(b) + "; leave ids and order as they are in a new scene");
+  check_list(scene);
+  check_parts(scene);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   const std::vector<EntryFunctions<dim>> all = functions_of(scene);
   for (const EntryFunctions<dim> &functions : all)
     check_magnitude(scene, functions);

@@ -5,6 +5,7 @@
 #include <hpvi/checks/rejection.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <array>
@@ -109,8 +110,8 @@ void check_first_step(const Scene<dim> &scene)
   std::array<double, dim> nodes;
   double all_nodes = 1;
   for (unsigned int d = 0; d < dim; ++d)
-    all_nodes *= nodes[d] = 1. + degree * double(scene.geometry.subdivisions[d]);
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+    all_nodes *= nodes[d] = 1. + degree * double(scene.geometry.n_cells(d));
+  const std::vector<Side<dim>> sides = sides_of(scene);
   double unknowns = dim * all_nodes;
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {

@@ -45,6 +45,7 @@ void Scene<dim>::check(const SceneUse use) const
   if (has_load_history())
     check_load_history(*this, use);
   check_body();
+  check_material_places(*this);
   check_boundaries(*this);
   check_supports(*this);
   free_motions();

@@ -120,7 +120,7 @@ void check_materials(const Scene<dim> &scene)
          "says nowhere which of " + number + " is where; set material_at or keep one");
   for (const Material &material : scene.materials)
     if (const auto flaw = material.flaw())
-      reject(scene, "Material", flaw->entry, flaw->problem, flaw->value);
+      reject(scene, section_of_material(material.name), flaw->entry, flaw->problem, flaw->value);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/checks/rejection.h>
 #include <hpvi/checks/supports.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <cmath>
 
@@ -113,7 +114,7 @@ void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
 template <int dim>
 void check_supports(const Scene<dim> &scene)
 {
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   const double tolerance = support_tolerance(scene);
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)

@@ -213,8 +213,10 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
       Vector<double> local(numbering.shape.size());
       if (interior_loads)
       {
-        const auto force = [&](const Point<dim> &reference, const Point<dim> &x) {
-          return std::abs(determinant(map.jacobian(reference))) * load_at<dim>(scene.body_force, x);
+        const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
+        {
+          return std::abs(determinant(map.jacobian(reference))) *
+                 load_at<dim>(scene.body_force_in(cell), x);
         };
         const LoadRule<dim> rule = rules.body_force(cell, degree);
         if (rule.n_gauss > 0)

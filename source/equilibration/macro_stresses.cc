@@ -89,7 +89,7 @@ struct Fields
 
 Fields fields_of(const MacroStressElement &element, const unsigned int f, const double h,
                  const CellMap<2> &map, const TriangleTable &table, const Gradient &gradient,
-                 const HookesLaw<2> &law, const Scene<2> &scene)
+                 const HookesLaw<2> &law, const Load<2> *const load)
 {
   Fields result;
   const auto &piece = element.piece(f);
@@ -106,9 +106,9 @@ Fields fields_of(const MacroStressElement &element, const unsigned int f, const 
     const Tensor<2, 2> s = law.stress(slopes[q] * invert(map.jacobian(result.reference[q])));
     result.sigma.push_back({{s[0][0], s[1][1], s[0][1]}});
   }
-  if (scene.has_body_force())
+  if (load)
     for (const Point<2> &x : result.points)
-      result.force.push_back(load_at<2>(scene.body_force, x));
+      result.force.push_back(load_at<2>(*load, x));
   return result;
 }
 
@@ -246,10 +246,11 @@ void MacroStresses::set_cell(const unsigned int index)
   const HookesLaw<2> law(solution.scene.material_of(iterator));
   MacroStressElement::Data by_vertex(4);
   cell.data.columns = 1;
+  const Load<2> *const force =
+      solution.scene.has_body_force() ? &solution.scene.body_force_in(iterator) : nullptr;
   for (unsigned int f = 0; f < 4; ++f)
   {
-    const Fields fields =
-        fields_of(*cell.element, f, cell.h, map, table, gradient, law, solution.scene);
+    const Fields fields = fields_of(*cell.element, f, cell.h, map, table, gradient, law, force);
     const std::vector<double> moments = moments_of(fields, map, cell.h, table);
     std::vector<double> sum(5 * n);
     for (unsigned int i = 0; i < moments.size(); ++i)

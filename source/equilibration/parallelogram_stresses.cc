@@ -143,8 +143,9 @@ void ParallelogramStresses::set_force(const unsigned int index)
   for (unsigned int a = 0; a < n; ++a)
     for (unsigned int b = 0; b < n; ++b)
     {
-      const Tensor<1, 2> F = load_at<2>(solution.scene.body_force,
-                                        map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+      const Tensor<1, 2> F =
+          load_at<2>(solution.scene.body_force_in(patches.cells()[index].iterator),
+                     map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
       const Tensor<1, 2> f = -cell.h * (inverse * F);
       for (unsigned int k = 0; k < 2; ++k)
         values[k](a, b) = f[k];
@@ -172,7 +173,8 @@ void ParallelogramStresses::set_force(const unsigned int index, const Quadrature
   {
     const Tensor<1, 2> f =
         -4 * rule.weight(q) * cell.h *
-        (inverse * load_at<2>(solution.scene.body_force, map.point(rule.point(q))));
+        (inverse * load_at<2>(solution.scene.body_force_in(patches.cells()[index].iterator),
+                              map.point(rule.point(q))));
     const auto L_x = legendre::values(n, 2 * rule.point(q)[0] - 1),
                L_y = legendre::values(n, 2 * rule.point(q)[1] - 1);
     for (unsigned int k = 0; k < 2; ++k)
@@ -306,8 +308,10 @@ double ParallelogramStresses::missed_force(const unsigned int index) const
       for (unsigned int i = 0; i < std::min(modes.n, m - k); ++i)
         for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
           projected[k] -= modes(k, i, j) * L_x[i] * L_y[j];
-    const Tensor<1, 2> missed = load_at<2>(solution.scene.body_force, map.point(rule.point(q))) -
-                                cell.B * projected / cell.h;
+    const Tensor<1, 2> missed =
+        load_at<2>(solution.scene.body_force_in(patches.cells()[index].iterator),
+                   map.point(rule.point(q))) -
+        cell.B * projected / cell.h;
     sum += rule.weight(q) * missed.norm_square();
   }
   return std::sqrt(sum) * 2 * cell.h;

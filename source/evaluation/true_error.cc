@@ -269,7 +269,7 @@ DifferenceSquares compare_cell(const Field<dim> &field, const typename Field<dim
           gauss.weight(q) * box.volume() * std::abs(determinant(own.map.jacobian(reference_point)));
       const Tensor<1, dim> u = exact.displacement(x);
       sums.add(law, field_values[q], {u, exact.gradient(x)}, weight);
-      body_work += weight * (load_at<dim>(scene.body_force, x) * u);
+      body_work += weight * (load_at<dim>(scene.body_force_in(cell), x) * u);
     }
   }
   return sums;

@@ -170,8 +170,9 @@ bool is_absent(const std::string &text, const std::string &absent)
 
 template <int dim>
 ExpressionReader<dim>::ExpressionReader(const Parameters &parameters,
-                                        std::map<std::string, double> constants)
-    : parameters(parameters), constants(std::move(constants))
+                                        std::map<std::string, double> constants,
+                                        const std::string &remark)
+    : parameters(parameters), constants(std::move(constants)), remark(remark)
 {
 }
 
@@ -252,8 +253,12 @@ std::string ExpressionReader<dim>::objection(const std::string &text) const
            "a function of x and y";
   const std::string variables = dim == 2 ? (has_time ? "x, y and t" : "x and y")
                                          : (has_time ? "x, y, z and t" : "x, y and z");
-  return "is not an expression of " + variables + " (" + problem +
-         "); mend it, constants are pi, E, nu, mu";
+  std::vector<std::string> names;
+  for (const auto &[name, value] : constants)
+    if (name != "t")
+      names.push_back(name);
+  return "is not an expression of " + variables + " (" + problem + "); mend it, constants are " +
+         listed(names, "and") + remark;
 }
 
 template <int dim>

@@ -24,6 +24,43 @@ std::string Entry::objection(const std::string &value) const
   return pattern->match(value) ? "" : "is not accepted here; give " + wanted;
 }
 
+namespace
+{
+class WordOr : public Patterns::PatternBase
+{
+public:
+  WordOr(const std::string &word, const Patterns::PatternBase &other)
+      : word(word), other(other.clone())
+  {
+  }
+
+  bool match(const std::string &text) const override
+  {
+    return text == word || other->match(text);
+  }
+
+  std::string description(const OutputStyle style) const override
+  {
+    return (word.empty() ? "nothing" : word) + " or " + other->description(style);
+  }
+
+  std::unique_ptr<Patterns::PatternBase> clone() const override
+  {
+    return std::make_unique<WordOr>(*this);
+  }
+
+private:
+  std::string word;
+  std::shared_ptr<const Patterns::PatternBase> other;
+};
+} // namespace
+
+std::shared_ptr<const Patterns::PatternBase> word_or(const std::string &word,
+                                                     const Patterns::PatternBase &other)
+{
+  return std::make_shared<WordOr>(word, other);
+}
+
 std::string storable(std::string text)
 {
   std::replace_if(

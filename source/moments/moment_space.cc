@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/moments/moment_space.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -94,7 +95,7 @@ void MomentSpace<dim>::constrain()
 {
   constraints.reinit(relevant);
   DoFTools::make_hanging_node_constraints(dof_handler, constraints);
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     ComponentMask mask(dim, false);

@@ -5,6 +5,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -13,9 +16,8 @@ namespace
 {
 /** Adds the integrals of @p load against the shape functions of @p table, in cells of @p size. */
 template <int dim>
-void integrate(const std::array<Expression<dim>, dim> &load, const BoxTable<dim> &table,
-               const Point<dim> &corner, const Tensor<1, dim> &size, const double measure,
-               CellField<dim> &result)
+void integrate(const Load<dim> &load, const BoxTable<dim> &table, const Point<dim> &corner,
+               const Tensor<1, dim> &size, const double measure, CellField<dim> &result)
 {
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
@@ -91,7 +93,7 @@ const FullMatrix<double> &
 PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &moment_components) const
 {
   const auto [entry, is_new] =
-      matrices.try_emplace({cell->level(), cell->material_id(), moment_components});
+      matrices.try_emplace({size_class(cell), cell->material_id(), moment_components});
   if (!is_new)
     return entry->second;
   const Matrix K = space.tables.stiffness(HookesLaw<dim>(space.scene.material_of(cell)),
@@ -108,11 +110,34 @@ PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &moment_c
 }
 
 template <int dim>
+unsigned int PrimalSystem<dim>::size_class(const Cell &cell) const
+{
+  const auto &cuts = space.scene.geometry.cuts;
+  if (std::all_of(cuts.begin(), cuts.end(), [](const auto &lines) { return lines.empty(); }))
+    return cell->level();
+  const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
+  const auto known = std::find_if(sizes.begin(), sizes.end(),
+                                  [&](const Tensor<1, dim> &other)
+                                  {
+                                    for (unsigned int d = 0; d < dim; ++d)
+                                      if (std::abs(other[d] - size[d]) > 1e-12 * size[d])
+                                        return false;
+                                    return true;
+                                  });
+  if (known == sizes.end())
+  {
+    sizes.push_back(size);
+    return sizes.size() - 1;
+  }
+  return known - sizes.begin();
+}
+
+template <int dim>
 CellField<dim> PrimalSystem<dim>::body_load(const Cell &cell) const
 {
   CellField<dim> result(space.tables.n_shapes);
   if (space.scene.has_body_force())
-    integrate<dim>(space.scene.body_force, space.tables.cell, cell->vertex(0),
+    integrate<dim>(space.scene.body_force_in(cell), space.tables.cell, cell->vertex(0),
                    MomentSpace<dim>::extent(cell), cell->measure(), result);
   return result;
 }

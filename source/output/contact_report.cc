@@ -357,7 +357,9 @@ std::string loads_in_words(const Scene<2> &scene)
   }
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>()).sum();
+  const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>())
+                          .sum()
+                          .times(scene.thickness);
   const double size = scene.geometry.diameter();
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
          text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +

@@ -68,7 +68,7 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   warnings = texts(step.warnings);
   if constexpr (dim == 2)
     if (step.reduced)
-      loads = step.solution().spaces->loads->sum();
+      loads = step.solution().spaces->loads->sum().times(step.scene.thickness);
   ending = {};
   if (stopped_by.empty())
     return;

@@ -230,19 +230,21 @@ DataOutBase::VtkFlags vtk_flags(const Scene<dim> &scene, const StressFields<dim>
 
 namespace
 {
-/** Degree and indicator; where there is contact the means of pressure -T_n and friction |T_t| over the faces of a cell. */
+/** Degree and indicator, the index of the material where there are several; where there is contact the means of pressure -T_n and friction |T_t| over the faces of a cell. */
 template <int dim>
 CellData cell_data(const StepReport<dim> &step, const bool is_shared)
 {
   const Field<dim> &field = step.field;
   const unsigned int n = field.dof_handler.get_triangulation().n_active_cells();
-  Vector<float> degree(n), estimate(n), process(n), area(n), pressure(n), friction(n);
+  Vector<float> degree(n), estimate(n), process(n), material(n), area(n), pressure(n), friction(n);
   process = rank_of(field.communicator());
   for (const auto &cell : field.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       degree[cell->active_cell_index()] = field.degree(cell);
-      estimate[cell->active_cell_index()] = step.estimate.indicator(cell->active_cell_index());
+      estimate[cell->active_cell_index()] =
+          std::sqrt(step.scene.thickness) * step.estimate.indicator(cell->active_cell_index());
+      material[cell->active_cell_index()] = cell->material_id();
     }
   for (const FieldFace<dim> &face : field.faces())
   {
@@ -259,6 +261,8 @@ CellData cell_data(const StepReport<dim> &step, const bool is_shared)
   CellData result{{"degree", degree}, {"estimate", estimate}};
   if (is_shared)
     result.emplace_back("process", process);
+  if (step.scene.materials.size() > 1)
+    result.emplace_back("material", material);
   if (step.scene.has_contact())
   {
     result.emplace_back("contact_pressure", pressure);

@@ -15,9 +15,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-using Load = std::array<Expression<dim>, dim>;
-
 /** Calls @p take with each point of a face, or of a cell where @p axis is none, and its force. */
 template <int dim>
 void for_each_force(const Load<dim> &load, const BoundingBox<dim> &box, const unsigned int axis,
@@ -101,7 +98,7 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
     {
       const unsigned int samples = axis < dim ? 48 : 24; // along a side of the body
       once[d] = 1;
-      often[d] = std::max(4U, samples / (n_gauss * scene.geometry.subdivisions[d]));
+      often[d] = std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d)));
     }
     Tensor<1, dim> coarse, fine;
     for_each_force<dim>(load, box, axis, n_gauss, once,
@@ -126,7 +123,7 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
     if (scene.has_body_force())
-      look(scene.body_force, cell->bounding_box(), dim, "Body force");
+      look(scene.body_force_in(cell), cell->bounding_box(), dim, "Body force");
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
         if (const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];

@@ -188,7 +188,10 @@ void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::s
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
             << legible(scene.title) << '\n'
             << replacement_in_words(output.replaced_scene(), directory) << '\n'
-            << loads << std::endl;
+            << loads;
+  for (const std::string &remark : scene.remarks)
+    std::cout << remark << '\n';
+  std::cout << std::endl;
 }
 
 template <int dim>

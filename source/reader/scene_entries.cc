@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
 #include <hpvi/shapes/shape.h>
 
@@ -17,9 +19,13 @@ using namespace dealii;
 std::string in_space(std::string text)
 {
   const std::vector<std::pair<std::string, std::string>> changes{
-      {"x and y", "x, y and z"}, {"(x,y)", "(x,y,z)"},
-      {"Fx; Fy", "Fx; Fy; Fz"},  {"ux; uy", "ux; uy; uz"},
-      {"Gx; Gy", "Gx; Gy; Gz"},  {", `exact` for one or all of the exact solution", ""},
+      {"x and y", "x, y and z"},
+      {"(x,y)", "(x,y,z)"},
+      {"Fx; Fy", "Fx; Fy; Fz"},
+      {"ux; uy", "ux; uy; uz"},
+      {"Gx; Gy", "Gx; Gy; Gz"},
+      {"gx; gy", "gx; gy; gz"},
+      {", `exact` for one or all of the exact solution", ""},
       {", or `exact`", ""}};
   for (const auto &[plane, space] : changes)
     if (const std::size_t begin = text.find(plane); begin != std::string::npos)
@@ -34,33 +40,6 @@ std::shared_ptr<const Patterns::PatternBase> matching(const Pattern &pattern)
 {
   return std::make_shared<Pattern>(pattern);
 }
-
-/** "automatic", or what another pattern accepts. */
-class OrAutomatic : public Patterns::PatternBase
-{
-public:
-  explicit OrAutomatic(const Patterns::PatternBase &other) : other(other.clone())
-  {
-  }
-
-  bool match(const std::string &text) const override
-  {
-    return text == "automatic" || other->match(text);
-  }
-
-  std::string description(const OutputStyle style) const override
-  {
-    return "automatic or " + other->description(style);
-  }
-
-  std::unique_ptr<Patterns::PatternBase> clone() const override
-  {
-    return std::make_unique<OrAutomatic>(*this);
-  }
-
-private:
-  std::shared_ptr<const Patterns::PatternBase> other;
-};
 
 std::string joined(const std::vector<std::string> &words, const std::string &separator)
 {
@@ -80,7 +59,8 @@ void add(std::vector<Entry> &entries, const std::vector<Entry> &more)
   entries.insert(entries.end(), more.begin(), more.end());
 }
 
-void add_problem_entries(std::vector<Entry> &entries, const int dim)
+void add_problem_entries(std::vector<Entry> &entries, const int dim,
+                         const std::vector<std::string> &materials)
 {
   const auto text = matching(Patterns::Anything());
 
@@ -92,11 +72,31 @@ void add_problem_entries(std::vector<Entry> &entries, const int dim)
        {"Units", "Length", "", text, "a label", "Label of lengths; nothing is converted."},
        {"Units", "Stress", "", text, "a label", "Label of stresses; nothing is converted."}});
   add(entries, dim == 2 ? geometry_entries<2>() : geometry_entries<3>());
-  add(entries, material_entries(dim));
+  for (const std::string &material : materials)
+    add(entries, material_entries(dim, material));
   entries.insert(
       entries.end(),
       {{"Body force", "Expression", "", text, "Fx; Fy or nothing",
-        "Force per volume Fx; Fy as expressions of x and y [stress/length]; empty: none."}});
+        "Force per volume Fx; Fy as expressions of x and y [stress/length]; empty: none."},
+       {"Body force", "Gravity", "", text, "gx; gy or nothing",
+        "Force per mass gx; gy as expressions of x and y; each Material's Density times it is "
+        "added "
+        "to Expression; empty: none."}});
+}
+
+/** What a part of a side has beside what it has in common with sides. */
+void add_part_entries(std::vector<Entry> &entries, const std::string &part,
+                      const std::vector<std::string> &sides)
+{
+  entries.insert(
+      entries.end(),
+      {{"Boundary " + part, "On", "", matching(Patterns::Anything()), listed(sides, "or"),
+        "The side of which this boundary is a part: it takes its faces out of it and inherits "
+        "nothing."},
+       {"Boundary " + part, "Where", "", matching(Patterns::Anything()),
+        "one expression of x and y",
+        "Positive on the part, at the centre of each face of the coarse mesh. A box gets a grid "
+        "line where the part ends between two."}});
 }
 
 void add_boundary_entries(std::vector<Entry> &entries, const std::string &boundary)
@@ -110,6 +110,12 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
        {section, "Traction", "", text, "Gx; Gy or nothing",
         "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
+       {section, "Pressure", "", text, "one expression p or nothing",
+        "Pressure p(x,y) [stress]: adds -p n to Traction, n the outer normal; it presses where it "
+        "is "
+        "positive; empty: none."},
+       {section, "Shear", "", text, "one expression s or nothing",
+        "Shear s(x,y) [stress]: adds s t to Traction, t = (-n_y, n_x) the tangent; empty: none."},
        {section, "Contact", "none", one_of(contact_names),
         "none, bilateral, unilateral or tangential",
         "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
@@ -180,7 +186,7 @@ void add_method_entries(std::vector<Entry> &entries)
         "more of them is refused."},
        {section, "Maximum seconds", "0", matching(Patterns::Double(0)), "a number >= 0",
         "No step is started after this time of computing; 0: no limit."},
-       {section, "Tolerance", "automatic", matching(OrAutomatic(Patterns::Double(0))),
+       {section, "Tolerance", "automatic", word_or("automatic", Patterns::Double(0)),
         "automatic or a number >= 0",
         "Stop where the relative error falls below, as Tolerance on knows it; 0: never. automatic: "
         "1e-3, but 0 where Maximum steps, Maximum unknowns or Maximum seconds is named, in a load "
@@ -197,7 +203,7 @@ void add_loading_entries(std::vector<Entry> &entries)
   const std::string section = "Loading";
   entries.insert(
       entries.end(),
-      {{section, "Steps", "", matching(Patterns::List(Patterns::Integer(1, 10000), 0, 1)),
+      {{section, "Steps", "", word_or("", Patterns::Integer(1, 10000)),
         "an integer from 1 to 10000, or nothing",
         "Number n of load steps: every expression may use t, which runs through 1/n, 2/n, ..., 1, "
         "and friction acts on the increment of the tangential displacement; empty: no history."},
@@ -284,7 +290,7 @@ void add_program_entries(std::vector<Entry> &entries)
 /** What only a plane scene has. */
 bool is_of_the_plane(const Entry &entry)
 {
-  return entry.section == "Exact solution" ||
+  return entry.section == "Exact solution" || entry.name == "Shear" ||
          (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }
@@ -317,13 +323,21 @@ void take_to_space(std::vector<Entry> &entries)
 }
 } // namespace
 
-std::vector<Entry> scene_entries(const int dim, const std::vector<std::string> &boundaries)
+std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
 {
   std::vector<Entry> entries;
-  add_problem_entries(entries, dim);
+  std::vector<std::string> materials{""};
+  materials.insert(materials.end(), names.materials.begin(), names.materials.end());
+  add_problem_entries(entries, dim, materials);
   add(entries, closed_form_entries());
-  for (const std::string &boundary : boundaries)
-    add_boundary_entries(entries, boundary);
+  const std::vector<std::string> sides = boundary_names(dim);
+  for (const std::string &side : sides)
+    add_boundary_entries(entries, side);
+  for (const std::string &part : names.parts)
+  {
+    add_part_entries(entries, part, sides);
+    add_boundary_entries(entries, part);
+  }
   add_loading_entries(entries);
   add_method_entries(entries);
   add_program_entries(entries);

@@ -15,8 +15,8 @@ std::vector<Hint> hints_about_body()
           {{"nu", "poisson", "poisson number"}, "set \"Material/Poisson's ratio\""},
           {{"lambda", "shear modulus", "bulk modulus", "lame parameters", "elasticity"},
            "set " + elasticity},
-          {{"density", "rho", "gravity", "weight", "g", "self weight"},
-           "weight is \"Body force/Expression\" = Fx; Fy, density times gravity"},
+          {{"rho", "weight", "g", "self weight"},
+           "weight is \"Material/Density\" times \"Body force/Gravity\" = gx; gy"},
           {{"domain", "box", "size", "width", "height", "length", "dimensions", "corner"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\""},
           {{"mesh", "mesh size", "grid", "cells", "elements", "element size", "resolution", "nx",
@@ -32,10 +32,6 @@ std::vector<Hint> hints_about_body()
 std::vector<Hint> hints_about_conditions()
 {
   return {
-      {{"pressure"},
-       "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, which is -p n for a pressure "
-       "p, n "
-       "the outer normal"},
       {{"force", "forces", "load", "loads", "surface load", "line load", "point load", "neumann",
         "neumann boundary", "surface force", "surface traction"},
        "a load on a boundary is \"Boundary top/Traction\" = Gx; Gy, a force per area, and one in "
@@ -84,8 +80,6 @@ std::vector<Hint> hints_in_plane()
        "modulus\" and \"Material/Poisson's ratio\""},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
-      {{"thickness"},
-       "there is none: loads are stresses, and forces those of a body of thickness 1"},
       {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
        "a load history has \"Loading/Steps\", in which t runs from 0 to 1"}};
 }
@@ -96,6 +90,8 @@ std::vector<Hint> hints_in_space()
            "friction is \"Boundary bottom/Friction bound\", Tresca's; a shear modulus follows from "
            "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
+          {{"thickness"}, "only a body in the plane has it; remove it"},
+          {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},
           {{"corners"}, "space has no shape but the box; remove it"},
           {{"exact solution"}, "space offers no closed form; remove it"},
           {{"mesh picture"}, "it shows a plane; remove it, solution-NN.vtu has the mesh"},

@@ -5,9 +5,10 @@
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
-#include <hpvi/shapes/shape.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -59,8 +60,7 @@ struct ReadValue
 /** What expressions may use; the time @p t in a load history. */
 std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
 {
-  std::map<std::string, double> constants = material.constants();
-  constants.emplace("pi", numbers::PI);
+  std::map<std::string, double> constants = hpvi::constants_of(material);
   if (t)
     constants.emplace("t", *t);
   return constants;
@@ -132,19 +132,58 @@ exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boun
   return {{none, none}};
 }
 
+/** E, nu and mu are those of the cells along @p boundary, where these have one material. */
 template <int dim>
-void read_boundary(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+ExpressionReader<dim> reader_along(const Parameters &parameters, const Scene<dim> &scene,
+                                   const BoundaryCondition<dim> &boundary,
+                                   const std::optional<double> t)
+{
+  const std::vector<unsigned int> materials = materials_along(scene, boundary);
+  const bool differ = materials.size() > 1;
+  auto constants = constants_of(scene.materials[materials.empty() ? 0 : materials.front()], t);
+  for (const char *const name : {"E", "nu", "mu"})
+    if (differ)
+      constants.erase(name);
+  return ExpressionReader<dim>(parameters, constants,
+                               differ ? "; the materials along this boundary differ in E, nu and mu"
+                                      : "");
+}
+
+/** Traction, pressure and shear as one load. */
+template <int dim>
+void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
+                const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
+                BoundaryCondition<dim> &boundary)
+{
+  const std::vector<Point<dim>> points = side.sample();
+  boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
+  const auto add = [&](const std::string &entry, const double sign, const Tensor<1, dim> &direction)
+  {
+    const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
+    for (unsigned int c = 0; c < dim; ++c)
+      boundary.traction[c] = sum<dim>(boundary.traction[c], sign * direction[c], load);
+  };
+  if (points.empty()) // parts have taken it all
+    return;
+  add("Pressure", -1, side.normal(points.front()));
+  if constexpr (dim == 2)
+    add("Shear", 1, side.tangent(points.front()));
+}
+
+template <int dim>
+void read_boundary(const Parameters &parameters, const std::optional<double> t,
                    const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
 {
-  const std::vector<Point<dim>> points = sides_of(scene.geometry)[boundary.id].sample();
+  const ExpressionReader<dim> expressions = reader_along(parameters, scene, boundary, t);
+  const Side<dim> side = sides_of(scene)[boundary.id];
+  const std::vector<Point<dim>> points = side.sample();
   const auto [exact_displacement, exact_traction] =
-      exact_displacement_and_traction(scene, boundary.id);
+      exact_displacement_and_traction(scene, boundary.side);
 
   const std::string section = "Boundary " + boundary.name;
   boundary.displacement =
       expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
-  boundary.traction =
-      expressions.template read<dim>(section, "Traction", "0", points, exact_traction);
+  read_loads<dim>(expressions, section, side, exact_traction, boundary);
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
   boundary.friction.bound =
@@ -232,9 +271,34 @@ void settle_normal_contact(Parameters &parameters, Scene<dim> &scene)
                  normal_contact_names[static_cast<unsigned int>(scene.solver.normal_contact)]);
 }
 
+/** Of each material, its weight among them. */
+template <int dim>
+void read_body_force(const Parameters &parameters, const std::optional<double> t, Scene<dim> &scene)
+{
+  const std::vector<Point<dim>> points = sample_body(scene.geometry);
+  const std::string section = "Body force";
+  bool is_heavy = false;
+  for (const Material &material : scene.materials)
+  {
+    const ExpressionReader<dim> expressions(parameters, constants_of(material, t));
+    Load<dim> force = expressions.template read<dim>(section, "Expression", "0", points);
+    const Load<dim> gravity = expressions.template read<dim>(section, "Gravity", "0", points);
+    for (unsigned int c = 0; c < dim; ++c)
+      force[c] = sum<dim>(force[c], material.density, gravity[c]);
+    is_heavy = is_heavy || material.density > 0;
+    scene.body_force_of_material.push_back(force);
+  }
+  if (!parameters.text(section, "Gravity").empty() && !is_heavy)
+    parameters.reject(section, "Gravity", "acts on nothing; give Material/Density or remove it");
+  if (scene.materials.size() > 1)
+    return;
+  scene.body_force = scene.body_force_of_material.front();
+  scene.body_force_of_material.clear();
+}
+
 /** All but the load history; @p t is its time, if there is one. */
 template <int dim>
-Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
+Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, const FreeNames &names,
                         const std::string &name, const std::optional<double> t)
 {
   Scene<dim> scene;
@@ -244,19 +308,14 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
   scene.length_unit = parameters->text("Units", "Length");
   scene.stress_unit = parameters->text("Units", "Stress");
 
-  scene.geometry = read_geometry<dim>(*parameters);
+  read_body(*parameters, names, scene);
   read_method(*parameters, scene);
-
-  // Expressions are tried on the body and know its material: both must be sound.
-  scene.materials = {read_material(*parameters, dim)};
-  scene.check_body();
-  const ExpressionReader<dim> expressions(*parameters, constants_of(scene.materials[0], t));
-  scene.body_force =
-      expressions.template read<dim>("Body force", "Expression", "0", sample_body(scene.geometry));
+  read_body_force(*parameters, t, scene);
   if constexpr (dim == 2)
-    scene.exact_solution = read_exact_solution(*parameters, expressions, scene);
+    scene.exact_solution = read_exact_solution(
+        *parameters, ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t)), scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
-    read_boundary(*parameters, expressions, scene, boundary);
+    read_boundary(*parameters, t, scene, boundary);
   scene.reference_solution = parameters->text("Error", "Reference solution");
   return scene;
 }
@@ -264,7 +323,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters,
 /** A history has the functions of every load step, which are those of one problem with t frozen. */
 template <int dim>
 Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
-                          const std::string &name)
+                          const FreeNames &names, const std::string &name)
 {
   Loading<dim> loading;
   loading.adapt =
@@ -272,7 +331,7 @@ Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
   if (!parameters->text("Loading", "Steps").empty())
   {
     loading.steps = parameters->integer("Loading", "Steps");
-    loading.at = [=](const double t) { return read_problem<dim>(parameters, name, t); };
+    loading.at = [=](const double t) { return read_problem<dim>(parameters, names, name, t); };
   }
   else if (loading.adapt != LoadAdaptivity::every_step)
     parameters->reject("Loading", "Adapt", "has no load step to mean; set Steps or remove it");
@@ -285,7 +344,8 @@ Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides,
                       const SceneUse use)
 {
-  const auto parameters = std::make_shared<Parameters>(scene_entries(dim, boundary_names(dim)),
+  const FreeNames names = free_names(file, overrides, boundary_names(dim));
+  const auto parameters = std::make_shared<Parameters>(scene_entries(dim, names),
                                                        scene_hints(dim, boundary_names(dim)), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
@@ -294,9 +354,9 @@ Scene<dim> read_scene(const std::string &file,
   const std::string name = std::filesystem::path(file).stem().string();
   complete(*parameters, name);
   const bool is_default_tolerance = choose_tolerance(*parameters, use);
-  const Loading<dim> loading = read_loading<dim>(parameters, name);
-  Scene<dim> scene =
-      loading.at ? loading.at(loading.time(1)) : read_problem<dim>(parameters, name, std::nullopt);
+  const Loading<dim> loading = read_loading<dim>(parameters, names, name);
+  Scene<dim> scene = loading.at ? loading.at(loading.time(1))
+                                : read_problem<dim>(parameters, names, name, std::nullopt);
   settle_normal_contact(*parameters, scene);
   scene.loading = loading;
   scene.adaptivity.is_default_tolerance = is_default_tolerance;
@@ -319,7 +379,7 @@ int scene_dimension(const std::string &file,
 
 std::string default_parameters()
 {
-  return Parameters(scene_entries(2, boundary_names(2)), {}, "").print(true);
+  return Parameters(scene_entries(2, {{"NAME"}, {"NAME"}}), {}, "").print(true);
 }
 
 template Scene<2> read_scene(const std::string &,

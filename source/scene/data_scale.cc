@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/data_scale.h>
 
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/scene.h>
 
 #include <algorithm>
@@ -46,10 +47,11 @@ DataScale data_scale(const Scene<dim> &scene)
   const auto absolute = [](const double value) { return std::abs(value); };
   DataScale scale = scene.past_data;
   double force = 0;
-  for (const Expression<dim> &component : scene.body_force)
-    raise<dim>(force, component, sample_body(scene.geometry), absolute);
+  for (const Load<dim> &load : scene.body_forces())
+    for (const Expression<dim> &component : load)
+      raise<dim>(force, component, sample_body(scene.geometry), absolute);
   scale.stress = std::max(scale.stress, force * size);
-  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     const std::vector<Point<dim>> points = sides[boundary.id].sample();
@@ -84,8 +86,14 @@ Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const D
   const auto round_off = [](const double largest)
   { return std::max(0.1 * round_off_of_data * largest, smallest_magnitude); };
   const DataScale scale = data_scale(result);
-  for (Expression<dim> &component : result.body_force)
-    drop(round_off(scale.stress / scene.geometry.diameter()), component);
+  const auto drop_force = [&](Load<dim> &load)
+  {
+    for (Expression<dim> &component : load)
+      drop(round_off(scale.stress / scene.geometry.diameter()), component);
+  };
+  drop_force(result.body_force);
+  std::for_each(result.body_force_of_material.begin(), result.body_force_of_material.end(),
+                drop_force);
   for (BoundaryCondition<dim> &boundary : result.boundaries)
   {
     for (unsigned int c = 0; c < dim; ++c)

@@ -62,6 +62,23 @@ Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
 }
 
 template <int dim>
+std::vector<double> Geometry<dim>::grid_lines(const unsigned int direction) const
+{
+  std::vector<double> lines(subdivisions[direction] + 1);
+  for (unsigned int i = 0; i < lines.size(); ++i)
+    lines[i] = double(i) / subdivisions[direction];
+  lines.insert(lines.end(), cuts[direction].begin(), cuts[direction].end());
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+template <int dim>
+unsigned int Geometry<dim>::n_cells(const unsigned int direction) const
+{
+  return subdivisions[direction] + cuts[direction].size();
+}
+
+template <int dim>
 bool Geometry<dim>::has_affine_cells() const
 {
   double size = 0, skew = 0, coordinates = 0; // far from the origin these are rounded more coarsely
@@ -179,14 +196,15 @@ std::vector<Point<dim>> sample_segment(const Point<dim> &a, const Point<dim> &b,
 template <int dim>
 std::vector<Point<dim>> Side<dim>::sample() const
 {
-  if constexpr (dim == 2)
-    return sample_segment(ends[0], ends[1], 32);
   std::vector<Point<dim>> points;
-  const auto first = sample_segment(ends[0], ends[n_corners - 2], 16),
-             last = sample_segment(ends[1], ends[n_corners - 1], 16);
-  for (unsigned int i = 0; i < first.size(); ++i)
-    for (const Point<dim> &point : sample_segment(first[i], last[i], 16))
-      points.push_back(point);
+  for (const Piece &piece : pieces)
+  {
+    const auto first = sample_segment(piece[0], piece[n_corners - 2], dim == 2 ? 0 : 16),
+               last = sample_segment(piece[1], piece[n_corners - 1], dim == 2 ? 0 : 16);
+    for (unsigned int i = 0; i < first.size(); ++i)
+      for (const Point<dim> &point : sample_segment(first[i], last[i], dim == 2 ? 32 : 16))
+        points.push_back(point);
+  }
   return points;
 }
 
@@ -217,10 +235,8 @@ std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
     Side<dim> &side = sides[f];
     side.axis = GeometryInfo<dim>::unit_normal_direction[f];
     for (unsigned int v = 0; v < side.n_corners; ++v)
-    {
-      side.corners[v] = GeometryInfo<dim>::face_to_cell_vertices(f, v);
-      side.ends[v] = geometry.corners[side.corners[v]];
-    }
+      side.ends[v] = geometry.corners[GeometryInfo<dim>::face_to_cell_vertices(f, v)];
+    side.pieces = {side.ends};
     const Tensor<1, dim> along = side.ends[1] - side.ends[0];
     if constexpr (dim == 2)
       side.outward = cross_product_2d(along) / along.norm();
@@ -239,11 +255,19 @@ std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
 template <int dim>
 std::vector<Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two)
 {
-  std::vector<Point<dim>> corners;
-  for (unsigned int v = 0; v < one.n_corners; ++v)
-    if (std::find(two.corners.begin(), two.corners.end(), one.corners[v]) != two.corners.end())
-      corners.push_back(one.ends[v]);
-  return corners.size() == 2 ? sample_segment(corners[0], corners[1], 16) : corners;
+  std::vector<Point<dim>> result;
+  for (const auto &a : one.pieces)
+    for (const auto &b : two.pieces)
+    {
+      std::vector<Point<dim>> corners;
+      for (const Point<dim> &corner : a)
+        if (std::find(b.begin(), b.end(), corner) != b.end())
+          corners.push_back(corner);
+      if (corners.size() == 2)
+        corners = sample_segment(corners[0], corners[1], 16);
+      result.insert(result.end(), corners.begin(), corners.end());
+    }
+  return result;
 }
 
 template <int dim>

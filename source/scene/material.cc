@@ -5,6 +5,8 @@
 #include <hpvi/scene/material.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <sstream>
 
 namespace hpvi
@@ -13,43 +15,110 @@ using namespace dealii;
 
 namespace
 {
-const std::string section = "Material", plane_stress = "stress", plane_strain = "strain";
+const std::string unnamed = "Material", plane_stress = "stress", plane_strain = "strain",
+                  number_words = "a number E > 0 (a stress) from 1e-100 to 1e100";
+const Patterns::Double young_pattern(1e-100, 1e100);
+
+using Pattern = std::shared_ptr<const Patterns::PatternBase>;
+
+/** An entry of a named material may be left out: it is that of the unnamed one then. */
+struct Inheritance
+{
+  bool is_named;
+
+  std::string value(const std::string &value) const
+  {
+    return is_named ? "" : value;
+  }
+
+  std::string words(const std::string &words) const
+  {
+    return words + (is_named ? ", or nothing" : "");
+  }
+
+  std::string documentation(const std::string &text) const
+  {
+    return is_named ? text + " Empty: as of the unnamed Material." : text;
+  }
+
+  template <class Wanted>
+  Pattern pattern(const Wanted &wanted) const
+  {
+    return is_named ? word_or("", wanted) : std::make_shared<Wanted>(wanted);
+  }
+};
 } // namespace
 
-std::vector<Entry> material_entries(const int dim)
+std::string section_of_material(const std::string &name)
 {
-  std::vector<Entry> entries{
-      {section, "Young's modulus", "1", std::make_shared<Patterns::Double>(1e-100, 1e100),
-       "a number E > 0 (a stress) from 1e-100 to 1e100",
-       "E > 0 [stress]; constant E in expressions."},
-      {section, "Poisson's ratio", "0.3", std::make_shared<Patterns::Double>(),
-       "a number nu with -1 < nu < 1/2",
-       "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu))."}};
+  return name.empty() ? unnamed : unnamed + " " + name;
+}
+
+std::vector<Entry> material_entries(const int dim, const std::string &name)
+{
+  const Inheritance inherited{!name.empty()};
+  std::vector<Entry> entries;
+  const auto add = [&](const std::string &entry, const std::string &value, const auto &pattern,
+                       const std::string &words, const std::string &documentation)
+  {
+    entries.push_back({section_of_material(name), entry, inherited.value(value),
+                       inherited.pattern(pattern), inherited.words(words),
+                       inherited.documentation(documentation)});
+  };
+  if (inherited.is_named)
+    entries.push_back({section_of_material(name), "Where", "",
+                       std::make_shared<Patterns::Anything>(), "one expression of x and y",
+                       "Positive where the body is made of this material, at the centre of each "
+                       "cell of the coarse mesh; materials are tried in the order of the file, the "
+                       "unnamed one is the rest. A box gets a grid line where a side of the "
+                       "material has none."});
+  add("Young's modulus", "1", young_pattern, number_words,
+      "E > 0 [stress]; constant E in expressions.");
+  add("Poisson's ratio", "0.3", Patterns::Double(), "a number nu with -1 < nu < 1/2",
+      "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu)).");
+  add("Density", "0", Patterns::Double(0), "a number >= 0",
+      "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
   if (dim == 2)
-    entries.push_back({section, "Plane", plane_strain,
-                       std::make_shared<Patterns::Selection>(plane_stress + '|' + plane_strain),
-                       plane_stress + " or " + plane_strain,
-                       "Plane stress or plane strain (thesis, Section 2.1.3)."});
+  {
+    add("Plane", plane_strain, Patterns::Selection(plane_stress + '|' + plane_strain),
+        plane_stress + " or " + plane_strain,
+        "Plane stress or plane strain (thesis, Section 2.1.3), one for the whole body.");
+    add("Thickness", "1", Patterns::Double(1e-100, 1e100), "a number > 0 from 1e-100 to 1e100",
+        "Thickness b of the body [length], one for the whole of it: forces, moments, works and "
+        "energies are b times those of a unit, norms and bounds of the error b^(1/2) times; "
+        "tractions, stresses and relative errors stay.");
+  }
   return entries;
 }
 
-Material read_material(const Parameters &parameters, const int dim)
+Material read_material(const Parameters &parameters, const int dim, const std::string &name)
 {
-  Material material{parameters.number(section, "Young's modulus"),
-                    parameters.number(section, "Poisson's ratio")};
-  if (dim == 2 && parameters.text(section, "Plane") == plane_stress)
+  const auto section_with = [&](const std::string &entry)
+  {
+    return parameters.text(section_of_material(name), entry).empty() ? unnamed
+                                                                     : section_of_material(name);
+  };
+  const auto number = [&](const std::string &entry)
+  { return parameters.number(section_with(entry), entry); };
+  Material material;
+  material.name = name;
+  material.young = number("Young's modulus");
+  material.poisson = number("Poisson's ratio");
+  material.density = number("Density");
+  if (dim == 2 && parameters.text(section_with("Plane"), "Plane") == plane_stress)
     material.plane = PlaneModel::stress;
   return material;
 }
 
 std::optional<Material::Flaw> Material::flaw() const
 {
-  const Entry modulus = material_entries(3).front();
-  if (const std::string objection = modulus.objection(text(young)); !objection.empty())
-    return Flaw{modulus.name, objection, text(young)};
+  if (!young_pattern.match(text(young)))
+    return Flaw{"Young's modulus", "is not accepted here; give " + number_words, text(young)};
   if (!(poisson > -1 && poisson < 0.5))
     return Flaw{"Poisson's ratio", "is outside (-1, 1/2); an elastic material has -1 < nu < 1/2",
                 text(poisson)};
+  if (!(density >= 0 && std::isfinite(density)))
+    return Flaw{"Density", "is no mass per volume; give a number >= 0", text(density)};
   return std::nullopt;
 }
 

@@ -100,6 +100,7 @@ Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell
   {
     boundaries[b].name = names[b];
     boundaries[b].id = b;
+    boundaries[b].side = b;
   }
   if (dim == 3) // as in a file
   {
@@ -129,12 +130,9 @@ std::string Scene<dim>::origin() const
 }
 
 template <int dim>
-double Scene<dim>::coercivity() const
+double Scene<dim>::reference_coercivity() const
 {
-  double least = std::numeric_limits<double>::max();
-  for (const Material &material : materials)
-    least = std::min(least, material.coercivity(dim));
-  return least;
+  return materials.front().coercivity(dim);
 }
 
 template <int dim>
@@ -149,7 +147,21 @@ double Scene<dim>::largest_weight() const
 template <int dim>
 bool Scene<dim>::has_body_force() const
 {
-  return any_given<dim>(body_force);
+  const std::vector<Load<dim>> forces = body_forces();
+  return std::any_of(forces.begin(), forces.end(), any_given<dim>);
+}
+
+template <int dim>
+std::vector<Load<dim>> Scene<dim>::body_forces() const
+{
+  return body_force_of_material.empty() ? std::vector<Load<dim>>{body_force}
+                                        : body_force_of_material;
+}
+
+template <int dim>
+bool Scene<dim>::has_parts() const
+{
+  return boundaries.size() > GeometryInfo<dim>::faces_per_cell;
 }
 
 template <int dim>

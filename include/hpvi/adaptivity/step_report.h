@@ -37,17 +37,17 @@ struct StepReport
   const Scene<dim> &scene;
   const Field<dim> &field; ///< u_N on the cells of this process
   ProblemSize size;
-  const ErrorEstimate &estimate;          ///< of the cells of this process
-  EstimateNorms norms;                    ///< of all cells
-  const std::optional<ErrorBound> &bound; ///< none: not asked for, or not on offer
-  const std::string &no_bound;            ///< why there is none
+  const ErrorEstimate &estimate;   ///< of the cells of this process, for unit thickness
+  EstimateNorms norms;             ///< of all cells
+  std::optional<ErrorBound> bound; ///< none: not asked for, or not on offer
+  const std::string &no_bound;     ///< why there is none
   double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
   const std::optional<ReducedPart<dim>> reduced; ///< of the reduced path
   const std::optional<PrimalPart<dim>> primal;   ///< of the primal path
   /**
    * eta/c^{1/2}, in the unit of the energy norm. The residual bounds the error through
    * `c |eps(v)|^2 <= a(v,v)`, so this factor is the whole influence of the materials:
-   * Scene::coercivity(), 2 mu of the softest unless nu < 0.
+   * Scene::reference_coercivity(), 2 mu of the first unless nu < 0; residuals weigh by it and their own.
    */
   double scaled_estimate = 0;
   double relative_estimate = 0; ///< scaled_estimate / |u_N|_a: the relative indicator

@@ -15,8 +15,7 @@ namespace hpvi
 {
 /** A load at a point; components without an expression are zero. */
 template <int dim>
-dealii::Tensor<1, dim> load_at(const std::array<Expression<dim>, dim> &load,
-                               const dealii::Point<dim> &x)
+dealii::Tensor<1, dim> load_at(const Load<dim> &load, const dealii::Point<dim> &x)
 {
   dealii::Tensor<1, dim> result;
   for (unsigned int c = 0; c < dim; ++c)

@@ -31,6 +31,12 @@ struct LoadSum
   dealii::Tensor<1, 2> force; ///< [stress length]
   double moment = 0;          ///< about the centre [stress length^2]
   double absolute = 0;        ///< int |G_x| + |G_y|, and of the body force likewise
+
+  /** That of a body of @p thickness, where this is one of a unit. */
+  LoadSum times(const double thickness) const
+  {
+    return {centre, thickness * force, thickness * moment, thickness * absolute};
+  }
 };
 
 /**

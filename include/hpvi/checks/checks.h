@@ -15,6 +15,14 @@ namespace hpvi
 template <int dim>
 void check_boundaries(const Scene<dim> &scene);
 
+/** Parts of sides are made of whole faces of the coarse mesh, of one at least, and do not overlap. */
+template <int dim>
+void check_parts(const Scene<dim> &scene);
+
+/** Materials that a file says Where they are fill whole cells of the coarse mesh, one at least. */
+template <int dim>
+void check_material_places(const Scene<dim> &scene);
+
 /** Loads, supports and contact are those of Scene::exact_solution, where there is one. */
 template <int dim>
 void check_exact_solution(const Scene<dim> &scene);

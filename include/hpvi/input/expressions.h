@@ -28,7 +28,9 @@ public:
   using Expression = std::shared_ptr<const dealii::Function<dim>>;
 
   /** Names and values of what an expression may use beside its coordinates; `t` is the time in a load history. */
-  ExpressionReader(const Parameters &parameters, std::map<std::string, double> constants);
+  /** @p remark ends messages about names that are not among them. */
+  ExpressionReader(const Parameters &parameters, std::map<std::string, double> constants,
+                   const std::string &remark = "");
 
   /** Gives a component of the exact solution's field; null if the scene has no such solution. */
   using ExactField = std::function<Expression(unsigned int component)>;
@@ -65,6 +67,7 @@ private:
 
   const Parameters &parameters;
   const std::map<std::string, double> constants; ///< t among them, in a load history
+  const std::string remark;
 };
 } // namespace hpvi
 

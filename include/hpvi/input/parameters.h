@@ -31,6 +31,10 @@ struct Entry
   std::string objection(const std::string &value) const;
 };
 
+/** @p word, which may be empty, or what @p other accepts. */
+std::shared_ptr<const dealii::Patterns::PatternBase>
+word_or(const std::string &word, const dealii::Patterns::PatternBase &other);
+
 /** What to write in the place of names that people try first and no file has. */
 struct Hint
 {

@@ -40,6 +40,8 @@ private:
 
   /** Cells of one size, material and set of components with moments share K and T'KT. */
   const Matrix &stiffness(const Cell &cell, const std::vector<bool> &moment_components) const;
+  /** The same for cells of one size: their level, unless grid lines cut some of the coarse mesh shorter. */
+  unsigned int size_class(const Cell &cell) const;
   CellField<dim> body_load(const Cell &cell) const;
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;
@@ -47,7 +49,8 @@ private:
   void add_nodal_forces(const DistributedVector &u, NodalForces &forces) const;
 
   const MomentSpace<dim> &space;
-  mutable std::map<std::tuple<int, unsigned int, std::vector<bool>>, Matrix> matrices;
+  mutable std::vector<dealii::Tensor<1, dim>> sizes; ///< by size_class(), of cells that differ
+  mutable std::map<std::tuple<unsigned int, unsigned int, std::vector<bool>>, Matrix> matrices;
 };
 } // namespace hpvi
 

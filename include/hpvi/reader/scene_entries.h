@@ -3,6 +3,7 @@
 #define hpvi_scene_entries_h
 
 #include <hpvi/input/parameters.h>
+#include <hpvi/reader/free_names.h>
 
 #include <string>
 #include <vector>
@@ -82,9 +83,9 @@ inline const std::string friction_needs_contact =
 
 /**
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible
- * values and documentation. @p boundaries are the names of those that the scene has.
+ * values and documentation. @p names are those that the scene gives to sections of its own.
  */
-std::vector<Entry> scene_entries(int dim, const std::vector<std::string> &boundaries);
+std::vector<Entry> scene_entries(int dim, const FreeNames &names);
 
 /** @p text about a scene in the plane, for one in space: x, y and z, and components of three. */
 std::string in_space(std::string text);

@@ -49,10 +49,17 @@ struct Geometry
   dealii::Point<dim> centre() const; ///< the mean of the corners
   bool contains(const dealii::Point<dim> &x) const; ///< up to round-off
 
+  /** All grid lines across @p direction, where they cut that axis of the unit cube, from 0 to 1. */
+  std::vector<double> grid_lines(unsigned int direction) const;
+
+  unsigned int n_cells(unsigned int direction) const; ///< of the coarse mesh before it is graded
+
   Shape shape = Shape::box;
   /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
   Corners<dim> corners;
   std::array<unsigned int, dim> subdivisions;
+  /** Grid lines beside the equidistant ones, for what ends between these: in (0,1), ascending. */
+  std::array<std::vector<double>, dim> cuts;
   /** Cells that touch one of these points are bisected @p grading_levels times. */
   std::vector<dealii::Point<dim>> graded_towards;
   unsigned int grading_levels = 0;
@@ -64,16 +71,19 @@ struct Side
 {
   static constexpr unsigned int n_corners = 1u << (dim - 1);
 
-  std::array<unsigned int, n_corners> corners; ///< indices into Geometry::corners
-  std::array<dealii::Point<dim>, n_corners> ends;
+  using Piece = std::array<dealii::Point<dim>, n_corners>; ///< its corners
+
+  Piece ends;
   unsigned int axis; ///< direction of Geometry::subdivisions in which no cells stand along it
+  /** Of what it consists: one, unless boundaries are parts of sides; none where they take it all. */
+  std::vector<Piece> pieces;
 
   dealii::Tensor<1, dim> normal(const dealii::Point<dim> &x) const; ///< outer unit normal there
 
   /** t = (-n_y, n_x) there, in the plane. */
   dealii::Tensor<1, dim> tangent(const dealii::Point<dim> &x) const;
 
-  /** Equidistant points all over it, its corners exactly. */
+  /** Equidistant points all over each piece, their corners exactly. */
   std::vector<dealii::Point<dim>> sample() const;
 
 private:
@@ -83,11 +93,21 @@ private:
   friend std::vector<Side<other_dim>> sides_of(const Geometry<other_dim> &geometry);
 };
 
+/** The mean of its corners. */
+template <int dim>
+dealii::Point<dim> centre_of(const typename Side<dim>::Piece &piece)
+{
+  dealii::Point<dim> result;
+  for (const dealii::Point<dim> &corner : piece)
+    result += corner / double(piece.size());
+  return result;
+}
+
 /** All sides by boundary id. */
 template <int dim>
 std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry);
 
-/** Where two sides meet: one corner in the plane, equidistant points of an edge in space; empty: nowhere. */
+/** Where two sides meet: ends of pieces in the plane, equidistant points of edges in space; empty: nowhere. */
 template <int dim>
 std::vector<dealii::Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two);
 

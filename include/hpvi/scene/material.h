@@ -31,6 +31,8 @@ struct Material
   double young = 1.;                     ///< Young's modulus E > 0, a stress
   double poisson = 0.3;                  ///< Poisson's ratio nu in (-1, 1/2), dimensionless
   PlaneModel plane = PlaneModel::strain; ///< used in two dimensions only
+  double density = 0;                    ///< mass per volume, what gravity acts on
+  std::string name;                      ///< of its section; empty: the unnamed one
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
   double mu() const
@@ -104,9 +106,12 @@ struct Material
   double kolosov() const;
 };
 
-/** The section `Material` of a body in so many dimensions, and what it says. */
-std::vector<Entry> material_entries(int dim);
-Material read_material(const Parameters &parameters, int dim);
+/** `Material` where @p name is empty, else `Material NAME`. */
+std::string section_of_material(const std::string &name);
+
+/** That section of a body in so many dimensions, and what it says: a named one inherits what it leaves out. */
+std::vector<Entry> material_entries(int dim, const std::string &name);
+Material read_material(const Parameters &parameters, int dim, const std::string &name);
 
 /**
  * Hooke's law of one material, with Lame's parameters at hand for loops over points and unknowns. The

@@ -45,10 +45,12 @@ struct BoundaryCondition
 {
   using Expression = hpvi::Expression<dim>;
 
-  std::string name;                         ///< left, right, bottom, top, front, back
-  dealii::types::boundary_id id = 0;        ///< deal.II's number: the index into Scene::boundaries
+  std::string name;                  ///< left, right, bottom, top, front, back, or that of a part
+  dealii::types::boundary_id id = 0; ///< deal.II's number: the index into Scene::boundaries
+  unsigned int side = 0;             ///< id of the side of the body: its own, unless it is a part
+  Expression where;                  ///< a part has the faces of the side where this is positive
   std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
-  std::array<Expression, dim> traction;     ///< components of G [stress]; null: zero
+  Load<dim> traction;                       ///< components of G [stress]; null: zero
   Contact contact = Contact::none;
   Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
   FrictionLaw<dim> friction;
@@ -235,7 +237,10 @@ struct Scene
   /** The index of the material at the centre of a coarse cell; null: 0 everywhere. */
   std::function<dealii::types::material_id(const dealii::Point<dim> &)> material_at;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
-  std::array<Expression, dim> body_force;         ///< components of F [stress/length]; null: zero
+  Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
+  /** In its place, by material id, where materials differ in what they weigh. */
+  std::vector<Load<dim>> body_force_of_material;
+  double thickness = 1;                                     ///< of a plane body [length]
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
@@ -245,6 +250,8 @@ struct Scene
   OutputSettings output;
   Loading<dim> loading;
   DataScale past_data; ///< of the load steps before this one; zero without a history
+
+  std::vector<std::string> remarks; ///< what its reader has changed: lines for users
 
   /** The file, for messages and scene.prm; null: the scene was built by code. */
   std::shared_ptr<const Parameters> parameters;
@@ -273,12 +280,23 @@ struct Scene
     return materials[cell->material_id()];
   }
 
-  /** `c |eps(v)|^2 <= a(v,v)` for every v: the least coercivity of all materials [stress]. */
-  double coercivity() const;
+  /** That of the first material [stress], by which the error indicator is scaled. */
+  double reference_coercivity() const;
 
   double largest_weight() const; ///< of the stiffest material [stress], for bounds of round-off
 
   bool has_body_force() const;
+  std::vector<Load<dim>> body_forces() const; ///< of all materials, which may have one
+
+  /** F in @p cell. */
+  template <class Cell>
+  const Load<dim> &body_force_in(const Cell &cell) const
+  {
+    return body_force_of_material.empty() ? body_force
+                                          : body_force_of_material.at(cell->material_id());
+  }
+
+  bool has_parts() const; ///< is any boundary a part of a side?
 
   /** Is any of the materials? */
   bool is_nearly_incompressible() const;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_body_reader_h
+#define hpvi_body_reader_h
+
+#include <hpvi/reader/free_names.h>
+#include <hpvi/scene/scene.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+class Parameters;
+
+/**
+ * Takes shape, materials and parts of sides from @p parameters, checks the body, and gives the coarse mesh of a box
+ * the grid lines at which materials and parts end.
+ */
+template <int dim>
+void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene);
+
+/** What expressions may use where the body is of @p material: E, nu, mu and pi. */
+std::map<std::string, double> constants_of(const Material &material);
+
+/** The materials of the cells along a boundary, by index. */
+template <int dim>
+std::vector<unsigned int> materials_along(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary);
+} // namespace hpvi
+
+#endif

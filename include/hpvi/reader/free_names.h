@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_free_names_h
+#define hpvi_free_names_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** Of sections that a scene has beside those of all scenes, in the order of the file. */
+struct FreeNames
+{
+  std::vector<std::string> parts;     ///< `Boundary NAME` that says On which side it lies
+  std::vector<std::string> materials; ///< `Material NAME`
+};
+
+/**
+ * What @p file and @p overrides, pairs "Section/Entry" and value, open. Throws InputError for names of other
+ * than letters, digits, '_', '-' and blanks, and for two that differ in case alone.
+ */
+FreeNames free_names(const std::string &file,
+                     const std::vector<std::pair<std::string, std::string>> &overrides,
+                     const std::vector<std::string> &sides);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_boundary_parts_h
+#define hpvi_boundary_parts_h
+
+#include <hpvi/scene/scene.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** The boundary that holds the point @p x of the side number @p side: a part where its `where` is positive, else the side. */
+template <int dim>
+dealii::types::boundary_id boundary_at(const Scene<dim> &scene, unsigned int side,
+                                       const dealii::Point<dim> &x);
+
+/** A face of the coarse mesh, before it is graded, along a side of the body. */
+template <int dim>
+struct CoarseFace
+{
+  typename Side<dim>::Piece corners;
+  dealii::Point<dim> inside; ///< the centre of its cell
+};
+
+template <int dim>
+std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, unsigned int side);
+
+/**
+ * By boundary id, the sides of the body without their parts and then these: in the plane each consists of its
+ * longest segments, in space of faces of the coarse mesh. Without parts as sides_of() of the geometry.
+ */
+template <int dim>
+std::vector<Side<dim>> sides_of(const Scene<dim> &scene);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/input/expressions.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/reader/body_reader.h>
+#include <hpvi/reader/grid_cuts.h>
+#include <hpvi/scene/boundary_parts.h>
+#include <hpvi/shapes/shape.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <regex>
+#include <vector>
+
+namespace hpvi
+{
+using namespace dealii;
+
+std::map<std::string, double> constants_of(const Material &material)
+{
+  std::map<std::string, double> constants = material.constants();
+  constants.emplace("pi", numbers::PI);
+  return constants;
+}
+
+namespace
+{
+/** What says where something is knows neither time nor material. */
+template <int dim>
+Expression<dim> read_where(const Parameters &parameters, const std::string &section,
+                           const std::vector<Point<dim>> &points)
+{
+  const std::string where = parameters.text(section, "Where");
+  if (where.empty())
+    parameters.reject(section, "Where",
+                      "is missing; give an expression that is positive there and nowhere else");
+  static const std::regex t("\\bt\\b");
+  if (std::regex_search(where, t))
+    parameters.reject(section, "Where",
+                      "uses t, and a body keeps its parts; write a function of x and y");
+  const ExpressionReader<dim> reader(parameters, {{"pi", numbers::PI}});
+  return reader.template read<1>(section, "Where", "", points)[0];
+}
+
+/** The value of an entry of the whole body, which any material may name; they have to agree. */
+std::string common_value(const Parameters &parameters, const std::vector<Material> &materials,
+                         const std::string &entry)
+{
+  std::string named_by = section_of_material("");
+  for (const Material &material : materials)
+    if (const std::string section = section_of_material(material.name);
+        parameters.is_named(section, entry) && !parameters.text(section, entry).empty())
+    {
+      if (parameters.is_named(named_by, entry) &&
+          parameters.text(named_by, entry) != parameters.text(section, entry))
+        parameters.reject(section, entry,
+                          "contradicts " + named_by + "/" + entry + " = " +
+                              parameters.text(named_by, entry) +
+                              "; the body has one, give it once");
+      named_by = section;
+    }
+  return parameters.text(named_by, entry);
+}
+
+template <int dim>
+void read_materials(const Parameters &parameters, const std::vector<std::string> &names,
+                    Scene<dim> &scene)
+{
+  scene.materials = {read_material(parameters, dim, "")};
+  for (const std::string &name : names)
+    scene.materials.push_back(read_material(parameters, dim, name));
+  if (dim == 3)
+    return;
+  const bool is_stress = common_value(parameters, scene.materials, "Plane") == "stress";
+  for (Material &material : scene.materials)
+    material.plane = is_stress ? PlaneModel::stress : PlaneModel::strain;
+  scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
+}
+
+template <int dim>
+void place_materials(const Parameters &parameters, Scene<dim> &scene)
+{
+  std::vector<Expression<dim>> wheres{nullptr};
+  for (unsigned int m = 1; m < scene.materials.size(); ++m)
+  {
+    const std::string section = section_of_material(scene.materials[m].name);
+    wheres.push_back(read_where(parameters, section, sample_body(scene.geometry)));
+    cut_body(scene, wheres.back(), section + "/Where");
+  }
+  if (wheres.size() > 1)
+    scene.material_at = [wheres](const Point<dim> &x) -> types::material_id
+    {
+      for (unsigned int m = 1; m < wheres.size(); ++m)
+        if (wheres[m]->value(x) > 0)
+          return m;
+      return 0;
+    };
+}
+
+template <int dim>
+void read_part(const Parameters &parameters, const std::string &name, Scene<dim> &scene)
+{
+  const std::vector<std::string> sides = boundary_names(dim);
+  const std::string section = "Boundary " + name;
+  const auto side = std::find(sides.begin(), sides.end(), parameters.text(section, "On"));
+  if (side == sides.end())
+    parameters.reject(section, "On", "is no side of the body; give " + listed(sides, "or"));
+  BoundaryCondition<dim> part;
+  part.name = name;
+  part.id = scene.boundaries.size();
+  part.side = side - sides.begin();
+  part.where = read_where(parameters, section, sides_of(scene.geometry)[part.side].sample());
+  cut_side(scene, part.side, part.where, section + "/Where");
+  scene.boundaries.push_back(part);
+}
+} // namespace
+
+template <int dim>
+void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene)
+{
+  scene.geometry = read_geometry<dim>(parameters);
+  read_materials(parameters, names.materials, scene);
+  scene.geometry.grading_levels = parameters.integer("Geometry", "Grading levels");
+  const std::vector<Material> materials = scene.materials;
+  scene.materials.resize(1); // the shape must be sound before functions are tried on it
+  scene.check_body();
+  scene.materials = materials;
+  place_materials(parameters, scene);
+  scene.check_body();
+  for (const std::string &part : names.parts)
+    read_part(parameters, part, scene);
+}
+
+template <int dim>
+std::vector<unsigned int> materials_along(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary)
+{
+  if (!scene.material_at)
+    return {0};
+  std::vector<unsigned int> result;
+  for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, boundary.side))
+    if (boundary_at(scene, boundary.side, centre_of<dim>(face.corners)) == boundary.id)
+      result.push_back(scene.material_at(face.inside));
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+template void read_body(const Parameters &, const FreeNames &, Scene<2> &);
+template void read_body(const Parameters &, const FreeNames &, Scene<3> &);
+template std::vector<unsigned int> materials_along(const Scene<2> &, const BoundaryCondition<2> &);
+template std::vector<unsigned int> materials_along(const Scene<3> &, const BoundaryCondition<3> &);
+} // namespace hpvi

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/parameter_file.h>
+#include <hpvi/base/text.h>
+#include <hpvi/reader/free_names.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace hpvi
+{
+namespace
+{
+const std::string material = "Material ", boundary = "Boundary ";
+
+bool begins_with(const std::string &text, const std::string &start)
+{
+  return text.size() > start.size() && text.compare(0, start.size(), start) == 0;
+}
+
+/** Where a name stands for the first time. */
+struct Found
+{
+  std::string name, where;
+};
+
+void check_name(const Found &found, const std::string &kind)
+{
+  const auto is_fit = [](const unsigned char c)
+  { return std::isalnum(c) || c == '_' || c == '-' || c == ' '; };
+  if (!std::all_of(found.name.begin(), found.name.end(), is_fit))
+    fail(found.where, kind + found.name,
+         "is no name; take letters, digits, '_', '-' and blanks between them");
+}
+
+/** Adds @p found unless it is there. */
+void add(std::vector<std::string> &names, const Found &found, const std::string &kind)
+{
+  if (std::find(names.begin(), names.end(), found.name) != names.end())
+    return;
+  check_name(found, kind);
+  for (const std::string &name : names)
+    if (lower_case(name) == lower_case(found.name))
+      fail(found.where, kind + found.name,
+           "differs from " + kind + name + " in case alone; choose another name");
+  names.push_back(found.name);
+}
+} // namespace
+
+FreeNames free_names(const std::string &file,
+                     const std::vector<std::pair<std::string, std::string>> &overrides,
+                     const std::vector<std::string> &sides)
+{
+  std::vector<Assignment> all = read_parameter_file(file);
+  for (const auto &[path, value] : overrides)
+    if (const std::size_t slash = path.rfind('/'); slash != std::string::npos)
+      all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
+                     value, printable(file, 400) + " (--set)"});
+  FreeNames result;
+  std::vector<std::string> known = sides;
+  for (const Assignment &one : all)
+  {
+    if (begins_with(one.section, material))
+      add(result.materials, {one.section.substr(material.size()), one.where}, material);
+    if (!begins_with(one.section, boundary) || one.name != "On")
+      continue;
+    const Found part{one.section.substr(boundary.size()), one.where};
+    const bool is_side = std::find(sides.begin(), sides.end(), part.name) != sides.end();
+    if (is_side ||
+        std::find(result.parts.begin(), result.parts.end(), part.name) != result.parts.end())
+      continue; // On is unknown in a side
+    add(known, part, boundary);
+    result.parts.push_back(part.name);
+  }
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/boundary_parts.h>
+
+#include <array>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+types::boundary_id boundary_at(const Scene<dim> &scene, const unsigned int side,
+                               const Point<dim> &x)
+{
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.side == side && boundary.where && boundary.where->value(x) > 0)
+      return boundary.id;
+  return side;
+}
+
+template <int dim>
+std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, const unsigned int side)
+{
+  const unsigned int across = side / 2;
+  std::array<std::vector<double>, dim> lines;
+  for (unsigned int d = 0; d < dim; ++d)
+    lines[d] = geometry.grid_lines(d);
+  const unsigned int first = across == 0 ? 1 : 0, // direction along the side
+      second = across == 2 ? 1 : 2,               // the other one in space
+      n_second = dim == 3 ? lines[second % dim].size() - 1 : 1;
+  const double outer = side % 2,
+               next = side % 2 == 0 ? lines[across][1] : *(lines[across].end() - 2);
+  std::vector<CoarseFace<dim>> result;
+  for (unsigned int j = 0; j < n_second; ++j)
+    for (unsigned int i = 0; i + 1 < lines[first].size(); ++i)
+    {
+      CoarseFace<dim> face;
+      Point<dim> inside;
+      inside[across] = (outer + next) / 2;
+      for (unsigned int v = 0; v < face.corners.size(); ++v)
+      {
+        Point<dim> unit;
+        unit[across] = outer;
+        unit[first] = lines[first][i + (v & 1u)];
+        if (dim == 3)
+          unit[second % dim] = lines[second % dim][j + (v >> 1)];
+        face.corners[v] = geometry.point(unit);
+        for (unsigned int d = 0; d < dim; ++d)
+          inside[d] += d == across ? 0. : unit[d] / face.corners.size();
+      }
+      face.inside = geometry.point(inside);
+      result.push_back(face);
+    }
+  return result;
+}
+
+template <int dim>
+std::vector<Side<dim>> sides_of(const Scene<dim> &scene)
+{
+  const std::vector<Side<dim>> whole = sides_of(scene.geometry);
+  if (!scene.has_parts())
+    return whole;
+  std::vector<Side<dim>> result;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    result.push_back(whole[boundary.side]);
+    result.back().pieces.clear();
+  }
+  for (unsigned int side = 0; side < whole.size(); ++side)
+    for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, side))
+    {
+      auto &pieces = result[boundary_at(scene, side, centre_of<dim>(face.corners))].pieces;
+      if (dim == 2 && !pieces.empty() && pieces.back()[1] == face.corners[0])
+        pieces.back()[1] = face.corners[1];
+      else
+        pieces.push_back(face.corners);
+    }
+  return result;
+}
+
+template types::boundary_id boundary_at(const Scene<2> &, unsigned int, const Point<2> &);
+template types::boundary_id boundary_at(const Scene<3> &, unsigned int, const Point<3> &);
+template std::vector<CoarseFace<2>> coarse_faces(const Geometry<2> &, unsigned int);
+template std::vector<CoarseFace<3>> coarse_faces(const Geometry<3> &, unsigned int);
+template std::vector<Side<2>> sides_of(const Scene<2> &);
+template std::vector<Side<3>> sides_of(const Scene<3> &);
+} // namespace hpvi

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""by_hand.py HPVI: scenes whose energies and forces anybody can compute, a row each: settings and what summary.json has to say."""
+
+import unittest
+
+from runs import SCENES, RunTest
+
+# A body of 2 x 1 that is free to become thinner: one step of degree 2 is exact for a uniform strain.
+BLOCK = {"Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "10",
+         "Material/Poisson's ratio": "0", "Material/Plane": "stress", "Boundary left/Displacement": "0; free",
+         "Boundary bottom/Displacement": "free; 0", "Adaptivity/Method": "hup2", "Adaptivity/Maximum steps": "1"}
+HALVES = {**BLOCK, "Material stiff/Young's modulus": "30", "Boundary right/Traction": "3; 0"}
+LAYERS = {**HALVES, "Geometry/Subdivisions": "2, 2", "Boundary right/Displacement": "0.1; free",
+          "Boundary right/Traction": None, "Material stiff/Where": "y - 0.5"}
+HEAVY = {**BLOCK, "Material/Density": "2", "Body force/Gravity": "0; -3", "Boundary bottom/Displacement": "0; 0"}
+TOP = {**HEAVY, "Material/Density": None, "Body force/Gravity": None}
+PART = {**TOP, "Boundary foot/On": "top", "Boundary foot/Where": "0.3 - abs(x - 1)", "Boundary foot/Pressure": "4"}
+SPACE = {"Dimension": "3", "Geometry/Upper corner": "2, 1, 1", "Geometry/Subdivisions": "2, 1, 1",
+         "Material/Young's modulus": "10", "Material/Poisson's ratio": "0", "Boundary bottom/Displacement": "0; 0; 0",
+         "Adaptivity/Method": "hup2", "Adaptivity/Maximum steps": "1", "Solver/Primal tolerance": "1e-12"}
+HISTORY = {"Loading/Steps": "2", "Adaptivity/Method": "hup2"}
+
+# Name, settings, {path in summary.json: value}; J = -L(u)/2 where loads alone act, a(u,u)/2 under displacements.
+ROWS = [
+    ("materials in series", {**HALVES, "Material stiff/Where": "x - 1"}, {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 30)}),
+    ("a grid line where a material ends", {**HALVES, "Material stiff/Where": "x > 0.6"},
+     {"final.energy": -0.5 * 3 * (3 / 10 * 0.6 + 3 / 30 * 1.4), "final.elements": 3}),
+    ("materials in parallel", LAYERS, {"final.energy": 0.5 * 0.1 * (0.5 * 0.5 + 0.5 * 1.5), "forces.right.0": 1.0}),
+    ("the first that is positive counts",
+     {**HALVES, "Geometry/Subdivisions": "4, 1", "Material stiff/Where": "x - 1", "Material last/Where": "x - 0.5",
+      "Material last/Young's modulus": "60"},
+     {"final.energy": -0.5 * 3 * (3 / 10 * 0.5 + 3 / 60 * 0.5 + 3 / 30)}),
+    ("a material that inherits", {**HALVES, "Material stiff/Young's modulus": None, "Material stiff/Where": "x - 1",
+                                  "Material stiff/Poisson's ratio": "0"}, {"final.energy": -0.5 * 3 * 3 / 10 * 2}),
+    ("thickness", {**LAYERS, "Material/Thickness": "0.25"},
+     {"final.energy": 0.25 * 0.05, "forces.right.0": 0.25, "final.energy_norm": (0.25 * 0.1) ** 0.5}),
+    ("weight", HEAVY, {"forces.bottom.1": 12, "loads.force.1": -12, "loads.moment": 0}),
+    ("weights of materials", {**HEAVY, "Material lead/Density": "11", "Material lead/Where": "x - 1"},
+     {"forces.bottom.1": 3 * (2 + 11), "loads.moment": -3 * (11 - 2) * 0.5}),
+    ("weight beside another force", {**HEAVY, "Body force/Expression": "1; E", "Boundary left/Displacement": None},
+     {"forces.bottom.1": 12 - 20, "forces.bottom.0": -2}),
+    ("moduli of the cell at hand", {**HEAVY, "Body force/Gravity": None, "Body force/Expression": "0; E",
+                                    "Material stiff/Young's modulus": "30", "Material stiff/Where": "x - 1"},
+     {"forces.bottom.1": -(10 + 30)}),
+    ("pressure", {**TOP, "Boundary top/Pressure": "y + 1"}, {"forces.bottom.1": 4}),
+    ("shear", {**TOP, "Boundary top/Shear": "2", "Boundary left/Displacement": None}, {"forces.bottom.0": 4}),
+    ("both beside a traction", {**TOP, "Boundary top/Traction": "1; 1", "Boundary top/Pressure": "3",
+                                "Boundary top/Shear": "2", "Boundary left/Displacement": None},
+     {"forces.bottom.0": 2, "forces.bottom.1": 4}),
+    ("pressure on a slanted side", {**TOP, "Geometry/Upper corner": None, "Geometry/Shape": "quadrilateral",
+                                    "Geometry/Corners": "0, 0; 2, 0; 3, 1; 0, 1", "Boundary right/Pressure": "5"},
+     {"loads.force.0": -5, "loads.force.1": 5}),
+    ("a part between grid lines", PART, {"forces.bottom.1": 4 * 0.6, "final.elements": 4}),
+    ("what a part has is not the side's", {**PART, "Boundary top/Pressure": "1"}, {"forces.bottom.1": 4 * 0.6 + 1.4}),
+    ("support by parts", {**HEAVY, "Boundary bottom/Displacement": None, "Boundary foot/On": "bottom",
+                          "Boundary foot/Where": "abs(x - 1) - 0.5", "Boundary foot/Displacement": "0; 0"},
+     {"forces.foot.1": 12}),
+    ("contact of a part", {**HEAVY, "Boundary bottom/Displacement": None, "Boundary foot/On": "bottom",
+                           "Boundary foot/Where": "abs(x - 1) - 0.5", "Boundary foot/Contact": "unilateral",
+                           "Boundary foot/Friction bound": "1", "Adaptivity/Start degree": "3"},
+     {"forces.foot.1": 12, "contact.foot.normal_resultant": -12}),
+    ("contact beside a support on one side",
+     {**HEAVY, "Boundary bottom/Displacement": None, "Boundary bottom/Contact": "bilateral",
+      "Boundary foot/On": "bottom", "Boundary foot/Where": "x - 1.3", "Boundary foot/Displacement": "0; 0"},
+     {"forces.bottom.1+forces.foot.1": 12}),
+    ("pressure in time", {**TOP, **HISTORY, "Boundary top/Pressure": "3*t"}, {"forces.bottom.1": 6}),
+    ("materials in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free"}, {"forces.right.0": 1.0}),
+    ("thickness in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free", "Material/Thickness": "2"},
+     {"loading.stored_energy": 0.1, "loading.work": 0.1}),
+    ("materials in space", {**SPACE, "Material stiff/Young's modulus": "30", "Material stiff/Where": "x - 1.25",
+                            "Boundary right/Traction": "3; 0; 0", "Boundary bottom/Displacement": "free; 0; free",
+                            "Boundary left/Displacement": "0; free; free", "Boundary front/Displacement": "free; free; 0"},
+     {"final.energy": -0.5 * 3 * (3 / 10 * 1.25 + 3 / 30 * 0.75), "final.elements": 3}),
+    ("weights in space", {**SPACE, "Material/Density": "2", "Material lead/Density": "11", "Material lead/Where": "x - 1",
+                          "Body force/Gravity": "0; -3; 0"}, {"forces.bottom.1": 3 * (2 + 11)}),
+    ("a part in space", {**SPACE, "Boundary top/Pressure": "1", "Boundary foot/On": "top",
+                         "Boundary foot/Where": "x > 1", "Boundary foot/Pressure": "z"},
+     {"forces.bottom.1": 1 + 0.5}),
+    ("the primal path in the plane", {**PART, **{"Solver/Path": "primal", "Solver/Primal tolerance": "1e-12",
+                                                 "Material/Density": "2", "Body force/Gravity": "0; -3",
+                                                 "Material stiff/Young's modulus": "30", "Material stiff/Where": "x - 1",
+                                                 "Material/Thickness": "0.5"}},
+     {"forces.bottom.1": 0.5 * (12 + 2.4)}),
+    ("retaining.prm", SCENES / "retaining.prm",
+     {"forces.bottom.1": 2.4 * 9.81 * 6, "forces.bottom.0": -9.81 * 4.5, "contact.bottom.friction_resultant": -9.81 * 4.5, "contact.bottom.normal_resultant": -2.4 * 9.81 * 6}),
+    ("footing.prm", SCENES / "footing.prm", {"forces.bottom.1": 200 + 9.81 * 8 * (1.8 * 2.5 + 2.1 * 1.5)}),
+]
+
+
+def text_of(settings):
+    lines = []
+    for path, value in settings.items():
+        section, _, name = path.rpartition("/")
+        lines += [f"subsection {section}"] * bool(section) + [f"set {name} = {value}"] + ["end"] * bool(section)
+    return "\n".join(lines)
+
+
+def found(summary, path):
+    """The value at a path, or the sum of several; forces by name have x and y."""
+    if "+" in path:
+        return sum(found(summary, part) for part in path.split("+"))
+    value = summary
+    for key in path.split("."):
+        if isinstance(value, dict) and "force" in value and key.isdigit():
+            value = value["force"]
+        value = value[int(key)] if isinstance(value, list) else value[key]
+    return float(value)
+
+
+class ByHand(RunTest):
+    def test_all_rows(self):
+        for name, scene, expected in ROWS:
+            with self.subTest(name):
+                if isinstance(scene, dict):
+                    file = self.home / "row.prm"
+                    file.write_text(text_of({path: value for path, value in scene.items() if value is not None}))
+                    self.run_scene("Output/VTU=false", scene=file)
+                else:
+                    self.run_scene("Adaptivity/Maximum steps=4", scene=scene)
+                summary = self.summary()
+                for path, value in expected.items():
+                    largest = max(abs(value), *(abs(other) for other in expected.values()))
+                    self.assertAlmostEqual(found(summary, path), value, delta=1e-8 * largest + 1e-10, msg=path)
+
+
+if __name__ == "__main__":
+    unittest.main()
