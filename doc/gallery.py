@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run every scene of prm/ and draw what it ends with: doc/gallery/SCENE.png. Scenes of others are drawn into DIR.
+"""Run every scene of prm/ and draw what it says and what it ends with: doc/gallery/SCENE-scene.svg, as `hpvi --picture` draws it
+in the plane, and SCENE.png. Scenes of others are drawn into DIR.
 
 gallery.py --program build/hpvi --output DIR [--draw] [SCENE.prm...]
 
@@ -9,6 +10,7 @@ gallery.py --program build/hpvi --output DIR [--draw] [SCENE.prm...]
 import argparse
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -24,13 +26,17 @@ STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
 PAPER = ((0.85, 0., 0.53), (-0.21, 0.92, 0.33))
 
 
+def call(program, scene, output, *options):
+    return subprocess.run([program, *options, "--output", output / scene.stem, scene], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True, env={"OMP_NUM_THREADS": "1", **os.environ})
+
+
 def solve(program, scene, output):
-    directory = output / scene.stem
-    done = subprocess.run([program, "--output", directory, scene], stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True,
-                          env={"OMP_NUM_THREADS": "1", **os.environ})
-    if done.returncode != 0:
-        sys.exit(f"{scene}: {done.stderr.strip()}")
+    """The picture first: a run lets it stay. Bodies in space have none."""
+    for options in (["--picture"], []):
+        done = call(program, scene, output, *options)
+        if done.returncode != 0 and not (options and "Dimension = 3" in done.stderr):
+            sys.exit(f"{scene}: {done.stderr.strip()}")
 
 
 def label(name, unit, kind):
@@ -193,6 +199,12 @@ def folder(scene, output):
     return GALLERY if scene.resolve().parent == ROOT / "prm" else output
 
 
+def show_scene(scene, run, output):
+    """Beside what is drawn of the result."""
+    if (run.directory / "scene.svg").exists():
+        shutil.copyfile(run.directory / "scene.svg", folder(scene, output) / f"{scene.stem}-scene.svg")
+
+
 def draw(scene, run, output):
     rows = read_csv(run.last("contact", "csv"))
     figure, scale = (draw_space if "z" in rows[0] else draw_body)(run, rows)
@@ -203,6 +215,7 @@ def draw(scene, run, output):
     picture.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(picture, dpi=130, metadata={"Software": None})
     plt.close(figure)
+    show_scene(scene, run, output)
     print(f"  {picture}", flush=True)
 
 

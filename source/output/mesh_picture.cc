@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/output/axes.h>
 #include <hpvi/output/mesh_picture.h>
 
 #include <algorithm>
@@ -25,39 +26,6 @@ const char *colour(const unsigned int degree)
 const char *text_colour(const unsigned int degree)
 {
   return degree < 7 ? "#000" : "#fff";
-}
-
-/** Marks at multiples of 1, 2 or 5 times a power of ten, at most @p maximum of them or so. */
-std::vector<double> tick_marks(const double lower, const double upper, const double maximum)
-{
-  const double wanted = (upper - lower) / maximum;
-  const double decade = std::pow(10., std::floor(std::log10(wanted)));
-  double spacing = 10 * decade;
-  for (const double factor : {5., 2., 1.})
-    if (factor * decade >= wanted)
-      spacing = factor * decade;
-  std::vector<double> marks;
-  const double slack = 1e-9 * (upper - lower);
-  for (double k = std::ceil((lower - slack) / spacing); k * spacing <= upper + slack; ++k)
-    marks.push_back(k * spacing + 0.); // never -0
-  return marks;
-}
-
-/** What to subtract from coordinates whose differences six digits would not show; else 0. */
-double axis_offset(const double lower, const double upper)
-{
-  if (std::max(std::abs(lower), std::abs(upper)) < 1e4 * (upper - lower))
-    return 0;
-  const double unit = std::pow(10., std::ceil(std::log10(upper - lower)) + 1);
-  return unit * std::floor(lower / unit);
-}
-
-/** As in "x - 1000000 [mm]": a coordinate, the offset its numbers are relative to, the unit. */
-std::string axis_label(const std::string &coordinate, const double offset, const std::string &unit)
-{
-  const std::string difference =
-      offset == 0 ? "" : (offset > 0 ? " - " : " + ") + text(std::abs(offset), 15);
-  return coordinate + difference + (unit.empty() ? "" : " [" + unit + "]");
 }
 
 /**

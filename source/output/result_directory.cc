@@ -33,7 +33,8 @@ bool is_result(const std::string &name)
 {
   using namespace results;
   static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
-                                  vtu + "|" + pieces + "|" + reference + ")(\\.tmp)?");
+                                  vtu + "|" + pieces + "|" + reference + "|" + picture +
+                                  ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 
@@ -53,6 +54,16 @@ struct EarlierRun
   FileNames files;
   std::string scene; ///< its file
 };
+
+/** Is it a picture that this program has drawn? */
+bool is_own_picture(const fs::path &file)
+{
+  const std::string wanted = "<!-- " + results::picture_head;
+  std::string begin(wanted.size(), '\0');
+  std::error_code ignored;
+  return fs::is_regular_file(fs::symlink_status(file, ignored)) &&
+         std::ifstream(file, std::ios::binary).read(begin.data(), begin.size()) && begin == wanted;
+}
 
 /** Which of @p names has this program written, and for which scene? */
 EarlierRun earlier_run(const fs::path &directory, const std::set<std::string> &names)
@@ -206,12 +217,17 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
   const std::set<std::string> names = results_in(path, error);
   if (error)
     reject(error.message());
-  const std::regex written(writes);
+  const std::regex written(writes), picture(results::picture);
   const EarlierRun earlier = earlier_run(path, names);
   own = earlier.files;
   earlier_scene = earlier.scene;
   for (const std::string &name : names)
   {
+    const bool is_picture = std::regex_match(name, picture);
+    if (is_picture && is_own_picture(path / name))
+      own.add(name);
+    else if (is_picture)
+      own.remove(name);
     const bool writes_it = std::regex_match(name, written);
     std::error_code ignored;
     const bool is_read =
@@ -220,9 +236,10 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
     if (writes_it && is_read)
       reject("the run reads its " + name + ", which would be overwritten");
     if (writes_it && !own.contains(name))
-      reject("its " + name +
-             " would be overwritten, and no summary.json says that it is a result of hpvi");
-    if (!is_read && own.contains(name) && name != summary_name)
+      reject("its " + name + " would be overwritten, and " +
+             (is_picture ? "it does not say that it was drawn by hpvi"
+                         : "no summary.json says that it is a result of hpvi"));
+    if (!is_read && !is_picture && own.contains(name) && name != summary_name)
       stale.insert(name);
   }
   own.add(summary_name);

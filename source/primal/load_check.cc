@@ -70,6 +70,20 @@ std::string in_brackets(const Tensor<1, dim> &x)
   return "(" + list + ")";
 }
 
+/** Without what is round-off beside @p scale. */
+double clean(const double value, const double scale)
+{
+  return std::abs(value) < 1e-12 * scale ? 0. : value;
+}
+
+template <int dim>
+Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    x[d] = clean(x[d], scale);
+  return x;
+}
+
 double size_of(const double value)
 {
   return std::abs(value);
@@ -86,6 +100,8 @@ template <int dim>
 LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
 {
   centre = scene.geometry.centre();
+  thickness = scene.thickness;
+  size = scene.geometry.diameter();
   Triangulation<dim> mesh;
   make_mesh(scene, mesh);
   const unsigned int n_gauss = scene.adaptivity.start_degree + 1;
@@ -136,8 +152,9 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
 template <int dim>
 std::string LoadCheck<dim>::in_words() const
 {
-  return "loads: force " + in_brackets(sum.force) + ", moment " + in_brackets(sum.moment) +
-         " about " + in_brackets<dim>(centre) + "\n";
+  return "loads: force " + in_brackets(thickness * clean(sum.force, absolute)) + ", moment " +
+         in_brackets(thickness * clean(sum.moment, absolute * size)) + " about " + in_brackets<dim>(centre) +
+         "\n";
 }
 
 template <int dim>

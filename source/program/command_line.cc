@@ -24,7 +24,9 @@ po::options_description visible_options()
       "repeated");
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
-  add("validate", "check the scene and write nothing");
+  add("validate", "check the scene, say in words what it says, and write nothing");
+  add("picture", "draw the scene with its supports, loads and contact into scene.svg, and solve "
+                 "nothing");
   add("print-parameters", "print all entries of the scene with their values; without a scene: the "
                           "defaults, documented");
   add("help,h", "print this text");
@@ -81,11 +83,18 @@ CommandLine parse(const int argc, const char *const argv[])
     for (const std::string &text : values["set"].as<std::vector<std::string>>())
       result.overrides.push_back(split_override(text));
   result.validate = values.count("validate");
+  result.picture = values.count("picture");
   result.inf_sup = values.count("inf-sup");
   result.print_parameters = values.count("print-parameters");
   result.help = values.count("help");
   result.version = values.count("version");
 
+  for (const auto &[option, is_named] : {std::make_pair("--inf-sup", result.inf_sup),
+                                         {"--validate", result.validate},
+                                         {"--print-parameters", result.print_parameters}})
+    if (result.picture && is_named)
+      throw InputError(std::string("hpvi: --picture draws the scene into a file, and ") + option +
+                       " writes none; remove one of the two");
   if (result.inf_sup && !result.output_directory.empty())
     throw InputError("hpvi: --output " + printable(result.output_directory, 400) +
                      ": --inf-sup writes no file; remove one of the two");

@@ -4,7 +4,9 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>
+#include <hpvi/program/draw_scene.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/inf_sup_run.h>
 #include <hpvi/program/interruption.h>
@@ -74,6 +76,23 @@ void measure(const Scene<3> &) // refused when it was read
 {
 }
 
+void draw(const Scene<2> &scene, const std::string &directory)
+{
+  agree(
+      [&]()
+      {
+        if (is_first_process())
+          draw_scene(scene, directory);
+      });
+}
+
+void draw(const Scene<3> &scene, const std::string &)
+{
+  throw InputError(scene.origin() +
+                   ": Dimension = 3: --picture draws bodies in the plane alone; --validate says "
+                   "what the scene says, and ParaView shows solution-NN.vtu of a run");
+}
+
 /** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
 template <int dimension>
 void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
@@ -87,7 +106,12 @@ void obey_scene(const CommandLine &command_line, const std::function<void()> &st
   if (command_line.print_parameters)
     std::cout << scene.parameters->print(false);
   else if (command_line.validate)
-    std::cout << scene.origin() << ": valid: " << legible(scene.title) << std::endl;
+  {
+    const std::string words = scene_in_words(scene);
+    std::cout << scene.origin() << ": valid: " << legible(scene.title) << '\n' << words;
+  }
+  else if (command_line.picture)
+    draw(scene, directory);
   else if (command_line.inf_sup)
     measure(scene);
   else

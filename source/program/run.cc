@@ -4,7 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/output.h>
-#include <hpvi/primal/load_check.h>
+#include <hpvi/output/scene_words.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
@@ -169,17 +169,6 @@ void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &
   }
 }
 
-/** The resultant of all loads, a line; throws InputError where one is no number. */
-std::string loads_in_words(const Scene<2> &scene, const bool is_primal)
-{
-  return is_primal ? LoadCheck<2>(scene).in_words() + "\n" : loads_in_words(scene);
-}
-
-std::string loads_in_words(const Scene<3> &scene, bool)
-{
-  return LoadCheck<3>(scene).in_words() + "\n";
-}
-
 template <int dim>
 void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::string &directory,
                 const std::string &loads)
@@ -222,7 +211,7 @@ void run(const Scene<dim> &scene, const std::string &directory)
   };
   const bool is_primal = takes_primal_path(scene, n_started_processes());
   LoadHistory<dim> solver(scene, MPI_COMM_WORLD);
-  const std::string loads = loads_in_words(scene, is_primal);
+  const std::string loads = resultant_in_words(scene, is_primal);
   prepare(solver, announce);
   progress.erase();
   Output<dim> output(scene, directory, MPI_COMM_WORLD);

@@ -80,6 +80,39 @@ refused() {
   check words "$@"
 }
 
+# --- materials and parts of sides, which scenes name themselves
+invalid "Material a.b" "is no name" "letters" -- "Material a.b/Where=x"
+invalid "Material Soft" "differs from Material soft in case" -- "Material soft/Where=x" "Material Soft/Where=x"
+invalid "Material soft/Where" "is missing" -- "Material soft/Density=1"
+invalid "Material soft/Where = -1" "centre of no cell" -- "Material soft/Where=-1"
+invalid "Material soft/Where" "inside a cell" "Subdivisions" -- "Material soft/Where=1.3 - (x-2)^2 - (y-2)^2"
+invalid "Material soft/Where" "uses t" -- "Material soft/Where=x - t" "Loading/Steps=2"
+invalid "Material soft/Where" "not an expression" "constants are pi" -- "Material soft/Where=E - x"
+invalid "Material soft/Where" "has 2 component(s)" -- "Material soft/Where=x; y"
+invalid "Material soft/Young's modulus = -3" "number E > 0" -- "Material soft/Where=x" "Material soft/Young's modulus=-3"
+invalid "Material soft/Poisson's ratio = 0.5" "outside (-1, 1/2)" -- "Material soft/Where=x" "Material soft/Poisson's ratio=0.5"
+invalid "Material soft/Plane = stress" "contradicts Material/Plane = strain" -- "Material/Plane=strain" "Material soft/Where=x" "Material soft/Plane=stress"
+invalid "Material b/Thickness = 2" "contradicts Material a/Thickness = 3" -- "Material a/Where=x" "Material a/Thickness=3" "Material b/Where=y" "Material b/Thickness=2"
+invalid "Material/Thickness = 0" "number > 0" -- "Material/Thickness=0"
+invalid "Material/Thickness = -1" "number > 0" -- "Material/Thickness=-1"
+invalid "Material/Density = -1" "number >= 0" -- "Material/Density=-1"
+invalid "Body force/Gravity" "Material/Density" -- "Body force/Gravity=0; -9.81"
+invalid "Body force/Gravity" "1 component(s)" -- "Body force/Gravity=-9.81" "Material/Density=1"
+invalid "Boundary foot" "unknown subsection" "this scene has" -- "Boundary foot/Where=x"
+invalid "Boundary foot/On = botom" "is no side" "left, right, bottom or top" -- "Boundary foot/On=botom"
+invalid "Boundary foot/Where" "is missing" -- "Boundary foot/On=top"
+invalid "Boundary foot/Where" "positive nowhere on top" -- "Boundary foot/On=top" "Boundary foot/Where=x - 100"
+invalid "Boundary toe/Where" "overlaps Boundary foot/Where" -- "Boundary foot/On=top" "Boundary foot/Where=1" "Boundary toe/On=top" "Boundary toe/Where=1"
+invalid "Boundary Top" "differs from Boundary top in case" -- "Boundary Top/On=top" "Boundary Top/Where=1"
+invalid "Boundary foot/Where" "inside a face" "Subdivisions" -- "Boundary foot/On=top" "Boundary foot/Where=x - 0.3" "Geometry/Shape=quadrilateral" "Geometry/Corners=0, 0; 4, 0; 4, 4; 0, 4" "Geometry/Upper corner="
+invalid "Boundary foot/Contact = unilateral" "Displacement" -- "Boundary foot/On=top" "Boundary foot/Where=1" "Boundary foot/Contact=unilateral" "Boundary foot/Displacement=0; 0"
+invalid "Boundary top/Pressure" "component y" -- "Boundary top/Traction=" "Boundary top/Displacement=free; 0" "Boundary top/Pressure=1"
+invalid "Boundary top/Shear" "component x" -- "Boundary top/Traction=" "Boundary top/Displacement=0; free" "Boundary top/Shear=x+1"
+invalid "Boundary top/Pressure" "not an expression" -- "Boundary top/Pressure=q"
+invalid "Boundary top/Pressure" "materials along this boundary" -- "Boundary top/Pressure=E" "Material soft/Where=x - 2" "Material soft/Young's modulus=3"
+invalid "Boundary left/On" "unknown entry" -- "Boundary left/On=top"
+invalid "Exact solution/Solution" "knows one material" -- "Exact solution/Solution=smooth" "Material soft/Where=x - 2"
+
 # --- names: the nearest known one is named, from the file with the line
 broken unknown_entry.prm ":3:" "Material/Poisson ratio = 0.4" "unknown entry" "Material/Poisson's ratio"
 broken unknown_subsection.prm ":2:" "Boundary botom" "unknown subsection" "Boundary bottom"
@@ -95,23 +128,23 @@ unknown() { # ENTRY WORD...
   shift
   invalid "unknown" "$@" -- "$entry=1"
 }
-unknown Material/Density '"Body force/Expression"'
+unknown Material/rho '"Material/Density"' '"Body force/Gravity"'
 unknown Material/E "\"Material/Young's modulus\""
 unknown Material/nu "\"Material/Poisson's ratio\""
 unknown "Boundary bottom/mu" '"Boundary bottom/Friction coefficient"' "Poisson's ratio"
 unknown "Boundary bottom/Friction" '"Boundary bottom/Friction bound"'
 unknown "Boundary bottom/Coefficient" '"Boundary bottom/Friction coefficient"'
 unknown "Boundary top/Force" '"Boundary top/Traction"'
-unknown "Boundary top/PRESSURE" '"Boundary top/Traction"'
+unknown "Boundary top/PRESSURE" '"Boundary top/Pressure"'
 unknown "Boundary left/Fixed" '"Boundary left/Displacement"'
 unknown 3D '"Dimension"'
-unknown Geometry/Thickness "of thickness 1"
+unknown Geometry/Thickness '"Material/Thickness"'
 unknown Mesh/Size "unknown subsection" '"Geometry/Subdivisions"'
 unknown Constants/a "unknown subsection" "pi, E, nu and mu"
-unknown Gravity/g "unknown subsection" '"Body force/Expression"'
+unknown Gravity/g "unknown subsection" '"Body force/Gravity"'
 unknown Adaptivity/Steps '"Adaptivity/Maximum steps"' '"Loading/Steps"'
 unknown Contact/Gap "unknown subsection" "this is an entry" '"Boundary bottom/Contact"'
-unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio and Plane"
+unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Plane and Thickness"
 unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'
 unknown Units/Time "Loading/Steps"
 unknown Units/Mass "unknown entry; Units has Length and Stress"
@@ -400,6 +433,11 @@ refused "--set Title" "has no '='" "Section/Entry=value" -- --set Title "$scenes
 refused "--output" "hpvi --help" -- "$scenes/base.prm" --output
 refused "hpvi --help" -- "$scenes/base.prm" "$scenes/base.prm"
 refused "--inf-sup writes no file" "remove one" -- --inf-sup --output results "$scenes/base.prm"
+for option in --inf-sup --validate --print-parameters; do
+  refused "--picture draws the scene into a file" "$option writes none" "remove one" -- --picture $option "$scenes/base.prm"
+done
+refused "no scene" "name a parameter file" -- --picture
+refused "base.prm (--set): Material/Young's modulus = 0" -- --picture --set "Material/Young's modulus=0" "$scenes/base.prm"
 refused "no multiplier" "remove --inf-sup" -- --inf-sup --set "Boundary bottom/Friction bound=" "$scenes/base.prm"
 
 refused "hpvi: --set a b?c" "has no '='" -- --set $'a\nb\x1bc' "$scenes/base.prm"

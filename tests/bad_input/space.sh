@@ -53,6 +53,10 @@ check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/
 # --- what is of the plane
 invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material/Plane=stress"
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
+invalid "Material/Thickness" "only a body in the plane" -- "Material/Thickness=2"
+invalid "Boundary top/Shear" "two tangents" -- "Boundary top/Shear=1"
+invalid "Boundary foot/Where" "inside a face" "grid line" -- "Boundary foot/On=top" "Boundary foot/Where=x^2 + z^2 - 0.5"
+invalid "Material soft/Where" "inside a cell" -- "Material soft/Where=x^2 + y^2 + z^2 - 0.5"
 invalid "Mesh picture" "shows a plane" "solution-NN.vtu" -- "Output/Mesh picture=true"
 invalid "Error/Bound = true" "no guaranteed bound" "remove it" -- "Error/Bound=true"
 invalid "Bound on distorted cells" "no guaranteed bound" -- "Error/Bound on distorted cells=false"
@@ -72,6 +76,9 @@ invalid "Condition number" "does not form" -- "Solver/Condition number=true"
 invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
 invalid "Steps = 3" "load history" -- "Loading/Steps=3"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
+check 1 "prm/slab.prm: Dimension = 3" "--picture draws bodies in the plane alone" "--validate" -- \
+  "$hpvi" --picture --output "$scratch/picture" prm/slab.prm
+[ ! -e "$scratch/picture" ] || { echo "a refused picture leaves a directory"; failures=1; }
 
 # --- boundaries
 invalid "rigid-body motion free, translation in x" -- "Boundary right/Displacement="

@@ -52,7 +52,8 @@ def main():
                for target in re.findall(r"\]\(([^)#:]+)\)|(?:src|href)=\"([^\":#]+)\"", README)
                for target in target if target and not (ROOT / target).exists()]
     for scene in sorted((ROOT / "prm").glob("*.prm")):
-        for wanted in (f"prm/{scene.name}", f"doc/gallery/{scene.stem}.png"):
+        in_plane = "Dimension = 3" not in scene.read_text()
+        for wanted in (f"prm/{scene.name}", f"doc/gallery/{scene.stem}.png", *[f"doc/gallery/{scene.stem}-scene.svg"] * in_plane):
             if wanted not in README:
                 missing.append(f"README.md does not show {wanted}")
     if missing:

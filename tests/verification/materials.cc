@@ -3,6 +3,7 @@
 #include "discretisation.h"
 
 #include <gtest/gtest.h>
+#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/evaluation/solution_field.h>
@@ -143,7 +144,7 @@ Distance distance(Bar &bar)
   result.true_error = errors.energy / std::sqrt(bar.energy_product);
   result.true_norm = std::abs(errors.energy_norm * errors.energy_norm / bar.energy_product - 1);
   result.indicator = estimate_error(SolutionField(solution)).total() /
-                     std::sqrt(bar.energy_product * bar.scene.coercivity());
+                     std::sqrt(bar.energy_product * bar.scene.reference_coercivity());
   for (const ContactFace<2> &face : discrete.contact_space.faces())
   {
     const Material &material = bar.scene.materials[face.cell->center()[bar.across] < 1 ? 0 : 1];
@@ -185,14 +186,41 @@ TEST(Materials, InParallelTakeTheSameStrain)
   expect_exact(*in_parallel());
 }
 
-TEST(Materials, ScalesOfTheSceneTakeTheOneThatBounds)
+TEST(Materials, RoundOffIsThatOfTheStiffest)
 {
   for (const auto &materials : {std::vector<Material>{soft, stiff}, {stiff, soft}})
   {
     Scene<2> scene = scene_of({{"Boundary left/Displacement", "0; 0"}});
     scene.materials = materials;
-    EXPECT_EQ(scene.coercivity(), soft.coercivity(2)); // c |eps|^2 <= a holds in the soft part, too
-    EXPECT_EQ(scene.largest_weight(), stiff.mu()); // round-off in the stiff part is bounded, too
+    EXPECT_EQ(scene.largest_weight(), stiff.mu());
+  }
+}
+
+/** A layer of the other material, loaded on a part of its top. */
+double scaled_estimate(const std::vector<Material> &materials, const bool layer_is_first)
+{
+  Scene<2> scene = scene_of({{"Geometry/Subdivisions", "4, 4"},
+                             {"Boundary left/Displacement", "0; 0"},
+                             {"Boundary top/Traction", "0; -x^3"},
+                             {"Adaptivity/Method", "hup3"},
+                             {"Adaptivity/Maximum steps", "1"}});
+  scene.materials = materials;
+  scene.material_at = [layer_is_first](const Point<2> &x)
+  { return (x[1] > 0.5) == layer_is_first ? 0 : 1; };
+  double result = 0;
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { result = step.scaled_estimate; });
+  return result;
+}
+
+/** Each residual counts as the strain that its own material has: which material is the first does not matter. */
+TEST(Materials, IndicatorDoesNotDependOnTheirOrder)
+{
+  for (const double young : {1e-3, 1e3, 1e6})
+  {
+    const Material other{young, 0.2, soft.plane};
+    const double one = scaled_estimate({soft, other}, true);
+    EXPECT_NEAR(scaled_estimate({other, soft}, false), one, 1e-12 * one) << young;
+    EXPECT_GT(std::abs(scaled_estimate({other, soft}, true) - one), 1e-3 * one) << young;
   }
 }
 } // namespace

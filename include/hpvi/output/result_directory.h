@@ -23,7 +23,10 @@ inline const std::string always = "scene\\.prm|convergence\\.csv|degrees\\.csv|s
                          mesh = "mesh-[0-9]{2,}\\.svg",
                          vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
                          pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
-                         reference = "reference\\.dat";
+                         reference = "reference\\.dat", picture = "scene\\.svg";
+
+/** The words with which a picture of the scene begins: it is known by them, for no summary.json lists it. */
+inline const std::string picture_head = "the scene, drawn by hpvi";
 } // namespace results
 
 /** NAME-NN.SUFFIX; the number grows beyond two digits where it has to. */
@@ -62,7 +65,8 @@ private:
  * The directory in which a run leaves its files. A second run that wants it is refused while the
  * first one lasts, and what this program has not written is neither overwritten nor removed: the
  * program's own files are those that `summary.json` lists under "files", or, where it was written
- * before there was such a list, those of a result's name.
+ * before there was such a list, those of a result's name; and a picture of the scene, which says so itself. That one
+ * stays when a run replaces the results: it was drawn by another command.
  */
 class ResultDirectory
 {

@@ -15,8 +15,9 @@ struct CommandLine
   std::string output_directory; ///< empty: output/<scene>
   /** `--set "Section/Entry=value"` in the order given: path of the entry, value. */
   std::vector<std::pair<std::string, std::string>> overrides;
-  bool validate = false;
-  bool inf_sup = false; ///< measure the inf-sup constant, write nothing
+  bool validate = false; ///< say what the scene says, write nothing
+  bool picture = false;  ///< draw the scene, solve nothing
+  bool inf_sup = false;  ///< measure the inf-sup constant, write nothing
   bool print_parameters = false;
   bool help = false;
   bool version = false;

@@ -32,7 +32,7 @@ struct Material
   double poisson = 0.3;                  ///< Poisson's ratio nu in (-1, 1/2), dimensionless
   PlaneModel plane = PlaneModel::strain; ///< used in two dimensions only
   double density = 0;                    ///< mass per volume, what gravity acts on
-  std::string name;                      ///< of its section; empty: the unnamed one
+  std::string name{};                    ///< of its section; empty: the unnamed one
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
   double mu() const

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_boundary_words_h
+#define hpvi_boundary_words_h
+
+#include <hpvi/scene/scene.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** A label that says something: units of 1 are none. */
+std::string unit_name(const std::string &unit);
+
+/** Of @p function, which may be null: zero then. */
+template <int dim>
+std::vector<double> values_at(const std::vector<dealii::Point<dim>> &points,
+                              const Expression<dim> &function);
+
+bool all_zero(const std::vector<double> &values);
+
+/** A number of so many @p digits with its unit, unless that is 1. */
+std::string with_unit(double value, const std::string &unit, int digits = 6);
+
+/** The least and the largest of @p values, as in "0.3 mm" or, where they differ, "0 to 0.3 mm". */
+std::string range_in_words(const std::vector<double> &values, const std::string &unit);
+
+/** Points on the faces of @p boundary on @p mesh at which ranges are taken, vertices among them. */
+template <int dim>
+std::vector<dealii::Point<dim>> points_on(const dealii::Triangulation<dim> &mesh,
+                                          dealii::types::boundary_id boundary);
+
+/** What holds a boundary, as in "clamped" or "ux = -0.1 mm", "uy free"; empty: nothing does. */
+template <int dim>
+std::vector<std::string> support_phrases(const Scene<dim> &scene,
+                                         const BoundaryCondition<dim> &boundary,
+                                         const std::vector<dealii::Point<dim>> &points);
+
+/** What it touches, as in "unilateral contact", "gap 0 to 0.2 mm", "friction coefficient 0.3". */
+template <int dim>
+std::vector<std::string> contact_phrases(const Scene<dim> &scene,
+                                         const BoundaryCondition<dim> &boundary,
+                                         const std::vector<dealii::Point<dim>> &points);
+
+/** What pushes it, as in "traction x: 1.5 to 7.5 MPa", "y: -1 MPa". */
+template <int dim>
+std::vector<std::string> traction_phrases(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary,
+                                          const std::vector<dealii::Point<dim>> &points);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/output/boundary_words.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr const char *coordinates[] = {"x", "y", "z"};
+} // namespace
+
+/** A label that says something: units of 1 are none. */
+std::string unit_name(const std::string &unit)
+{
+  return unit == "1" ? "" : legible(unit);
+}
+
+template <int dim>
+std::vector<double> values_at(const std::vector<Point<dim>> &points,
+                              const std::function<double(const Point<dim> &)> &function)
+{
+  std::vector<double> values;
+  for (const Point<dim> &x : points)
+    values.push_back(function(x));
+  return values;
+}
+
+template <int dim>
+std::vector<double> values_at(const std::vector<Point<dim>> &points,
+                              const Expression<dim> &function)
+{
+  return values_at<dim>(points,
+                        [&](const Point<dim> &x) { return function ? function->value(x) : 0.; });
+}
+
+bool all_zero(const std::vector<double> &values)
+{
+  return std::all_of(values.begin(), values.end(), [](const double value) { return value == 0; });
+}
+
+std::string with_unit(const double value, const std::string &unit, const int digits)
+{
+  const std::string name = unit_name(unit);
+  return text(value, digits) + (name.empty() ? "" : " " + name);
+}
+
+std::string range_in_words(const std::vector<double> &values, const std::string &unit)
+{
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double round_off = 1e-9 * std::max(std::abs(*least), std::abs(*largest));
+  const auto clean = [&](const double value) { return std::abs(value) <= round_off ? 0. : value; };
+  if (*largest - *least <= round_off)
+    return with_unit(clean(*largest), unit);
+  const int digits = text(clean(*least), 4) == text(clean(*largest), 4) ? 8 : 4;
+  return text(clean(*least), digits) + " to " + with_unit(clean(*largest), unit, digits);
+}
+
+template <int dim>
+std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::boundary_id boundary)
+{
+  std::vector<typename Triangulation<dim>::active_face_iterator> faces;
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face) && cell->face(face)->boundary_id() == boundary)
+        faces.push_back(cell->face(face));
+  // some 500 along a side as checks have, some 100 along one in space
+  const double wanted = dim == 2 ? 500. / std::max<std::size_t>(1, faces.size())
+                                 : 100. / std::sqrt(std::max<double>(1., faces.size()));
+  const unsigned int n = std::max(2U, static_cast<unsigned int>(wanted));
+  std::vector<Point<dim>> points;
+  for (const auto &face : faces)
+    for (unsigned int i = 0; i <= n; ++i)
+      for (unsigned int j = 0; j <= (dim == 3 ? n : 0); ++j)
+      {
+        const double s = double(i) / n, t = double(j) / n;
+        Point<dim> x;
+        for (const unsigned int v : face->vertex_indices())
+          x += (v % 2 == 0 ? 1 - s : s) * (dim == 2 ? 1 : v / 2 == 0 ? 1 - t : t) * face->vertex(v);
+        points.push_back(x);
+      }
+  return points;
+}
+
+template <int dim>
+std::vector<std::string> support_phrases(const Scene<dim> &scene,
+                                         const BoundaryCondition<dim> &boundary,
+                                         const std::vector<Point<dim>> &points)
+{
+  std::vector<std::string> phrases;
+  if (!boundary.has_displacement())
+    return phrases;
+  bool is_clamp = true;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    const std::string component = std::string("u") + coordinates[c];
+    if (!boundary.displacement[c])
+    {
+      phrases.push_back(component + " free");
+      is_clamp = false;
+      continue;
+    }
+    const std::vector<double> values = values_at<dim>(points, boundary.displacement[c]);
+    is_clamp = is_clamp && all_zero(values);
+    phrases.push_back(component + " = " +
+                      (all_zero(values) ? "0" : range_in_words(values, scene.length_unit)));
+  }
+  return is_clamp ? std::vector<std::string>{"clamped"} : phrases;
+}
+
+namespace
+{
+/** As in "friction bound 4.5 MPa"; of a law with both "friction at most 0.3 times the pressure and 2 MPa". */
+template <int dim>
+std::string friction_in_words(const Scene<dim> &scene, const FrictionLaw<dim> &friction,
+                              const std::vector<Point<dim>> &points)
+{
+  const std::string bound =
+      range_in_words(values_at<dim>(points, [&](const auto &x) { return friction.bound_at(x); }),
+                     scene.stress_unit);
+  const std::string coefficient = range_in_words(
+      values_at<dim>(points, [&](const auto &x) { return friction.coefficient_at(x); }), "");
+  if (!friction.coefficient)
+    return "friction bound " + bound;
+  if (!friction.bound)
+    return "friction coefficient " + coefficient;
+  return friction.form == FrictionForm::limited
+             ? "friction " + coefficient + " times the pressure, at most " + bound
+             : "friction " + bound + " and " + coefficient + " times the pressure";
+}
+
+template <int dim>
+std::string gap_in_words(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+                         const std::vector<Point<dim>> &points)
+{
+  const std::vector<double> gaps =
+      values_at<dim>(points, [&](const auto &x) { return boundary.gap_at(x); });
+  if (all_zero(gaps))
+    return "no gap";
+  const bool has_interference =
+      std::any_of(gaps.begin(), gaps.end(), [](const double gap) { return gap < 0; });
+  return "gap " + range_in_words(gaps, scene.length_unit) +
+         (has_interference ? " (interference)" : "");
+}
+} // namespace
+
+template <int dim>
+std::vector<std::string> contact_phrases(const Scene<dim> &scene,
+                                         const BoundaryCondition<dim> &boundary,
+                                         const std::vector<Point<dim>> &points)
+{
+  std::vector<std::string> phrases;
+  if (!boundary.has_contact())
+    return phrases;
+  if (boundary.is_unilateral())
+    phrases = {"unilateral contact", gap_in_words(scene, boundary, points)};
+  else
+    phrases = {boundary.contact == Contact::bilateral ? "bilateral contact" : "tangential contact"};
+  phrases.push_back(boundary.friction ? friction_in_words(scene, boundary.friction, points)
+                                      : "no friction");
+  return phrases;
+}
+
+template <int dim>
+std::vector<std::string> traction_phrases(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary,
+                                          const std::vector<Point<dim>> &points)
+{
+  std::vector<std::string> phrases;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    const std::vector<double> values = values_at<dim>(points, boundary.traction[c]);
+    if (!all_zero(values))
+      phrases.push_back(std::string(phrases.empty() ? "traction " : "") + coordinates[c] + ": " +
+                        range_in_words(values, scene.stress_unit));
+  }
+  return phrases;
+}
+
+template std::vector<double> values_at(const std::vector<Point<2>> &, const Expression<2> &);
+template std::vector<Point<2>> points_on(const Triangulation<2> &, types::boundary_id);
+template std::vector<std::string> support_phrases(const Scene<2> &, const BoundaryCondition<2> &,
+                                                  const std::vector<Point<2>> &);
+template std::vector<std::string> contact_phrases(const Scene<2> &, const BoundaryCondition<2> &,
+                                                  const std::vector<Point<2>> &);
+template std::vector<std::string> traction_phrases(const Scene<2> &, const BoundaryCondition<2> &,
+                                                   const std::vector<Point<2>> &);
+template std::vector<double> values_at(const std::vector<Point<3>> &, const Expression<3> &);
+template std::vector<Point<3>> points_on(const Triangulation<3> &, types::boundary_id);
+template std::vector<std::string> support_phrases(const Scene<3> &, const BoundaryCondition<3> &,
+                                                  const std::vector<Point<3>> &);
+template std::vector<std::string> contact_phrases(const Scene<3> &, const BoundaryCondition<3> &,
+                                                  const std::vector<Point<3>> &);
+template std::vector<std::string> traction_phrases(const Scene<3> &, const BoundaryCondition<3> &,
+                                                   const std::vector<Point<3>> &);
+} // namespace hpvi

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/backends/backend.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/output/contact_report.h>
+#include <hpvi/output/scene_words.h>
+#include <hpvi/primal/load_check.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr const char *coordinates[] = {"x", "y", "z"};
+
+std::string joined(const std::vector<std::string> &phrases)
+{
+  std::string words;
+  for (const std::string &phrase : phrases)
+    words += (words.empty() ? "" : ", ") + phrase;
+  return words;
+}
+
+/** "(0, 0)" with its numbers rounded. */
+template <int dim>
+std::string place(const Point<dim> &x)
+{
+  std::string list;
+  for (unsigned int d = 0; d < dim; ++d)
+    list += (d > 0 ? ", " : "") + text(x[d], 6);
+  return "(" + list + ")";
+}
+} // namespace
+
+template <int dim>
+std::string body_force_unit(const Scene<dim> &scene)
+{
+  const std::string stress = unit_name(scene.stress_unit), length = unit_name(scene.length_unit);
+  return stress.empty() || length.empty() ? stress : stress + "/" + length;
+}
+
+template <int dim>
+Scene<dim> at_the_end(const Scene<dim> &scene)
+{
+  if (!scene.has_load_history())
+    return scene;
+  const Loading<dim> &loading = scene.loading;
+  DataScale past; // of some load steps: what is round-off beside the largest loads
+  const unsigned int stride = 1 + loading.steps / 64;
+  for (unsigned int step = 1; step < loading.steps; step += stride)
+  {
+    const DataScale scale = data_scale(loading.at(loading.time(step)));
+    past.stress = std::max(past.stress, scale.stress);
+    past.displacement = std::max(past.displacement, scale.displacement);
+  }
+  return load_step(scene, loading.steps, past);
+}
+
+template <int dim>
+std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
+{
+  const std::string &name = scene.materials[number].name;
+  if (!name.empty() || scene.materials.size() == 1)
+    return "material" + (name.empty() ? "" : " " + name);
+  return scene.parameters ? "material elsewhere" : "material " + std::to_string(number);
+}
+
+template <int dim>
+std::string material_in_words(const Scene<dim> &scene, const Material &material)
+{
+  const std::string unit = unit_name(scene.stress_unit);
+  std::string words = material.stiffness_in_words() + (unit.empty() ? "" : " " + unit);
+  const auto constants = material.constants();
+  if (const auto nu = constants.find("nu"); nu != constants.end())
+    words += ", Poisson's ratio " + text(nu->second, 6);
+  if (dim == 2)
+    words += material.plane == PlaneModel::stress ? ", plane stress" : ", plane strain";
+  if (material.density > 0)
+    words += ", density " + text(material.density, 6);
+  if (scene.thickness != 1)
+    words += ", thickness " + with_unit(scene.thickness, scene.length_unit, 6);
+  return words;
+}
+
+namespace
+{
+/** As in "box from (0, 0) to (4, 4) mm, 16 coarse cells". */
+template <int dim>
+std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
+{
+  const std::string shape = scene.parameters ? scene.parameters->text("Geometry", "Shape") : "",
+                    unit = unit_name(scene.length_unit);
+  const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
+  const auto ends = box.get_boundary_points();
+  const unsigned int n = mesh.n_active_cells();
+  return "body: " + (shape.empty() ? "" : shape + " ") + "from " + place<dim>(ends.first) + " to " +
+         place<dim>(ends.second) + (unit.empty() ? "" : " " + unit) + ", " + text(n) +
+         (n == 1 ? " coarse cell" : " coarse cells") +
+         (scene.geometry.grading_levels > 0 && !scene.geometry.graded_towards.empty()
+              ? ", graded towards " + text(unsigned(scene.geometry.graded_towards.size())) +
+                    (scene.geometry.graded_towards.size() == 1 ? " point" : " points")
+              : "") +
+         "\n";
+}
+
+template <int dim>
+std::string materials_in_words(const Scene<dim> &scene)
+{
+  std::string lines;
+  for (std::size_t k = 0; k < scene.materials.size(); ++k)
+    lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
+  return lines;
+}
+
+/** All that a boundary has, phrase by phrase; empty where it is free. */
+template <int dim>
+std::vector<std::string> phrases_of(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+                                    const std::vector<Point<dim>> &points)
+{
+  std::vector<std::string> phrases;
+  for (const auto &some :
+       {support_phrases(scene, boundary, points), contact_phrases(scene, boundary, points),
+        traction_phrases(scene, boundary, points)})
+    phrases.insert(phrases.end(), some.begin(), some.end());
+  return phrases;
+}
+
+template <int dim>
+std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
+{
+  std::string lines;
+  std::vector<std::string> free;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+  {
+    const std::vector<Point<dim>> points = points_on(mesh, boundary.id);
+    if (points.empty())
+      continue;
+    const std::string words = joined(phrases_of(scene, boundary, points));
+    if (words.empty())
+      free.push_back(boundary.name);
+    else
+      lines += boundary.name + ": " + words + "\n";
+  }
+  return lines + (free.empty() ? "" : "free: " + joined(free) + "\n");
+}
+
+template <int dim>
+std::string body_force_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
+{
+  if (!scene.has_body_force())
+    return {};
+  std::array<std::vector<double>, dim> values;
+  for (const auto &cell : mesh.active_cell_iterators())
+  {
+    std::vector<Point<dim>> points{cell->center()};
+    for (const unsigned int v : cell->vertex_indices())
+      points.push_back(cell->vertex(v));
+    for (unsigned int c = 0; c < dim; ++c)
+      for (const double value : values_at<dim>(points, scene.body_force_in(cell)[c]))
+        values[c].push_back(value);
+  }
+  std::vector<std::string> phrases;
+  for (unsigned int c = 0; c < dim; ++c)
+    if (!all_zero(values[c]))
+      phrases.push_back(std::string(coordinates[c]) + ": " +
+                        range_in_words(values[c], body_force_unit(scene)));
+  return "body force: " + joined(phrases) + "\n";
+}
+
+/** Without blank lines. */
+std::string one_ending(std::string line)
+{
+  while (!line.empty() && line.back() == '\n')
+    line.pop_back();
+  return line + "\n";
+}
+} // namespace
+
+template <int dim>
+std::string resultant_in_words(const Scene<dim> &scene, const bool is_primal)
+{
+  if constexpr (dim == 2)
+    if (!is_primal)
+      return one_ending(loads_in_words(scene));
+  return one_ending(LoadCheck<dim>(scene).in_words());
+}
+
+template <int dim>
+std::string scene_in_words(const Scene<dim> &scene)
+{
+  const Scene<dim> last = at_the_end(scene);
+  Triangulation<dim> mesh;
+  make_mesh(last, mesh);
+  std::string remarks;
+  for (const std::string &remark : scene.remarks)
+    remarks += remark + "\n";
+  return body_in_words(last, mesh) + remarks + materials_in_words(last) +
+         (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
+                                         " load steps; what follows is at t = 1\n"
+                                   : "") +
+         boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) +
+         resultant_in_words(last, takes_primal_path(scene, 1));
+}
+
+template std::string body_force_unit(const Scene<2> &);
+template Scene<2> at_the_end(const Scene<2> &);
+template std::string name_in_words(const Scene<2> &, std::size_t);
+template std::string material_in_words(const Scene<2> &, const Material &);
+template std::string scene_in_words(const Scene<2> &);
+template std::string scene_in_words(const Scene<3> &);
+template std::string resultant_in_words(const Scene<2> &, bool);
+template std::string resultant_in_words(const Scene<3> &, bool);
+} // namespace hpvi
