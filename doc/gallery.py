@@ -100,7 +100,8 @@ def draw_body(run, rows):
     for cell, stress in zip(moved, patches.von_mises):
         colours = axes.pcolormesh(cell[..., 0], cell[..., 1], stress, cmap="viridis",
                                   shading="gouraud", vmin=0, vmax=limit, rasterized=True)
-    draw_contact(axes, rows, patches, moved)
+    if rows:
+        draw_contact(axes, rows, patches, moved)
     for frame, low, high in zip((axes.set_xlim, axes.set_ylim), moved.min(axis=(0, 1, 2)), moved.max(axis=(0, 1, 2))):
         frame(low - 0.04 * width, high + 0.04 * width)
     tidy(axes, "xy", run)
@@ -206,11 +207,14 @@ def show_scene(scene, run, output):
 
 
 def draw(scene, run, output):
-    rows = read_csv(run.last("contact", "csv"))
-    figure, scale = (draw_space if "z" in rows[0] else draw_body)(run, rows)
-    add_key(figure, rows)
+    table = run.last("contact", "csv")
+    rows = read_csv(table) if table.exists() else []  # of a body without contact there is none
+    is_space = bool(rows) and "z" in rows[0]
+    figure, scale = (draw_space if is_space else draw_body)(run, rows)
+    if rows:
+        add_key(figure, rows)
     note = scale_text(scale) if scale != 1 else "displacement true to scale"
-    figure.suptitle(f"{scene.stem}\n{note}" + (", seen from below" if "z" in rows[0] else ""), fontsize=10)
+    figure.suptitle(f"{scene.stem}\n{note}" + (", seen from below" if is_space else ""), fontsize=10)
     picture = folder(scene, output) / f"{scene.stem}.png"
     picture.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(picture, dpi=130, metadata={"Software": None})

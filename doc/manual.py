@@ -24,6 +24,7 @@ PAGES = ROOT / "doc/manual"
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # Entries that no scene of prm/ sets: what one could write.
 EXAMPLES = {
+    ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Adaptivity", "hap threshold"): "0.7", ("Adaptivity", "hpa1 bisected fraction"): "0.05",
     ("Adaptivity", "hpa1 raised fraction"): "0.2", ("Adaptivity", "Maximum seconds"): "60",
     ("Solver", "Path"): "reduced", ("Solver", "Linear"): "direct",
@@ -151,12 +152,17 @@ def assignments(text):
     return found
 
 
+def named(section):
+    """NAME for what a scene names, or for a side."""
+    return re.sub("^(Boundary|Material) .*", r"\1 NAME", section)
+
+
 def scene_examples():
     """The shortest value that a scene gives each entry, and the scene's name."""
     examples = {}
     for scene in sorted((ROOT / "prm").glob("*.prm")):
         for section, name, value, _ in assignments(scene.read_text()):
-            key = (re.sub("Boundary .*", "Boundary NAME", section), name)
+            key = (named(section), name)
             if value and (key not in examples or len(value) < len(examples[key][0])):
                 examples[key] = (value, scene.name)
     return examples
@@ -165,7 +171,7 @@ def scene_examples():
 def check_example(program, key, value):
     if key == ("Error", "Reference solution"):
         return  # names a file of another run
-    run(program, "--validate", "--set", f"{key[0]}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
+    run(program, "--validate", "--set", f"{key[0].replace('NAME', 'top')}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
 
 
 def escaped(text):
@@ -178,22 +184,25 @@ def code(text):
 
 def entries_page(program):
     examples, lines, last = scene_examples(), [], None
+    seen = set()
     for section, name, default, comment in assignments(run(program, "--print-parameters")):
-        if section.startswith("Boundary") and section != "Boundary left":
-            continue
-        key = (section.replace("Boundary left", "Boundary NAME"), name)
-        if key in examples:
-            value, where = examples[key]
-        elif key in EXAMPLES:
-            value, where = EXAMPLES[key], ""
-            check_example(program, key, value)
+        key = (named(section), name)
+        if key in seen:
+            continue  # of another side
+        seen.add(key)
+        of_all = (key[0].replace("Material NAME", "Material"), name)  # a named material inherits it
+        if key in examples or of_all in examples:
+            value, where = examples.get(key) or examples[of_all]
+        elif of_all in EXAMPLES:
+            value, where = EXAMPLES[of_all], ""
+            check_example(program, of_all, value)
         else:
             sys.exit(f"manual.py: {key[0]}/{name} needs an example, in a scene or in EXAMPLES")
         if key[0] != last:
             anchor = re.sub(r"\W", "_", key[0].lower()) or "scene"
             lines += ["", f"## {key[0] or 'The scene'} {{#entries_{anchor}}}", ""]
             last = key[0]
-        units = re.findall(r"\[(length|stress|stress/length)\]", comment)
+        units = re.findall(r"\[(length|stress|stress/length)\]", comment) if name != "Density" else []
         facts = [f"default {code(default) or 'empty'}"] + ([f"unit {units[0]}"] if units else [])
         facts.append(f"example {code(value)}" + (f" in prm/{where}" if where else ""))
         lines += [f"**{escaped(name)}**: {escaped(comment)}", "", "<span class=\"facts\">"
@@ -271,7 +280,7 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "space", "processes", "results",
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "space", "processes", "results",
                  "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \

@@ -183,6 +183,11 @@ void check_exact_solution(const Scene<2> &scene)
     reject(scene, "Exact solution", "Solution",
            "knows whole sides, and Boundary " + scene.boundaries.back().name +
                " is a part; measure errors by Error/Reference solution");
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+    if (boundary.symmetry || boundary.spring)
+      reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Spring",
+             "is none of " + mention(scene, "Exact solution", "Solution") +
+                 "; give Displacement = exact, or measure errors by Error/Reference solution");
   if (scene.thickness != 1)
     reject(scene, "Exact solution", "Solution",
            "is that of a body of unit thickness; remove Material/Thickness");

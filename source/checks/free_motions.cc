@@ -125,11 +125,17 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
       {
         const BoundaryCondition<dim> &boundary = scene.boundaries[f];
         const Tensor<1, dim> arm = (end - centre) / length;
-        for (const PointCondition<dim> &condition : conditions_at(
-                 boundary, sides[f].normal(end), boundary.contact == Contact::bilateral, end))
+        for (const PointCondition<dim> &condition :
+             conditions_at(boundary, sides[f].normal(end),
+                           boundary.symmetry || boundary.contact == Contact::bilateral, end))
           // Coulomb's law has a multiplier where bilateral contact is a support else.
           (boundary.has_pressure() ? rows.resisted : rows.held)
               .push_back(row_of(condition.direction, arm));
+        if (boundary.spring.normal)
+          rows.held.push_back(row_of(sides[f].normal(end), arm));
+        if constexpr (dim == 2)
+          if (boundary.spring.tangential)
+            rows.held.push_back(row_of(sides[f].tangent(end), arm));
         if constexpr (dim == 2)
           if (boundary.friction) // where it vanishes, the mesh decides
             rows.resisted.push_back(row_of(sides[f].tangent(end), arm));

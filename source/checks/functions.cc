@@ -107,6 +107,26 @@ std::string entry_of_load(const Scene<dim> &scene, const std::string &section)
   return "Traction";
 }
 
+/** Neither has a meaning beside what decides the same motion. */
+template <int dim>
+void check_symmetry_and_springs(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  const std::string section = section_of(boundary);
+  if (boundary.symmetry)
+    for (const auto &[is_there, entry] :
+         {std::pair<bool, std::string>{boundary.has_displacement(), "Displacement"},
+          {boundary.has_contact(), "Contact"},
+          {boundary.has_traction(), entry_of_load(scene, section)},
+          {bool(boundary.spring), "Spring"}})
+      if (is_there)
+        reject(scene, section, "Symmetry",
+               "contradicts " + mention(scene, section, entry) + "; remove one of the two", "true");
+  if (boundary.spring && boundary.has_contact())
+    reject(scene, section, "Spring",
+           "stands beside Contact = " + name_of(boundary.contact) +
+               "; keep one of the two, or give each a part of the side");
+}
+
 /** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
 template <int dim>
 void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
@@ -122,6 +142,7 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
   check_friction(scene, section, boundary, side.sample());
   if (boundary.gap != nullptr && !boundary.is_unilateral())
     reject(scene, section, "Gap", gap_needs_contact);
+  check_symmetry_and_springs(scene, boundary);
   if (boundary.has_contact() && boundary.has_displacement())
     reject(scene, section, "Displacement",
            "stands beside Contact = " + name_of(boundary.contact) + "; keep only one of the two");

@@ -158,6 +158,10 @@ void check_primal_path(const Scene<dim> &scene)
       reject(scene, section_of(boundary), "Friction coefficient",
              "is " + boundary.friction.name() + ", which " + why +
                  " does not offer; give Friction bound, Tresca's");
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.spring)
+      reject(scene, section_of(boundary), "Spring",
+             "is not offered by " + why + "; run the reduced path on one process, or remove it");
   if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",
            "is not offered by " + why + ", whose pressures are multipliers; set multiplier",

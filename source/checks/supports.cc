@@ -37,7 +37,9 @@ const std::string meeting_place = dim == 2 ? " at their corner " : " at their co
 template <int dim>
 std::string support_entry(const BoundaryCondition<dim> &boundary)
 {
-  return boundary.contact == Contact::bilateral ? "Contact" : "Displacement";
+  return boundary.symmetry                        ? "Symmetry"
+         : boundary.contact == Contact::bilateral ? "Contact"
+                                                  : "Displacement";
 }
 
 template <int dim>
@@ -46,8 +48,9 @@ template <int dim>
                                  const double contradiction)
 {
   // The message stands at the boundary whose value can be changed.
-  const BoundaryCondition<dim> &changeable = one.contact == Contact::bilateral ? two : one;
-  const BoundaryCondition<dim> &other = one.contact == Contact::bilateral ? one : two;
+  const bool one_is_fixed = one.symmetry || one.contact == Contact::bilateral;
+  const BoundaryCondition<dim> &changeable = one_is_fixed ? two : one,
+                               &other = one_is_fixed ? one : two;
   reject(scene, section_of(changeable), support_entry(changeable),
          "contradicts " + mention(scene, section_of(other), support_entry(other)) +
              meeting_place<dim> + to_string(point) + " by " + to_string(std::abs(contradiction)) +
@@ -124,8 +127,9 @@ void check_supports(const Scene<dim> &scene)
         for (const unsigned int f : {a, b})
         {
           const BoundaryCondition<dim> &boundary = scene.boundaries[f];
-          for (const PointCondition<dim> &condition : conditions_at(
-                   boundary, sides[f].normal(point), boundary.contact == Contact::bilateral, point))
+          for (const PointCondition<dim> &condition :
+               conditions_at(boundary, sides[f].normal(point),
+                             boundary.symmetry || boundary.contact == Contact::bilateral, point))
             conditions.push_back(condition);
           if (boundary.is_unilateral())
             limits.push_back({sides[f].normal(point), boundary.gap_at(point), boundary.id});

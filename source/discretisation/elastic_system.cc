@@ -5,6 +5,7 @@
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
 #include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/discretisation/springs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,14 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
       contributions.push_back(
           reduce(condensation.element(index), space.cell_dofs(index), unknowns, elements));
     }
+  std::vector<std::shared_ptr<const CondensedElement>> springs; // until they are summed up
+  for (SpringFace &face : spring_faces(scene, space, tables))
+  {
+    const auto element = std::make_shared<CondensedElement>();
+    element->condensed = std::move(face.matrix);
+    springs.push_back(element);
+    contributions.push_back(reduce(element, face.dofs, unknowns, elements));
+  }
   sum_up(contributions);
   elements.forget_unused();
 }

@@ -2,6 +2,7 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/discretisation/springs.h>
 
 #include <algorithm>
 #include <array>
@@ -163,6 +164,7 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
     }
   for (auto &batch : batches)
     batch.second.flush(result);
+  result.energy_product += add_spring_forces(spring_faces(scene, space, tables), u, result.forces);
   return result;
 }
 

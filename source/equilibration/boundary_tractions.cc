@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/springs.h>
 #include <hpvi/equilibration/boundary_tractions.h>
 #include <hpvi/stresses/edge_polynomial.h>
 #include <hpvi/stresses/legendre.h>
@@ -67,6 +68,13 @@ LoadRule<1> BoundaryTractions::load_rule(const StressEdge &edge) const
                                           solution.displacement_space.degrees()[side.cell]);
 }
 
+const QGauss<1> &BoundaryTractions::spring_rule(const StressEdge &edge) const
+{
+  return hpvi::spring_rule(solution.scene.boundaries[edge.boundary],
+                           solution.displacement_space.degrees()[edge.sides[0].cell],
+                           solution.tables);
+}
+
 Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) const
 {
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
@@ -74,6 +82,25 @@ Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) 
   const auto face = patches.cells()[side.cell].iterator->face(side.face);
   const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
   return outward(edge) * load_at<2>(condition.traction, x);
+}
+
+/** What springs exert on the displacement that the stress is made of. */
+Tensor<1, 2> BoundaryTractions::spring_on(const StressEdge &edge, const double s) const
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  const StressEdge::Side &side = edge.sides[0];
+  const auto &cell = patches.cells()[side.cell].iterator;
+  const auto face = cell->face(side.face);
+  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+  const unsigned int p = solution.displacement_space.degrees()[side.cell];
+  const auto dofs = solution.displacement_space.cell_dofs(side.cell);
+  const LocalNumbering &numbering = solution.tables.numbering(p);
+  std::vector<double> nodal(dofs.size());
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    nodal[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = solution.u[dofs[i]];
+  const std::vector<double> u = evaluate(
+      tabulate<2>(p, {point_on_face<2>(side.face, Point<1>(s))}, {1.}, false).values, nodal);
+  return -outward(edge) * (condition.spring.stiffness(x, edge.normal) * Tensor<1, 2>({u[0], u[1]}));
 }
 
 /** `-g l t` with the polynomial l of one end. */
@@ -103,6 +130,12 @@ void BoundaryTractions::set(const unsigned int index)
       halves[index][end][c].assign(edge.components[c].n, 0.);
     for (unsigned int q = 0; q < loads.size(); ++q)
       add_load(index, end, loads.point(q)[0], loads.weight(q), load_on(edge, loads.point(q)[0]));
+    const unsigned int n_spring = condition.spring ? spring_rule(edge).size() : 0;
+    for (unsigned int q = 0; q < n_spring; ++q)
+    {
+      const double s = spring_rule(edge).point(q)[0];
+      add_load(index, end, s, spring_rule(edge).weight(q), spring_on(edge, s));
+    }
     if (edge.contact_face != numbers::invalid_unsigned_int)
     {
       const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
@@ -122,6 +155,8 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
 {
   const StressEdge &edge = patches.edges()[index];
   Tensor<1, 2> result = load_on(edge, s);
+  if (solution.scene.boundaries[edge.boundary].spring)
+    result += spring_on(edge, s);
   if (edge.contact_face == numbers::invalid_unsigned_int)
     return result;
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/springs.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/equilibration/traction_system.h>
 
@@ -8,6 +9,23 @@
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+/**
+ * Of springs, by cell: `int k (start - u_N)^2`, what they exert on the displacement that the stress is made of less what
+ * they exert on the measured one, a term of eta^2 as |sigma(u_N) - s|^2 is.
+ */
+void add_spring_squares(const Solution<2> &start, const Solution<2> &measured,
+                        std::vector<double> &squares)
+{
+  Vector<double> change(start.u), forces(change.size());
+  change -= measured.u;
+  for (const SpringFace &face :
+       spring_faces(measured.scene, measured.displacement_space, measured.tables))
+    squares[face.cell] += add_spring_forces({face}, change, forces);
+}
+} // namespace
 
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
                                        const Parts &pressure, EquilibrationCache &cache,
@@ -25,6 +43,8 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
   if (measured)
     measure_from(*measured);
   measure();
+  if (measured)
+    add_spring_squares(solution, *measured, squares);
   cache.drop_unused();
 }
 

@@ -113,6 +113,11 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
     other.is_unknown = false;
     return;
   }
+  if (condition.symmetry)
+  {
+    other.is_unknown = false;
+    return;
+  }
   const std::array<bool, 2> held{
       {bool(condition.displacement[0]), bool(condition.displacement[1])}};
   const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;

@@ -4,6 +4,7 @@
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/supports.h>
 #include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/discretisation/springs.h>
 #include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/field.h>
 #include <hpvi/scene/data_scale.h>
@@ -92,7 +93,7 @@ Equilibrium<dim> balance_of(const Resultants<dim> &sums, const Scene<dim> &scene
     const BoundaryForce<dim> &reaction = sums.reactions[boundary.id];
     force += reaction.force;
     moment += reaction.moment;
-    if (boundary.has_displacement() || boundary.has_contact())
+    if (boundary.exerts_forces())
       result.reactions.push_back(reaction);
   }
   const double size = scene.geometry.diameter(),
@@ -224,6 +225,21 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         {
           Tensor<1, dim> force;
           force[nodes.component[dof]] = -friction[dof];
+          result.reactions.push_back({boundary.id, force, nodes.x[dof]});
+        }
+    }
+
+  const std::vector<SpringFace> springs = spring_faces(solution.scene, space, tables);
+  for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
+    if (boundary.spring)
+    {
+      Vector<double> forces(space.n_dofs());
+      add_spring_forces(springs, solution.u, forces, boundary.id);
+      for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
+        if (forces[dof] != 0.)
+        {
+          Tensor<1, dim> force;
+          force[nodes.component[dof]] = -forces[dof];
           result.reactions.push_back({boundary.id, force, nodes.x[dof]});
         }
     }

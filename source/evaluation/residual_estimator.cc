@@ -31,7 +31,6 @@ using namespace dealii;
 // The parts are kept apart: which one dominates says what is missing.
 namespace
 {
-/** One pass over the cells of a field. */
 template <int dim>
 class Residuals
 {
@@ -177,7 +176,6 @@ typename Residuals<dim>::FacePoints Residuals<dim>::face_points(const Cell &cell
 //
 // All residuals on edges are differences of tractions, $\sigma(u_N)\nu$ on one side against
 // something on the other.
-/** sigma n at the points of @p table. */
 template <int dim>
 std::vector<Tensor<1, dim>>
 Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
@@ -216,7 +214,6 @@ bool Residuals<dim>::sees_jump(const Cell &cell, const unsigned int face) const
           cell->active_cell_index() < neighbor->active_cell_index());
 }
 
-/** Half the jump of the traction over an interior edge, seen from its finer or first side. */
 template <int dim>
 void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
 {
@@ -247,9 +244,8 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
 
 // @sect3{Under loads}
 //
-// Against the load. A component that a support prescribes has no residual: whatever traction it
-// needs is its reaction.
-/** sigma n - G in the components that no support prescribes. */
+// Against the load and what springs exert. A component that a support prescribes has no residual:
+// whatever traction it needs is its reaction.
 template <int dim>
 void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
 {
@@ -258,11 +254,16 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
   const FacePoints points = face_points(cell, face, table);
   const auto own = tractions(cell, table, points.normals);
+  const std::vector<double> u = evaluate(table.values, coefficients[index]);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
   {
-    const Tensor<1, dim> residual =
-        own[q] - load_at<dim>(condition.traction, maps[index].point(table.points[q]));
+    const Point<dim> x = maps[index].point(table.points[q]);
+    Tensor<1, dim> residual = own[q] - load_at<dim>(condition.traction, x);
+    for (unsigned int c = 0; c < dim && condition.spring; ++c)
+      residual += u[c * own.size() + q] * condition.spring.stiffness(x, points.normals[q])[c];
+    if (condition.symmetry)
+      residual -= (residual * points.normals[q]) * points.normals[q];
     for (unsigned int c = 0; c < dim; ++c)
       if (!condition.displacement[c])
         sum += points.weights[q] * residual[c] * residual[c];

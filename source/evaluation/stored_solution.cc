@@ -26,8 +26,8 @@ const FileFormat
 /** What of a scene decides about its solution; the coarse mesh's grading has a check of its own. */
 bool belongs_to_problem(const std::string &section, const std::string &entry)
 {
-  return section == "Material" || section == "Body force" || section == "Exact solution" ||
-         section.rfind("Boundary ", 0) == 0 ||
+  return section == "Material" || section.rfind("Material ", 0) == 0 || section == "Body force" ||
+         section == "Exact solution" || section.rfind("Boundary ", 0) == 0 ||
          (section == "Geometry" && entry != "Graded towards" && entry != "Grading levels");
 }
 

@@ -146,7 +146,7 @@ double draw_row(SceneSheet &sheet, const MarkedPart &marked, const ArrowRow &row
     }
   }
   sheet.drawing.end();
-  if (marked.has_words)
+  if (marked.has_words || !seen.is_constant)
     draw_size(sheet, marked, row, seen, largest);
   return deepest + 3.;
 }
@@ -176,14 +176,18 @@ void draw_body_force(SceneSheet &sheet, const Triangulation<2> &mesh)
     return;
   Tensor<1, 2> mean;
   std::vector<double> sizes;
+  double area = 0;
   PagePoint centre;
   for (const auto &cell : mesh.active_cell_iterators())
   {
     const Tensor<1, 2> force = value_of(sheet.scene.body_force_in(cell), cell->center());
-    mean += force / double(mesh.n_active_cells());
+    mean += cell->measure() * force;
     sizes.push_back(force.norm());
-    centre += sheet.page(cell->center()) / double(mesh.n_active_cells());
+    area += cell->measure();
+    centre += cell->measure() * sheet.page(cell->center());
   }
+  mean /= area;
+  centre = centre / area;
   const std::string size = range_in_words(sizes, body_force_unit(sheet.scene));
   PageVector along({0., 1.});
   sheet.drawing.begin("body-force");

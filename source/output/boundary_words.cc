@@ -92,6 +92,16 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
                                          const std::vector<Point<dim>> &points)
 {
   std::vector<std::string> phrases;
+  if (boundary.symmetry)
+    phrases.push_back("symmetry");
+  const std::string stiffness = unit_name(scene.stress_unit) + "/" + unit_name(scene.length_unit);
+  for (const auto &[k, name] :
+       {std::pair{boundary.spring.normal, "k_n"}, {boundary.spring.tangential, "k_t"}})
+    if (k)
+      phrases.push_back(
+          std::string("spring ") + name + " = " +
+          range_in_words(values_at<dim>(points, k),
+                         stiffness.front() == '/' || stiffness.back() == '/' ? "" : stiffness));
   if (!boundary.has_displacement())
     return phrases;
   bool is_clamp = true;
@@ -109,7 +119,19 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
     phrases.push_back(component + " = " +
                       (all_zero(values) ? "0" : range_in_words(values, scene.length_unit)));
   }
-  return is_clamp ? std::vector<std::string>{"clamped"} : phrases;
+  return is_clamp && !boundary.spring ? std::vector<std::string>{"clamped"} : phrases;
+}
+
+template <int dim>
+std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary)
+{
+  const auto found =
+      std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
+                   [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
+  const std::string kind = found->symmetry                               ? "symmetry "
+                           : found->spring && !found->has_displacement() ? "spring "
+                                                                         : "support ";
+  return kind + boundary;
 }
 
 namespace
@@ -185,6 +207,8 @@ template std::vector<double> values_at(const std::vector<Point<2>> &, const Expr
 template std::vector<Point<2>> points_on(const Triangulation<2> &, types::boundary_id);
 template std::vector<std::string> support_phrases(const Scene<2> &, const BoundaryCondition<2> &,
                                                   const std::vector<Point<2>> &);
+template std::string kind_of_support(const Scene<2> &, const std::string &);
+template std::string kind_of_support(const Scene<3> &, const std::string &);
 template std::vector<std::string> contact_phrases(const Scene<2> &, const BoundaryCondition<2> &,
                                                   const std::vector<Point<2>> &);
 template std::vector<std::string> traction_phrases(const Scene<2> &, const BoundaryCondition<2> &,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/record.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace hpvi
 {
@@ -281,17 +283,14 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
   for (const ContactState<dim> &state : contact)
     words += in_words(scene, state, equilibrium, on(state.boundary, unbounded));
   const double scale = largest_force(equilibrium);
-  bool first = true;
+  std::string separator = "\n";
   for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
     if (std::none_of(contact.begin(), contact.end(),
                      [&](const ContactState<dim> &state)
                      { return scene.boundaries[state.boundary].name == reaction.boundary; }))
-    {
-      words += (first ? "\nsupport " : "support ") + reaction.boundary + ": force " +
-               point_text(clean(reaction.force, scale)) + ", " +
+      words += std::exchange(separator, "") + kind_of_support(scene, reaction.boundary) +
+               ": force " + point_text(clean(reaction.force, scale)) + ", " +
                moment_text(reaction, equilibrium) + "\n";
-      first = false;
-    }
   for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
     words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
   return words;

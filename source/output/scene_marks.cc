@@ -88,6 +88,60 @@ double draw_rollers(SceneSheet &sheet, const BoundaryPart &part, const unsigned 
 }
 } // namespace
 
+double draw_symmetry(SceneSheet &sheet, const MarkedPart &marked, const double band)
+{
+  if (!marked.condition.symmetry)
+    return band;
+  Drawing &drawing = sheet.drawing;
+  drawing.begin("symmetry", marked.condition.name);
+  std::vector<PagePoint> line;
+  for (const Station &place : sheet.stations(marked.part, 4., true))
+    line.push_back(place.at + (band + 4.) * place.normal);
+  drawing.line(line, "class=\"axis\" " + stroke(mark_colours::ground, 1.2) +
+                         " stroke-dasharray=\"12 3 3 3\"");
+  std::vector<std::pair<PagePoint, PagePoint>> strokes;
+  for (const Station &place : sheet.stations(marked.part, 60., false))
+  {
+    const PageVector along({-place.normal[1], place.normal[0]});
+    for (const double side : {-1.5, 1.5})
+      strokes.emplace_back(place.at + (band + 1.) * place.normal + side * along,
+                           place.at + (band + 11.) * place.normal + side * along);
+  }
+  drawing.strokes(strokes, stroke(mark_colours::ground, 1.2));
+  drawing.end();
+  return band + 13.;
+}
+
+double draw_springs(SceneSheet &sheet, const MarkedPart &marked, const double band)
+{
+  if (!marked.condition.spring)
+    return band;
+  Drawing &drawing = sheet.drawing;
+  drawing.begin("spring", marked.condition.name);
+  const double length = 22.;
+  std::vector<PagePoint> ground;
+  std::vector<PageVector> normals;
+  for (const Station &place : sheet.stations(marked.part, 4., true))
+  {
+    ground.push_back(place.at + (band + length) * place.normal);
+    normals.push_back(place.normal);
+  }
+  for (const Station &place : sheet.stations(marked.part, 30., false))
+  {
+    const PageVector along({-place.normal[1], place.normal[0]});
+    std::vector<PagePoint> zigzag{place.at + band * place.normal};
+    for (unsigned int k = 0; k < 6; ++k)
+      zigzag.push_back(place.at + (band + 4. + 2.8 * k) * place.normal +
+                       (k % 2 == 0 ? 4. : -4.) * along);
+    zigzag.push_back(place.at + (band + length) * place.normal);
+    drawing.line(zigzag, "class=\"coil\" " + stroke(mark_colours::ground, 1.1));
+  }
+  drawing.line(ground, stroke(mark_colours::ground, 1.6));
+  hatch(drawing, ground, normals);
+  drawing.end();
+  return band + length + 9.;
+}
+
 double draw_support(SceneSheet &sheet, const MarkedPart &marked, double band)
 {
   if (!marked.condition.has_displacement())
@@ -170,8 +224,9 @@ std::vector<TextLine> words_of(const SceneSheet &sheet, const MarkedPart &marked
   if (!marked.has_words)
     return lines;
   std::vector<Point<2>> points;
-  for (const Station &place : sheet.sample(marked.part))
-    points.push_back(place.x);
+  for (const BoundaryPart *const piece : marked.pieces)
+    for (const Station &place : sheet.sample(*piece))
+      points.push_back(place.x);
   for (const std::string &phrase : support_phrases(sheet.scene, condition, points))
     lines.push_back({phrase, false, mark_colours::displacement});
   for (const std::string &phrase : contact_phrases(sheet.scene, condition, points))
@@ -196,6 +251,6 @@ double draw_words(SceneSheet &sheet, const MarkedPart &marked, const double band
   return band;
 }
 
-const std::vector<BoundaryMark> boundary_marks = {draw_support, draw_foundation, draw_tractions,
-                                                  draw_displacements};
+const std::vector<BoundaryMark> boundary_marks = {
+    draw_support, draw_symmetry, draw_springs, draw_foundation, draw_tractions, draw_displacements};
 } // namespace hpvi

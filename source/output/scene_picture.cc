@@ -56,7 +56,10 @@ std::vector<MarkedPart> marked_parts(const Scene<2> &scene, const std::vector<Bo
                               (other.length() > (1 + 1e-9) * part.length() ||
                                (&other < &part && other.length() > (1 - 1e-9) * part.length()));
                      });
-    marked.push_back({part, scene.boundaries[part.boundary], is_longest});
+    marked.push_back({part, scene.boundaries[part.boundary], is_longest, {}});
+    for (const BoundaryPart &other : parts)
+      if (other.boundary == part.boundary)
+        marked.back().pieces.push_back(&other);
   }
   return marked;
 }

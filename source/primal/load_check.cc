@@ -153,8 +153,8 @@ template <int dim>
 std::string LoadCheck<dim>::in_words() const
 {
   return "loads: force " + in_brackets(thickness * clean(sum.force, absolute)) + ", moment " +
-         in_brackets(thickness * clean(sum.moment, absolute * size)) + " about " + in_brackets<dim>(centre) +
-         "\n";
+         in_brackets(thickness * clean(sum.moment, absolute * size)) + " about " +
+         in_brackets<dim>(centre) + "\n";
 }
 
 template <int dim>

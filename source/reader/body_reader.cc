@@ -17,10 +17,12 @@ namespace hpvi
 {
 using namespace dealii;
 
-std::map<std::string, double> constants_of(const Material &material)
+std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
 {
   std::map<std::string, double> constants = material.constants();
   constants.emplace("pi", numbers::PI);
+  if (t)
+    constants.emplace("t", *t);
   return constants;
 }
 

@@ -116,6 +116,13 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "positive; empty: none."},
        {section, "Shear", "", text, "one expression s or nothing",
         "Shear s(x,y) [stress]: adds s t to Traction, t = (-n_y, n_x) the tangent; empty: none."},
+       {section, "Symmetry", "false", matching(Patterns::Bool()), "true or false",
+        "true: a plane of symmetry, u_n = 0 without friction; it may stand alone only."},
+       {section, "Spring", "", text, "kn; kt or nothing",
+        "Elastic foundation that is glued to the body, k_n(x,y); k_t(x,y) >= 0 [stress/length]: "
+        "the "
+        "traction -k_n u_n n - k_t u_t t, whichever way the body moves. It may stand beside a load "
+        "or a prescribed displacement, not beside contact; empty: none."},
        {section, "Contact", "none", one_of(contact_names),
         "none, bilateral, unilateral or tangential",
         "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
@@ -290,7 +297,7 @@ void add_program_entries(std::vector<Entry> &entries)
 /** What only a plane scene has. */
 bool is_of_the_plane(const Entry &entry)
 {
-  return entry.section == "Exact solution" || entry.name == "Shear" ||
+  return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Spring" ||
          (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }

@@ -42,8 +42,11 @@ std::vector<Hint> hints_about_conditions()
         "dirichlet boundary", "constraint", "constraints", "held", "u", "ux", "uy", "uz"},
        "a support is \"Boundary left/Displacement\" = ux; uy, with `free` for a component that may "
        "move"},
-      {{"symmetry", "roller", "sliding"},
-       "a plane that the body slides along is \"Boundary left/Contact\" = bilateral"},
+      {{"roller", "sliding", "symmetry plane"},
+       "a plane of symmetry is \"Boundary left/Symmetry\" = true, one that the body rubs along "
+       "\"Boundary left/Contact\" = bilateral"},
+      {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
+       "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"obstacle", "foundation", "clearance", "interference", "penetration"},
        "set \"Boundary bottom/Gap\", with \"Boundary bottom/Contact\" = unilateral"},
       {{"unilateral", "bilateral", "frictionless", "contact type", "contact pair"},
@@ -91,6 +94,8 @@ std::vector<Hint> hints_in_space()
            "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
           {{"thickness"}, "only a body in the plane has it; remove it"},
+          {{"spring", "elastic foundation", "winkler"},
+           "only a body in the plane has springs; remove it"},
           {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},
           {{"corners"}, "space has no shape but the box; remove it"},
           {{"exact solution"}, "space offers no closed form; remove it"},

@@ -6,9 +6,9 @@
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/body_reader.h>
+#include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
-#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -26,15 +26,6 @@ using namespace dealii;
 
 namespace
 {
-/** The enumerator whose name is the value of an entry. */
-template <class Enum>
-Enum read_choice(const Parameters &parameters, const std::string &section, const std::string &name,
-                 const std::vector<std::string> &names)
-{
-  const auto found = std::find(names.begin(), names.end(), parameters.text(section, name));
-  return static_cast<Enum>(found - names.begin());
-}
-
 /** Takes the value of an entry, for for_each_value(). */
 struct ReadValue
 {
@@ -56,15 +47,6 @@ struct ReadValue
     value = parameters.integer(section, name);
   }
 };
-
-/** What expressions may use; the time @p t in a load history. */
-std::map<std::string, double> constants_of(const Material &material, const std::optional<double> t)
-{
-  std::map<std::string, double> constants = hpvi::constants_of(material);
-  if (t)
-    constants.emplace("t", *t);
-  return constants;
-}
 
 // ---------------------------------------------------------------- the exact solution
 
@@ -112,94 +94,6 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
 }
 
 // ---------------------------------------------------------------- the rest
-
-/** What `exact` stands for on @p boundary; nothing in space, where no closed form is offered. */
-template <int dim>
-std::array<typename ExpressionReader<dim>::ExactField, 2>
-exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boundary)
-{
-  if constexpr (dim == 2)
-    if (scene.exact_solution != nullptr)
-      return {{[&scene](const unsigned int c)
-               { return std::make_shared<ExactDisplacement<2>>(scene.exact_solution, c); },
-               [&scene, boundary](const unsigned int c)
-               {
-                 return std::make_shared<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
-                                                           sides_of(scene.geometry)[boundary], c);
-               }}};
-  const auto none = [](const unsigned int) { return nullptr; };
-  (void)scene, (void)boundary;
-  return {{none, none}};
-}
-
-/** E, nu and mu are those of the cells along @p boundary, where these have one material. */
-template <int dim>
-ExpressionReader<dim> reader_along(const Parameters &parameters, const Scene<dim> &scene,
-                                   const BoundaryCondition<dim> &boundary,
-                                   const std::optional<double> t)
-{
-  const std::vector<unsigned int> materials = materials_along(scene, boundary);
-  const bool differ = materials.size() > 1;
-  auto constants = constants_of(scene.materials[materials.empty() ? 0 : materials.front()], t);
-  for (const char *const name : {"E", "nu", "mu"})
-    if (differ)
-      constants.erase(name);
-  return ExpressionReader<dim>(parameters, constants,
-                               differ ? "; the materials along this boundary differ in E, nu and mu"
-                                      : "");
-}
-
-/** Traction, pressure and shear as one load. */
-template <int dim>
-void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
-                const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
-                BoundaryCondition<dim> &boundary)
-{
-  const std::vector<Point<dim>> points = side.sample();
-  boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
-  const auto add = [&](const std::string &entry, const double sign, const Tensor<1, dim> &direction)
-  {
-    const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
-    for (unsigned int c = 0; c < dim; ++c)
-      boundary.traction[c] = sum<dim>(boundary.traction[c], sign * direction[c], load);
-  };
-  if (points.empty()) // parts have taken it all
-    return;
-  add("Pressure", -1, side.normal(points.front()));
-  if constexpr (dim == 2)
-    add("Shear", 1, side.tangent(points.front()));
-}
-
-template <int dim>
-void read_boundary(const Parameters &parameters, const std::optional<double> t,
-                   const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
-{
-  const ExpressionReader<dim> expressions = reader_along(parameters, scene, boundary, t);
-  const Side<dim> side = sides_of(scene)[boundary.id];
-  const std::vector<Point<dim>> points = side.sample();
-  const auto [exact_displacement, exact_traction] =
-      exact_displacement_and_traction(scene, boundary.side);
-
-  const std::string section = "Boundary " + boundary.name;
-  boundary.displacement =
-      expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
-  read_loads<dim>(expressions, section, side, exact_traction, boundary);
-  boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
-  boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
-  boundary.friction.bound =
-      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
-  boundary.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
-                                                         "Coulomb's coefficient needs mu_f >= 0");
-  boundary.friction.form =
-      read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
-  // Even a zero is one too many.
-  if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
-    parameters.reject(section, "Gap", gap_needs_contact);
-  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty())
-    parameters.reject(section, "Friction bound", friction_needs_contact);
-  if (!boundary.has_contact() && !parameters.text(section, "Friction coefficient").empty())
-    parameters.reject(section, "Friction coefficient", friction_needs_contact);
-}
 
 template <int dim>
 void read_method(const Parameters &parameters, Scene<dim> &scene)

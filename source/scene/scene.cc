@@ -34,6 +34,19 @@ bool BoundaryCondition<dim>::has_traction() const
 }
 
 template <int dim>
+bool BoundaryCondition<dim>::exerts_forces() const
+{
+  return has_displacement() || has_contact() || symmetry || spring;
+}
+
+template <int dim>
+Tensor<2, dim> Spring<dim>::stiffness(const Point<dim> &x, const Tensor<1, dim> &n) const
+{
+  const double k_n = normal ? normal->value(x) : 0., k_t = tangential ? tangential->value(x) : 0.;
+  return k_t * Tensor<2, dim>(unit_symmetric_tensor<dim>()) + (k_n - k_t) * outer_product(n, n);
+}
+
+template <int dim>
 bool BoundaryCondition<dim>::has_contact() const
 {
   return contact != Contact::none;
@@ -48,7 +61,7 @@ bool BoundaryCondition<dim>::is_unilateral() const
 template <int dim>
 bool BoundaryCondition<dim>::holds_normal() const
 {
-  return contact == Contact::bilateral && !friction.knows_pressure();
+  return symmetry || (contact == Contact::bilateral && !friction.knows_pressure());
 }
 
 template <int dim>
@@ -159,6 +172,13 @@ std::vector<Load<dim>> Scene<dim>::body_forces() const
 }
 
 template <int dim>
+bool Scene<dim>::has_springs() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const BoundaryCondition<dim> &boundary) { return bool(boundary.spring); });
+}
+
+template <int dim>
 bool Scene<dim>::has_parts() const
 {
   return boundaries.size() > GeometryInfo<dim>::faces_per_cell;
@@ -248,6 +268,8 @@ std::string Scene<dim>::effective_parameters() const
   return parameters ? parameters->print(false) : "";
 }
 
+template struct Spring<2>;
+template struct Spring<3>;
 template struct BoundaryCondition<2>;
 template struct BoundaryCondition<3>;
 template struct Loading<2>;

@@ -73,10 +73,10 @@ void choose_law(RandomScene &scene, Dice &dice)
     }
   const std::string in_time = "*sin(4*t)";
   for (Side &side : scene.sides)
-    for (auto *components : {&side.displacement, &side.traction})
-      for (std::string &component : *components)
-        if (const std::size_t place = component.rfind(in_time); place != std::string::npos)
-          component.erase(place, in_time.size());
+    for (std::string *component : {&side.displacement[0], &side.displacement[1], &side.traction[0],
+                                   &side.traction[1], &side.pressure, &side.shear})
+      if (const std::size_t place = component->rfind(in_time); place != std::string::npos)
+        component->erase(place, in_time.size());
   for (Side &side : scene.sides)
     if (side.gap.find("if(") != std::string::npos || side.gap.find("max(") != std::string::npos)
       side.gap = dice.about(0.02);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """usage: mutations.py HPVI SCENE.prm... [--number N] [--seed S]
 
-Spoils scenes at random, the same way each time, and validates them. Whatever is given, the program
+Spoils one scene after the other at random, the same way each time, and validates them. Whatever is given, the program
 ends with status 0 and nothing on stderr, or with status 1 and one printable line; never with an
 internal error.
 """
@@ -23,7 +23,12 @@ TEXTS = ["", " ", "\t", "x", "y", "sin(", ")", "1/x", "1/(x-1)", "log(x)", "sqrt
          "0,\t1", "0\t,1", "0,0;\t1,0; 1,1; 0,1", "0,0; 1,0; 1,1e-9; 0,1", "0,0; 1,0; 1,1; 0,1;", "0,,1", "(" * 300,
          "1+" * 2000 + "1", "a" * 5000, "{", "true", "false", "none", "bilateral", "unilateral", "tangential", "quadrilateral",
          "stick-slip", "smooth", "limited", "cohesive", "hertz", "partial-slip", "nodes", "multiplier", "automatic", "active set", "hpa1", "pu", "/", "..",
-         "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "x<1&&y"]
+         "top", "left; right", "E", "nu*x", "stress", "x > 0.4", "min(x, y)", "(x-1)*(y-1)", "0.3 - abs(x - 1)", "t", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "x<1&&y"]
+# Entries of materials and parts of which only some scenes have any.
+NAMED = [f"{section}/{entry}" for section, entries in (
+    ("Material soft", ("Where", "Young's modulus", "Poisson's ratio", "Density", "Plane", "Thickness")),
+    ("Boundary foot", ("On", "Where", "Displacement", "Traction", "Pressure", "Shear", "Contact", "Gap", "Friction bound")))
+    for entry in entries]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 11, 12, 13, 27, 32, 34, 35, 40, 41, 44, 45, 46, 48, 57, 59, 61, 92, 101, 127,
                               128, 133, 192, 237, 244, 255)] + [c.encode() for c in "é\u0085\u2028\u202e😀"]
 
@@ -52,8 +57,10 @@ def spoil(scene, entries, rng):
             lines[i] = lines[i].split(b"=")[0] + b"= " + value.encode()
             data = bytearray(b"\n".join(lines))
         else:  # another value on the command line, where bytes of 0 cannot be
-            name = rng.choice(entries) if rng.random() < 0.9 else rng.choice(TEXTS)
+            name = rng.choice(entries + NAMED) if rng.random() < 0.9 else rng.choice(TEXTS)
             values = [rng.choice(NUMBERS + TEXTS) for _ in range(rng.choice((1, 1, 2)))]
+            if name in NAMED and rng.random() < 0.7:  # there is such a material, such a part
+                overrides += ["--set", "Material soft/Where=x - 1" if name.startswith("Material") else "Boundary foot/On=top"]
             overrides += ["--set", (name + "=" + rng.choice((", ", "; ", ",\t")).join(values)).replace("\0", "?")]
     return bytes(data), overrides
 
@@ -106,7 +113,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for number in range(options.number):
             file = pathlib.Path(scratch) / rng.choice(("scene.prm", "a\nb.prm", "\x1b[31m.prm", "é.prm"))
-            data, overrides = spoil(rng.choice(scenes), entries, rng)
+            data, overrides = spoil(scenes[number % len(scenes)], entries, rng)
             file.write_bytes(data)
             run = subprocess.run([program, "--validate", *overrides, file.name], capture_output=True, cwd=scratch, timeout=60)
             wrong = complaint(run)

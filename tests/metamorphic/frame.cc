@@ -73,6 +73,7 @@ Frame random_frame(Frame frame, const bool along_axes, std::mt19937 &random)
   frame.length = magnitude(4);
   frame.stress = magnitude(8);
   frame.amplitude = magnitude(3);
+  frame.thickness = magnitude(2);
   const double far = random() % 2 == 0 ? 0. : frame.length * magnitude(2);
   frame.shift = far * Point<2>(uniform(random), uniform(random));
   frame.first = random() % 4;

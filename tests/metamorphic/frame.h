@@ -17,13 +17,14 @@ std::string text(double value);
 
 /**
  * How one and the same problem may be told: `x' = length Q x + shift` with an orthogonal Q, stresses times
- * `stress`, displacements in lengths times `amplitude`, sides named from another corner on.
+ * `stress`, displacements in lengths times `amplitude`, the body `thickness` times as thick, sides named from another
+ * corner on.
  */
 struct Frame
 {
   Tensor<2, 2> Q = Tensor<2, 2>({{1, 0}, {0, 1}});
   Tensor<1, 2> shift;
-  double length = 1, stress = 1, amplitude = 1;
+  double length = 1, stress = 1, amplitude = 1, thickness = 1;
   unsigned int first = 0;  ///< the corner that begins the list of corners
   bool writes_box = false; ///< by two corners, where the body is a box; sets `first`
   unsigned int order = 0;  ///< seeds the order of sections and entries; 0: as they are made
@@ -55,12 +56,12 @@ struct Frame
 
   double energy() const
   {
-    return amplitude * amplitude * stress * length * length;
+    return amplitude * amplitude * stress * length * length * thickness;
   }
 
   double force() const
   {
-    return amplitude * stress * length;
+    return amplitude * stress * length * thickness;
   }
 };
 

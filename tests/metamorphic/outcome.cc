@@ -17,11 +17,12 @@ using namespace hpvi;
 
 namespace
 {
-/** The number of a side as the frame names it: bottom, right, top, left. */
-unsigned int position(const std::string &name)
+/** The number of a side by its name in the frame, or of a part by its own: part4 and so on. */
+unsigned int number_of(const std::string &name, const Frame &frame)
 {
   const std::array<std::string, 4> names = {{"bottom", "right", "top", "left"}};
-  return std::find(names.begin(), names.end(), name) - names.begin();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::stoi(name.substr(4)) : frame.side(found - names.begin());
 }
 
 StepOutcome outcome_of(const StepReport<2> &step, const Frame &frame)
@@ -69,7 +70,7 @@ void add_sides(const StepReport<2> &step, const Frame &frame, Outcome &outcome)
   const double sign = frame.is_mirrored() ? -1. : 1.;
   for (const BoundaryForce<2> &reaction : step.equilibrium.reactions)
   {
-    SideOutcome &side = outcome.sides[frame.side(position(reaction.boundary))];
+    SideOutcome &side = outcome.sides.at(number_of(reaction.boundary, frame));
     side.force = transpose(frame.Q) * reaction.force / frame.force();
     side.moment = sign * reaction.moment / frame.force() / frame.length;
     outcome.all_forces += side.force.norm();
@@ -78,8 +79,8 @@ void add_sides(const StepReport<2> &step, const Frame &frame, Outcome &outcome)
   for (const ContactState<2> &state : step.contact)
   {
     SideOutcome &side =
-        outcome.sides[frame.side(position(step.solution().scene.boundaries[state.boundary].name))];
-    side.pressure = state.highest_pressure * frame.length / frame.force();
+        outcome.sides.at(number_of(step.solution().scene.boundaries[state.boundary].name, frame));
+    side.pressure = state.highest_pressure / (frame.amplitude * frame.stress);
     side.friction = sign * state.friction_resultant / frame.force();
     side.zones = zones_of(state, frame);
   }
@@ -114,7 +115,8 @@ Outcome solve(const std::string &file, const Frame &frame)
       [&](Outcome &outcome)
       {
         const Scene<2> scene = read_scene<2>(file);
-        outcome.stiffness = scene.materials[0].young / frame.stress;
+        for (const Material &material : scene.materials)
+          outcome.stiffness = std::max(outcome.stiffness, material.young / frame.stress);
         LoadHistory<2>(scene).run(
             [&](const StepReport<2> &step)
             {
@@ -246,7 +248,7 @@ std::vector<std::string> differences(const Outcome &one, const Outcome &other,
     compare_energies(a, b, norm, tolerances, place, comparison);
     compare_bounds(a, b, norm, tolerances, place, comparison);
   }
-  for (unsigned int k = 0; k < 4; ++k)
+  for (unsigned int k = 0; k < one.sides.size(); ++k)
   {
     const SideOutcome &a = one.sides[k], &b = other.sides[k];
     const std::string place = "side " + std::to_string(k) + ", ";

@@ -47,9 +47,9 @@ struct Outcome
   std::string refusal; ///< the kind of error that ended the run, or empty
   std::string words;   ///< what it said
   std::vector<StepOutcome> steps;
-  std::array<SideOutcome, 4> sides; ///< of the last step, by the body's own numbers
+  std::array<SideOutcome, 8> sides; ///< of the last step, by the body's own numbers; parts follow
   double all_forces = 0;            ///< sum of their absolute values and of the load
-  double stiffness = 0;             ///< Young's modulus
+  double stiffness = 0;             ///< Young's modulus, of the stiffest material
 };
 
 /** Solves the scene @p file, told in @p frame. */

@@ -108,6 +108,112 @@ void choose_method(RandomScene &scene, Dice &dice)
       scene.has(&Side::coefficient) ? "multiplier" : dice.chosen({"nodes", "multiplier"});
 }
 
+// ---------------------------------------------------------------- materials and parts
+
+/** Positive beyond or before a grid line that divides @p n cells along @p v. */
+std::string beyond_a_line(const std::string &v, const unsigned int n, Dice &dice)
+{
+  const std::string line =
+      text(static_cast<unsigned int>(dice.number(1, n)) / static_cast<double>(n));
+  return dice.happens(0.5) ? v + " - " + line : line + " - " + v;
+}
+
+/** Layers across X or Y, or cells of the one and the other around a vertex: stiffer than the first, whose loads move it by a hundredth. */
+void choose_materials(RandomScene &scene, Dice &dice)
+{
+  std::vector<unsigned int> divided; // directions with an inner grid line
+  for (unsigned int d = 0; d < 2; ++d)
+    if (scene.subdivisions[d] > 1)
+      divided.push_back(d);
+  if (divided.empty())
+    return;
+  const std::array<std::string, 2> variables = {{"X", "Y"}};
+  const auto along = [&](const unsigned int d)
+  { return beyond_a_line(variables[d], scene.subdivisions[d], dice); };
+  const auto other = [&](const std::string &where)
+  {
+    scene.materials.push_back({where, scene.young * std::pow(10, dice.number(0, 4)),
+                               dice.number(-0.2, 0.42), dice.number(0, 2)});
+  };
+  if (divided.size() == 2 && dice.happens(0.4))
+    other("(" + along(0) + ")*(" + along(1) + ")");
+  else
+  {
+    const unsigned int d = divided[static_cast<unsigned int>(dice.number(0, divided.size()))];
+    other(along(d));
+    if (scene.subdivisions[d] == 3 && dice.happens(0.5)) // one for each layer
+    {
+      scene.materials[0].where = variables[d] + " - " + text(2. / 3);
+      other(text(1. / 3) + " - " + variables[d]);
+    }
+  }
+}
+
+/** Loads of a free side, or contact and friction of a contact side, that differ along it. */
+void choose_part(RandomScene &scene, const unsigned int k, Dice &dice)
+{
+  const unsigned int n = scene.subdivisions[k % 2];
+  const Side side = scene.sides[k];
+  if (n < 2 || !side.displacement[0].empty() || !side.displacement[1].empty())
+    return;
+  Side part;
+  part.on = k;
+  part.where = beyond_a_line(k % 2 == 0 ? "X" : "Y", n, dice);
+  if (side.contact.empty())
+  {
+    if (dice.happens(0.7))
+      part.pressure = dice.function(0.01 * scene.young);
+    if (dice.happens(0.5))
+      part.shear = dice.function(0.01 * scene.young);
+  }
+  else if (!side.coefficient.empty())
+  {
+    part = side;
+    part.where = beyond_a_line(k % 2 == 0 ? "X" : "Y", n, dice);
+    part.coefficient = text(dice.number(0.05, 0.4));
+  }
+  else
+  {
+    part.contact = dice.happens(0.5) ? side.contact : "tangential";
+    part.gap = part.contact == "unilateral" ? side.gap : "";
+    part.bound = dice.positive(0.02 * scene.young * std::pow(10, dice.number(-1, 0.5)));
+  }
+  scene.sides.push_back(part);
+}
+
+void choose_weight(RandomScene &scene, Dice &dice)
+{
+  scene.gravity = {{dice.function(0.01 * scene.young), text(-0.01 * scene.young)}};
+  scene.density = dice.number(0, 1);
+}
+
+/** What needs whole cells; on a body that is no parallelogram their lines are no functions of X or Y alone. */
+void divide(RandomScene &scene, Dice &dice)
+{
+  const bool is_parallelogram =
+      (scene.corners[2] - scene.corners[1] - (scene.corners[3] - scene.corners[0])).norm() < 1e-12;
+  if (is_parallelogram && dice.happens(0.4))
+    choose_materials(scene, dice);
+  for (unsigned int k = 0; k < 4 && is_parallelogram; ++k)
+    if (dice.happens(0.2))
+      choose_part(scene, k, dice);
+  for (unsigned int k = 0; k < 4; ++k)
+  {
+    Side &side = scene.sides[k];
+    if (side.contact.empty() && side.displacement[0].empty() && side.displacement[1].empty() &&
+        dice.happens(0.2))
+      (dice.happens(0.5) ? side.pressure : side.shear) = dice.function(0.01 * scene.young);
+  }
+  if (dice.happens(0.3))
+    choose_weight(scene, dice);
+  if (dice.happens(0.3))
+    scene.thickness = std::pow(10, dice.number(-1, 1));
+  if (scene.materials.size() == 1 && dice.happens(0.5))
+    scene.exchange_materials();
+}
+
+// ---------------------------------------------------------------- files
+
 /** The file, with sections and entries in an order of their own. */
 std::string written(std::vector<Section> sections, const unsigned int order)
 {
@@ -153,21 +259,25 @@ bool is_given(const std::array<std::string, 2> &components)
 }
 } // namespace
 
-RandomScene::RandomScene(std::mt19937 &random)
+RandomScene::RandomScene(std::mt19937 &random) : sides(4)
 {
+  for (unsigned int k = 0; k < 4; ++k)
+    sides[k].on = k;
   Dice dice(random);
   choose_body(*this, dice);
   choose_sides(*this, dice);
   choose_method(*this, dice);
+  divide(*this, dice);
   if (dice.happens(0.15)) // a load that comes and turns around
   {
     settings["Loading/Steps"] = dice.chosen({"2", "3"});
     settings["Loading/Adapt"] = dice.chosen({"first step", "every step"});
     for (Side &side : sides)
-      for (auto *components : {&side.displacement, &side.traction})
-        for (std::string &component : *components)
-          if (!component.empty() && component != "0")
-            component = "(" + component + ")*sin(4*t)";
+      for (std::string *component :
+           {&side.displacement[0], &side.displacement[1], &side.traction[0], &side.traction[1],
+            &side.pressure, &side.shear})
+        if (!component->empty() && *component != "0")
+          *component = "(" + *component + ")*sin(4*t)";
   }
 }
 
@@ -238,18 +348,26 @@ Section RandomScene::geometry(const Frame &frame) const
 Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
 {
   const std::array<std::string, 4> names = {{"bottom", "right", "top", "left"}};
-  const Side &side = sides[frame.side(k)];
+  const bool is_part = k >= 4;
+  const Side &side = sides[is_part ? k : frame.side(k)];
   const double u = frame.amplitude * frame.length, traction = frame.amplitude * frame.stress;
-  Section section{"Boundary " + names[k], {}};
+  Section section{"Boundary " + (is_part ? "part" + std::to_string(k) : names[k]), {}};
   const auto add = [&](const std::string &entry, const std::string &value)
   {
     if (!value.empty())
       section.second.emplace_back(entry, value);
   };
+  if (is_part)
+    for (unsigned int on = 0; on < 4; ++on)
+      if (frame.side(on) == side.on)
+        add("On", names[on]);
+  add("Where", frame.function(side.where, 1));
   if (is_given(side.displacement))
     add("Displacement", vector_text(side.displacement, frame, u, "free"));
   if (is_given(side.traction))
     add("Traction", vector_text(side.traction, frame, traction, "0"));
+  add("Pressure", frame.function(side.pressure, traction));
+  add("Shear", frame.function(side.shear, frame.is_mirrored() ? -traction : traction));
   add("Contact", side.contact);
   add("Gap", frame.function(side.gap, u));
   add("Friction bound", frame.function(side.bound, traction));
@@ -257,20 +375,65 @@ Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
   return section;
 }
 
+void RandomScene::exchange_materials()
+{
+  OtherMaterial &other = materials.at(0);
+  std::swap(young, other.young);
+  std::swap(poisson, other.poisson);
+  std::swap(density, other.density);
+  other.where = "-(" + other.where + ")";
+}
+
+std::vector<Section> RandomScene::material_sections(const Frame &frame) const
+{
+  using metamorphic::text;
+  if (materials.size() == 1 && frame.order % 2 == 1)
+  {
+    RandomScene other = *this;
+    other.exchange_materials();
+    Frame same = frame;
+    same.order = 0;
+    return other.material_sections(same);
+  }
+  std::vector<OtherMaterial> all = {{"", young, poisson, density}};
+  all.insert(all.end(), materials.begin(), materials.end());
+  std::vector<Section> result;
+  for (const OtherMaterial &material : all)
+  {
+    const std::string number = std::to_string(result.size());
+    Section section{result.empty() ? "Material" : "Material m" + number,
+                    {{"Young's modulus", text(material.young * frame.stress)},
+                     {"Poisson's ratio", text(material.poisson)},
+                     {"Density", text(material.density)}}};
+    if (result.empty())
+    {
+      section.second.emplace_back("Plane", plane);
+      section.second.emplace_back("Thickness", text(thickness * frame.thickness));
+    }
+    else
+      section.second.emplace_back("Where", frame.function(material.where, 1));
+    result.push_back(section);
+  }
+  return result;
+}
+
 std::string RandomScene::text(const Frame &frame) const
 {
   using metamorphic::text;
-  std::vector<Section> sections = {geometry(frame),
-                                   {"Material",
-                                    {{"Young's modulus", text(young * frame.stress)},
-                                     {"Poisson's ratio", text(poisson)},
-                                     {"Plane", plane}}}};
-  if (is_given(body_force))
-    sections.push_back(
-        {"Body force",
-         {{"Expression",
-           vector_text(body_force, frame, frame.amplitude * frame.stress / frame.length, "0")}}});
-  for (unsigned int k = 0; k < 4; ++k)
+  std::vector<Section> sections = material_sections(frame);
+  sections.push_back(geometry(frame));
+  Section forces{"Body force", {}};
+  const auto add_force = [&](const std::string &entry, const std::array<std::string, 2> &components)
+  {
+    if (is_given(components))
+      forces.second.emplace_back(
+          entry,
+          vector_text(components, frame, frame.amplitude * frame.stress / frame.length, "0"));
+  };
+  add_force("Expression", body_force);
+  add_force("Gravity", gravity);
+  sections.push_back(forces);
+  for (unsigned int k = 0; k < sides.size(); ++k)
     sections.push_back(boundary(k, frame));
   for (const auto &[path, value] : settings)
   {

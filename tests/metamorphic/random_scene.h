@@ -13,11 +13,21 @@
 
 namespace metamorphic
 {
-/** What a side says; functions of X and Y in [0,1], the coordinates along sides 0 and 3; empty: nothing. */
+/** What a side or a part of it says; functions of X and Y in [0,1], the coordinates along sides 0 and 3; empty: nothing. */
 struct Side
 {
   std::array<std::string, 2> displacement, traction; ///< in the axes of the body
+  std::string pressure, shear;                       ///< along its normal, its tangent
   std::string contact, gap, bound, coefficient;
+  unsigned int on = 0; ///< the side
+  std::string where;   ///< the part; empty: what parts leave
+};
+
+/** One beside the first; what another has is not its. */
+struct OtherMaterial
+{
+  std::string where;
+  double young = 1, poisson = 0.3, density = 0;
 };
 
 /** Its name, its entries with their values. */
@@ -27,6 +37,9 @@ using Section = std::pair<std::string, std::vector<std::pair<std::string, std::s
 struct RandomScene
 {
   explicit RandomScene(std::mt19937 &random);
+
+  /** Of two materials either may be the one without a name. */
+  void exchange_materials();
 
   /** The scene as a file, told in @p frame. */
   std::string text(const Frame &frame) const;
@@ -42,15 +55,17 @@ struct RandomScene
   bool is_box = false;
   std::array<Point<2>, 4> corners; ///< counterclockwise, side k from corner k to corner k+1
   std::array<unsigned int, 2> subdivisions{}; ///< of sides 0 and 2, of sides 1 and 3
-  double young = 1, poisson = 0.3;
+  double young = 1, poisson = 0.3, density = 0, thickness = 1;
   std::string plane;
-  std::array<std::string, 2> body_force;
-  std::array<Side, 4> sides;
+  std::vector<OtherMaterial> materials; ///< nowhere two of them
+  std::array<std::string, 2> body_force, gravity;
+  std::vector<Side> sides;                     ///< all four, then parts
   std::map<std::string, std::string> settings; ///< entries "Section/Name" that no frame changes
 
 private:
   Section geometry(const Frame &frame) const;
   Section boundary(unsigned int k, const Frame &frame) const; ///< side k as the frame counts them
+  std::vector<Section> material_sections(const Frame &frame) const;
 };
 } // namespace metamorphic
 

@@ -140,7 +140,7 @@ void Relations::say_what_says_nothing()
              side.displacement[1].empty())
     {
       side.contact = "unilateral";
-      side.gap = "100";
+      side.gap = "10"; // counts in round-off
       is_said = true;
     }
   if (!is_said)
@@ -183,14 +183,13 @@ void Relations::carry_along()
   RandomScene other = one;
   std::uniform_real_distribution<double> uniform(-0.1, 0.1);
   const Tensor<1, 2> motion({uniform(random), uniform(random)});
-  for (unsigned int k = 0; k < 4; ++k)
+  for (Side &side : other.sides)
   {
-    Side &side = other.sides[k];
     if (side.contact == "bilateral" || side.displacement[0].empty() != side.displacement[1].empty())
       return;
     for (unsigned int c = 0; c < 2 && !side.displacement[c].empty(); ++c)
       side.displacement[c] = "(" + side.displacement[c] + ") + " + text(motion[c]);
-    const Tensor<1, 2> along = scene.corners[(k + 1) % 4] - scene.corners[k];
+    const Tensor<1, 2> along = scene.corners[(side.on + 1) % 4] - scene.corners[side.on];
     const double u_n = (motion[0] * along[1] - motion[1] * along[0]) / along.norm();
     if (!side.contact.empty())
       side.gap = (side.gap.empty() ? "" : "(" + side.gap + ") + ") + text(u_n);

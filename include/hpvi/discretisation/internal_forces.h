@@ -11,12 +11,12 @@ namespace hpvi
 /** What the stress of a displacement does on all test functions. */
 struct InternalForces
 {
-  dealii::Vector<double> forces; ///< a(u, v_i) for every displacement unknown, constrained or not
+  dealii::Vector<double> forces; ///< a(u, v_i) for every displacement unknown, springs among them
   double energy_product = 0;     ///< a(u,u)
 };
 
 /**
- * `a(u, v_i) = int sigma(u) : eps(v_i)`, formed from the strains of u at Gauss points. A product
+ * `a(u, v_i) = int sigma(u) : eps(v_i)` and what springs add, formed from the strains of u at Gauss points. A product
  * with the stiffness matrix would be the same in exact arithmetic; in floating point it leaves
  * forces of the order of round-off times stiffness times displacement, which a slender or a far
  * displaced body turns into false deformation. Here the round-off of u becomes a stress, and

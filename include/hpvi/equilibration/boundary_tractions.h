@@ -59,6 +59,8 @@ private:
 
   LoadRule<1> load_rule(const StressEdge &edge) const;
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
+  const dealii::QGauss<1> &spring_rule(const StressEdge &edge) const;
+  dealii::Tensor<1, 2> spring_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;
   void set(unsigned int edge);

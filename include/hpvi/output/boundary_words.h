@@ -38,6 +38,10 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
                                          const BoundaryCondition<dim> &boundary,
                                          const std::vector<dealii::Point<dim>> &points);
 
+/** As in "support left", "symmetry left", "spring bottom". */
+template <int dim>
+std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary);
+
 /** What it touches, as in "unilateral contact", "gap 0 to 0.2 mm", "friction coefficient 0.3". */
 template <int dim>
 std::vector<std::string> contact_phrases(const Scene<dim> &scene,

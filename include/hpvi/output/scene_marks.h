@@ -17,6 +17,12 @@ using BoundaryMark = double (*)(SceneSheet &sheet, const MarkedPart &marked, dou
 /** Hatching where all components are held; rollers along the component that is held where one is free. */
 double draw_support(SceneSheet &sheet, const MarkedPart &marked, double band);
 
+/** A dashed axis along the boundary, and short pairs of strokes across it. */
+double draw_symmetry(SceneSheet &sheet, const MarkedPart &marked, double band);
+
+/** Zigzags from the body to a line of ground. */
+double draw_springs(SceneSheet &sheet, const MarkedPart &marked, double band);
+
 /**
  * The foundation at the distance of the gap, hatched: on rollers where it holds the body both ways, dashed where friction
  * alone acts.

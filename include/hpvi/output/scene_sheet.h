@@ -65,7 +65,8 @@ struct MarkedPart
 {
   const BoundaryPart &part;
   const BoundaryCondition<2> &condition;
-  bool has_words; ///< the longest part of its boundary, where sizes stand
+  bool has_words;                           ///< the longest part of its boundary, where sizes stand
+  std::vector<const BoundaryPart *> pieces; ///< all parts of its boundary: what words are about
 };
 
 /** A vector of functions at a point, where null is 0. */

@@ -6,6 +6,7 @@
 #include <hpvi/scene/scene.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ class Parameters;
 template <int dim>
 void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene);
 
-/** What expressions may use where the body is of @p material: E, nu, mu and pi. */
-std::map<std::string, double> constants_of(const Material &material);
+/** What expressions may use where the body is of @p material: E, nu, mu and pi, the time @p t in a load history. */
+std::map<std::string, double> constants_of(const Material &material, std::optional<double> t);
 
 /** The materials of the cells along a boundary, by index. */
 template <int dim>

@@ -5,6 +5,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/free_names.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       path_names = {"auto", "reduced", "primal"},
                                       linear_names = {"amg", "direct"},
                                       friction_law_names = {"automatic", "limited", "cohesive"};
+
+/** The enumerator whose name is the value of an entry. */
+template <class Enum>
+Enum read_choice(const Parameters &parameters, const std::string &section, const std::string &name,
+                 const std::vector<std::string> &names)
+{
+  const auto found = std::find(names.begin(), names.end(), parameters.text(section, name));
+  return static_cast<Enum>(found - names.begin());
+}
 
 /**
  * Calls `visit(section, entry, member)` for each number and each switch of a scene that one entry

@@ -39,6 +39,22 @@ enum class NormalContact
   automatic   ///< nodes where they are offered, see Scene::normal_contact()
 };
 
+/** An elastic foundation, glued to the body: the traction -k_n u_n n - k_t u_t on it, whichever way it moves. */
+template <int dim>
+struct Spring
+{
+  Expression<dim> normal, tangential; ///< k_n, k_t >= 0 [stress/length]; null: zero
+
+  explicit operator bool() const
+  {
+    return normal || tangential;
+  }
+
+  /** `k_n n n' + k_t (I - n n')` there: -traction = stiffness u [stress/length]. */
+  dealii::Tensor<2, dim> stiffness(const dealii::Point<dim> &x,
+                                   const dealii::Tensor<1, dim> &n) const;
+};
+
 /** Everything that a scene says about one named part of the boundary. */
 template <int dim>
 struct BoundaryCondition
@@ -51,16 +67,19 @@ struct BoundaryCondition
   Expression where;                  ///< a part has the faces of the side where this is positive
   std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
   Load<dim> traction;                       ///< components of G [stress]; null: zero
+  bool symmetry = false;                    ///< u_n = 0 without friction, a plane of symmetry
+  Spring<dim> spring;
   Contact contact = Contact::none;
   Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
   FrictionLaw<dim> friction;
 
   bool has_displacement() const; ///< is any component prescribed?
   bool has_traction() const;     ///< is any component given?
+  bool exerts_forces() const;    ///< a support, contact or springs?
   bool has_contact() const;
   bool is_unilateral() const;
-  bool holds_normal()
-      const; ///< u_n = 0 as a constraint of the space: bilateral, friction knows no pressure
+  /** u_n = 0 as a constraint of the space: symmetry; bilateral contact whose friction knows no pressure. */
+  bool holds_normal() const;
   bool has_pressure()
       const; ///< a multiplier of its own for T_n: unilateral, or friction knows the pressure
   double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
@@ -297,6 +316,7 @@ struct Scene
   }
 
   bool has_parts() const; ///< is any boundary a part of a side?
+  bool has_springs() const;
 
   /** Is any of the materials? */
   bool is_nearly_incompressible() const;

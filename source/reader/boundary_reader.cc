@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/input/expressions.h>
+#include <hpvi/input/parameters.h>
+#include <hpvi/reader/body_reader.h>
+#include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/scene_entries.h>
+#include <hpvi/scene/boundary_parts.h>
+
+#include <memory>
+#include <regex>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** What `exact` stands for on @p boundary; nothing in space, where no closed form is offered. */
+template <int dim>
+std::array<typename ExpressionReader<dim>::ExactField, 2>
+exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boundary)
+{
+  if constexpr (dim == 2)
+    if (scene.exact_solution != nullptr)
+      return {{[&scene](const unsigned int c)
+               { return std::make_shared<ExactDisplacement<2>>(scene.exact_solution, c); },
+               [&scene, boundary](const unsigned int c)
+               {
+                 return std::make_shared<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
+                                                           sides_of(scene.geometry)[boundary], c);
+               }}};
+  const auto none = [](const unsigned int) { return nullptr; };
+  (void)scene, (void)boundary;
+  return {{none, none}};
+}
+
+/** E, nu and mu are those of the cells along @p boundary, where these have one material. */
+template <int dim>
+ExpressionReader<dim> reader_along(const Parameters &parameters, const Scene<dim> &scene,
+                                   const BoundaryCondition<dim> &boundary,
+                                   const std::optional<double> t)
+{
+  const std::vector<unsigned int> materials = materials_along(scene, boundary);
+  const bool differ = materials.size() > 1;
+  auto constants = constants_of(scene.materials[materials.empty() ? 0 : materials.front()], t);
+  for (const char *const name : {"E", "nu", "mu"})
+    if (differ)
+      constants.erase(name);
+  return ExpressionReader<dim>(parameters, constants,
+                               differ ? "; the materials along this boundary differ in E, nu and mu"
+                                      : "");
+}
+
+/** Traction, pressure and shear as one load. */
+template <int dim>
+void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
+                const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
+                BoundaryCondition<dim> &boundary)
+{
+  const std::vector<Point<dim>> points = side.sample();
+  boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
+  const auto add = [&](const std::string &entry, const double sign, const Tensor<1, dim> &direction)
+  {
+    const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
+    for (unsigned int c = 0; c < dim; ++c)
+      boundary.traction[c] = sum<dim>(boundary.traction[c], sign * direction[c], load);
+  };
+  if (points.empty()) // parts have taken it all
+    return;
+  add("Pressure", -1, side.normal(points.front()));
+  if constexpr (dim == 2)
+    add("Shear", 1, side.tangent(points.front()));
+}
+
+/** Glued on before anything happens: springs know no time. */
+void read_spring(const Parameters &parameters, const ExpressionReader<2> &expressions,
+                 const std::string &section, const std::vector<Point<2>> &points,
+                 BoundaryCondition<2> &boundary)
+{
+  static const std::regex t("\\bt\\b");
+  if (std::regex_search(parameters.text(section, "Spring"), t))
+    parameters.reject(section, "Spring", "uses t, and springs stay; write functions of x and y");
+  const auto k = expressions.read<2>(section, "Spring", "0", points);
+  for (const Expression<2> &component : k)
+    for (const Point<2> &x : points)
+      if (component && component->value(x) < 0)
+        parameters.reject(section, "Spring",
+                          "is negative at " + to_string(x) +
+                              "; a spring that helps the body move has no equilibrium");
+  boundary.spring = {k[0], k[1]};
+}
+
+} // namespace
+
+template <int dim>
+void read_boundary(const Parameters &parameters, const std::optional<double> t,
+                   const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
+{
+  const ExpressionReader<dim> expressions = reader_along(parameters, scene, boundary, t);
+  const Side<dim> side = sides_of(scene)[boundary.id];
+  const std::vector<Point<dim>> points = side.sample();
+  const auto [exact_displacement, exact_traction] =
+      exact_displacement_and_traction(scene, boundary.side);
+
+  const std::string section = "Boundary " + boundary.name;
+  boundary.displacement =
+      expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
+  read_loads<dim>(expressions, section, side, exact_traction, boundary);
+  boundary.symmetry = parameters.boolean(section, "Symmetry");
+  if constexpr (dim == 2)
+    read_spring(parameters, expressions, section, points, boundary);
+  boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
+  boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
+  boundary.friction.bound =
+      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
+  boundary.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
+                                                         "Coulomb's coefficient needs mu_f >= 0");
+  boundary.friction.form =
+      read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
+  // Even a zero is one too many.
+  if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
+    parameters.reject(section, "Gap", gap_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction bound").empty())
+    parameters.reject(section, "Friction bound", friction_needs_contact);
+  if (!boundary.has_contact() && !parameters.text(section, "Friction coefficient").empty())
+    parameters.reject(section, "Friction coefficient", friction_needs_contact);
+}
+
+template void read_boundary(const Parameters &, std::optional<double>, const Scene<2> &,
+                            BoundaryCondition<2> &);
+template void read_boundary(const Parameters &, std::optional<double>, const Scene<3> &,
+                            BoundaryCondition<3> &);
+} // namespace hpvi

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Elastic foundations: what they add to energies, to the indicator and to the bound of the error.
+#include "discretisation.h"
+
+#include <hpvi/discretisation/springs.h>
+#include <hpvi/evaluation/residual_estimator.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace verification;
+
+/** A beam of height 1 on springs, pressed in its middle: mean deflection under the load. */
+double deflection(const double k)
+{
+  const double force = 1e-3;
+  double result = 0;
+  AdaptiveSolver<2>(scene_of({{"Geometry/Lower corner", "-60, 0"},
+                              {"Geometry/Upper corner", "60, 1"},
+                              {"Geometry/Subdivisions", "60, 1"},
+                              {"Material/Young's modulus", "12"},
+                              {"Material/Poisson's ratio", "0"},
+                              {"Material/Plane", "stress"},
+                              {"Boundary bottom/Spring", std::to_string(k) + "; 0"},
+                              {"Boundary left/Displacement", "0; free"},
+                              {"Boundary top/Traction", "0; -0.001*(abs(x) < 0.5)"},
+                              {"Adaptivity/Method", "hup4"},
+                              {"Adaptivity/Maximum steps", "1"}}))
+      .run([&](const StepReport<2> &step) { result = -2 * step.energies.energy / force; });
+  return result;
+}
+
+/** `P lambda/(2 k)` with `lambda^4 = k/(4 E I)`, EI = 1 (Hetenyi, Beams on Elastic Foundation, 1946): the limit of soft springs. */
+TEST(Springs, BendABeamAsHetenyiSays)
+{
+  std::vector<double> errors;
+  for (const double k : {0.04, 0.0025})
+  {
+    const double lambda = std::pow(k / 4, 0.25), limit = 1e-3 * lambda / (2 * k);
+    errors.push_back(std::abs(deflection(k) / limit - 1));
+  }
+  EXPECT_LT(errors[0], 0.15);
+  EXPECT_LT(errors[1], 0.3 * errors[0]); // shear counts as (lambda h)^2: a quarter
+}
+
+const Overrides punched = {{"Geometry/Upper corner", "4, 2"},  {"Geometry/Subdivisions", "4, 2"},
+                           {"Material/Young's modulus", "10"}, {"Boundary top/Pressure", "1 + x"},
+                           {"Boundary left/Symmetry", "true"}, {"Boundary right/Spring", "2; 1"},
+                           {"Adaptivity/Tolerance", "0"}};
+
+Scene<2> variant(const unsigned int number, const std::string &method, const unsigned int steps)
+{
+  const std::vector<Overrides> more = {
+      {{"Boundary bottom/Spring", "5; 3"}},
+      {{"Boundary bottom/Spring", "5 + x^2; 1 + x"}},
+      {{"Boundary bottom/Spring", "1e4; 0"}},
+      {{"Boundary bottom/Contact", "unilateral"}, {"Boundary bottom/Friction bound", "0.3"}},
+      {{"Boundary bottom/Spring", "5; 3"}, {"Material/Poisson's ratio", "0.499"}},
+      {{"Boundary bottom/Spring", "5; 3"}, {"Boundary bottom/Displacement", "free; 0.02*x^3"}},
+      {{"Boundary bottom/Spring", "5; 3"},
+       {"Geometry/Shape", "quadrilateral"},
+       {"Geometry/Corners", "0, 0; 4, 1; 3.5, 3; -0.5, 2"}}};
+  Overrides entries = punched;
+  entries.insert(entries.end(), more[number].begin(), more[number].end());
+  entries.emplace_back("Adaptivity/Method", method);
+  entries.emplace_back("Adaptivity/Maximum steps", std::to_string(steps));
+  return scene_of(entries);
+}
+
+class SpringBound : public ::testing::TestWithParam<unsigned int>
+{
+};
+
+/** The energy of a finer run lies in each interval, and the bound is above the error and near it. */
+TEST_P(SpringBound, HoldsAndIsNear)
+{
+  double J = 0, doubt = 0;
+  AdaptiveSolver<2>(variant(GetParam(), "hpa3", 14))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ASSERT_TRUE(step.bound) << step.no_bound;
+            J = step.energies.energy;
+            doubt = step.bound->energy_below + step.bound->energy_above;
+          });
+  for (const std::string method : {"hup2", "hup3", "hpa3"})
+    AdaptiveSolver<2>(variant(GetParam(), method, 3))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              EXPECT_LE(step.energies.energy - step.bound->energy_below, J + doubt) << method;
+              EXPECT_GE(step.energies.energy + step.bound->energy_above, J - doubt) << method;
+              if (GetParam() == 3) // penetrates: J(u_N) is no upper bound
+                return;
+              const double error = std::sqrt(2 * std::max(0., step.energies.energy - J));
+              EXPECT_GE(step.bound->total, 0.999 * error) << method;
+              EXPECT_LE(step.bound->total, 2.2 * error + std::sqrt(2 * doubt)) << method;
+              const double indicator = step.scaled_estimate / error;
+              EXPECT_GT(indicator, 1.) << method;
+              // Jumps of an oscillating pressure count as shear.
+              EXPECT_LT(indicator, GetParam() == 4 ? 60. : 12.) << method;
+            });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpringBound, ::testing::Range(0U, 7U));
+} // namespace
