@@ -3,6 +3,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
@@ -76,22 +77,46 @@ ContactMode mode_between(const std::vector<ContactPoint<2>> &points, const Point
                                   n_points.begin());
 }
 
-/** From end to end of the boundary, cut at its transitions; points and transitions follow the tangent. */
-std::vector<ContactZone<2>> zones_of(const ContactState<2> &state)
+/** From end to end of a piece of the boundary, cut at its transitions; points and transitions follow the tangent. */
+std::vector<ContactZone<2>> zones_of(const std::array<Point<2>, 2> &piece,
+                                     const std::vector<ContactPoint<2>> &points,
+                                     const std::vector<Point<2>> &transitions)
 {
-  std::vector<Point<2>> cuts = {state.begin};
-  cuts.insert(cuts.end(), state.transitions.begin(), state.transitions.end());
-  cuts.push_back(state.end);
+  std::vector<Point<2>> cuts = {piece[0]};
+  cuts.insert(cuts.end(), transitions.begin(), transitions.end());
+  cuts.push_back(piece[1]);
   std::vector<ContactZone<2>> zones;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
   {
-    const ContactMode mode = mode_between(state.points, cuts[k], cuts[k + 1]);
+    const ContactMode mode = mode_between(points, cuts[k], cuts[k + 1]);
     if (!zones.empty() && zones.back().mode == mode) // slip that turns around is slip
       zones.back().end = cuts[k + 1];
     else
       zones.push_back({mode, cuts[k], cuts[k + 1]});
   }
   return zones;
+}
+
+/** What contact that has ended in one piece does in the next is another zone. */
+void find_zones(std::vector<std::array<Point<2>, 2>> pieces, ContactState<2> &state)
+{
+  const Tensor<1, 2> along = state.end - state.begin;
+  for (auto &piece : pieces)
+    if ((piece[1] - piece[0]) * along < 0)
+      std::swap(piece[0], piece[1]);
+  std::sort(pieces.begin(), pieces.end(),
+            [&](const auto &a, const auto &b) { return (b[0] - a[0]) * along > 0; });
+  for (const auto &piece : pieces)
+  {
+    std::vector<ContactPoint<2>> points;
+    for (const ContactPoint<2> &point : state.points)
+      if ((point.x - piece[0]) * (piece[1] - point.x) > 0)
+        points.push_back(point);
+    const std::vector<Point<2>> transitions = transitions_between(points);
+    const std::vector<ContactZone<2>> zones = zones_of(piece, points, transitions);
+    state.transitions.insert(state.transitions.end(), transitions.begin(), transitions.end());
+    state.zones.insert(state.zones.end(), zones.begin(), zones.end());
+  }
 }
 
 /** A pressure that is round-off beside the largest of all, or beside the data, is none. */
@@ -341,12 +366,15 @@ std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
   together(field.communicator(), [&]() { own = contact.states(); });
   std::vector<ContactState<dim>> states = gathered(std::move(own), field.communicator());
   if constexpr (dim == 2)
-    for (ContactState<dim> &state : states)
+  {
+    std::vector<Side<2>> sides;
+    together(field.communicator(), [&]() { sides = sides_of(field.scene); });
+    for (ContactState<2> &state : states)
       if (!state.points.empty())
-      {
-        state.transitions = transitions_between(state.points);
-        state.zones = zones_of(state);
-      }
+        find_zones(field.scene.has_parts() ? sides[state.boundary].pieces
+                                           : std::vector<Side<2>::Piece>{{state.begin, state.end}},
+                   state);
+  }
   return states;
 }
 

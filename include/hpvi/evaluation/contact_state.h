@@ -84,9 +84,10 @@ struct ContactState
    * points whose states differ, along the tangent.
    */
   std::vector<dealii::Point<dim>> transitions;
-  std::vector<ContactZone<dim>> zones;  ///< between the ends of the boundary, no two alike in a row
-  double normal_resultant = 0;          ///< int T_n [stress length^(dim-1)]
-  Tangential<dim> friction_resultant{}; ///< int T_t = -int z_N, likewise
+  std::vector<ContactZone<dim>>
+      zones;                   ///< between the ends of each piece, no two alike in a row there
+  double normal_resultant = 0; ///< int T_n [stress length^(dim-1)]
+  Tangential<dim> friction_resultant{};  ///< int T_t = -int z_N, likewise
   dealii::Tensor<1, dim> friction_force; ///< int T_t t, likewise
   double absolute_friction = 0;          ///< int |T_t|, likewise
   double open_friction = 0;              ///< that part of it where contact is open
