@@ -46,9 +46,10 @@ std::vector<Point<2>> transitions_between(const std::vector<ContactPoint<2>> &po
     for (unsigned int i = k; i < points.size(); ++i)
       if (differ(points[i - 1], points[i]))
       {
-        if (n_changes > 0 && (opens(points[i - 1], points[i]) ||
-                              points[i].x.distance(points[last].x) >
-                                  2 * std::max(points[i].face_length, points[last].face_length)))
+        if (n_changes > 0 &&
+            (opens(points[i - 1], points[i]) ||
+             points[i].x.distance(points[last].x) >
+                 (2 + 1e-6) * std::max(points[i].face_length, points[last].face_length)))
           break;
         sum += 0.5 * (points[i - 1].x + Tensor<1, 2>(points[i].x));
         ++n_changes;

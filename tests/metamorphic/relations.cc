@@ -115,11 +115,11 @@ void Relations::solve_otherwise()
     vary("a history of one load step", {{"Loading/Steps", "1"}});
 }
 
-/** Both paths have rules of their own for data that are no polynomials. */
+/** Both paths have rules of their own for data that are no polynomials; bodies held by contact alone it refuses. */
 void Relations::take_the_primal_path()
 {
   const std::string method = scene.settings.at("Adaptivity/Method").substr(0, 3);
-  if (scene.is_box && !scene.has(&Side::coefficient) && !has_history() &&
+  if (scene.is_box && scene.is_held() && !scene.has(&Side::coefficient) && !has_history() &&
       (method == "hup" || method == "hap") && scene.has_polynomial_data() &&
       scene.settings.at("Solver/Normal contact") == "multiplier")
     vary("the primal path", {{"Solver/Path", "primal"}}, Claim::same_primal);
