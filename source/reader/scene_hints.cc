@@ -45,8 +45,6 @@ std::vector<Hint> hints_about_conditions()
       {{"roller", "sliding", "symmetry plane"},
        "a plane of symmetry is \"Boundary left/Symmetry\" = true, one that the body rubs along "
        "\"Boundary left/Contact\" = bilateral"},
-      {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
-       "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"obstacle", "foundation", "clearance", "interference", "penetration"},
        "set \"Boundary bottom/Gap\", with \"Boundary bottom/Contact\" = unilateral"},
       {{"unilateral", "bilateral", "frictionless", "contact type", "contact pair"},
@@ -81,6 +79,8 @@ std::vector<Hint> hints_in_plane()
        "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
        "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
        "modulus\" and \"Material/Poisson's ratio\""},
+      {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
+       "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
       {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},

@@ -410,6 +410,17 @@ public:
 private:
   using Cell = DoFHandler<2>::active_cell_iterator;
 
+  /** 2 mu, of materials that resist changes of volume: what strains of residuals are measured by. */
+  double stiffness(const Cell &cell) const
+  {
+    return 2 * solution.scene.materials[cell->material_id()].mu();
+  }
+
+  double first_stiffness() const
+  {
+    return 2 * solution.scene.materials[0].mu();
+  }
+
   void add_volume(const Cell &cell);
   void add_edge(const Cell &cell, unsigned int face);
   void add_jump(const Cell &cell, unsigned int face);
@@ -475,7 +486,8 @@ void ResidualOracle::add_volume(const Cell &cell)
     }
     sum += values.JxW(q) * r.norm_square();
   }
-  result.volume[cell->active_cell_index()] = std::pow(weight(cell), 2) * sum;
+  result.volume[cell->active_cell_index()] =
+      std::pow(weight(cell), 2) * sum * first_stiffness() / stiffness(cell);
 }
 
 std::vector<Tensor<1, 2>> ResidualOracle::tractions(const FEValuesBase<2> &values,
@@ -536,6 +548,7 @@ void ResidualOracle::add_jump(const Cell &cell, const unsigned int face)
   double sum = 0;
   for (const unsigned int q : here.quadrature_point_indices())
     sum += here.JxW(q) * (own[q] - opposite[q]).norm_square() / 4.;
+  sum *= 2 * first_stiffness() / (stiffness(cell) + stiffness(neighbor));
   result.jumps[cell->active_cell_index()] += weight(cell) * sum;
   if (cell->neighbor_is_coarser(face))
     result.jumps[neighbor->active_cell_index()] += weight(neighbor) * sum;
@@ -558,7 +571,8 @@ void ResidualOracle::add_neumann(const Cell &cell, const unsigned int face)
       if (!condition.displacement[c])
         sum += values.JxW(q) * std::pow(own[q][c] - G, 2);
     }
-  result.neumann[cell->active_cell_index()] += weight(cell) * sum;
+  result.neumann[cell->active_cell_index()] +=
+      weight(cell) * sum * first_stiffness() / stiffness(cell);
 }
 
 void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
@@ -587,7 +601,8 @@ void ResidualOracle::add_contact(const Cell &cell, const unsigned int face)
         residual -= contact->condition->traction[c]->value(x) * t[c];
     sum += values.JxW(q) * residual * residual;
   }
-  result.contact[cell->active_cell_index()] += weight(cell) * sum;
+  result.contact[cell->active_cell_index()] +=
+      weight(cell) * sum * first_stiffness() / stiffness(cell);
 }
 
 void expect_same(const std::string &part, const std::vector<double> &computed,
