@@ -372,8 +372,9 @@ std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
     together(field.communicator(), [&]() { sides = sides_of(field.scene); });
     for (ContactState<2> &state : states)
       if (!state.points.empty())
-        find_zones(field.scene.has_parts() ? sides[state.boundary].pieces
-                                           : std::vector<Side<2>::Piece>{{state.begin, state.end}},
+        find_zones(field.scene.has_parts()
+                       ? sides[state.boundary].pieces
+                       : std::vector<Side<2>::Piece>{{{state.begin, state.end}}},
                    state);
   }
   return states;

@@ -119,7 +119,7 @@ invalid "Boundary bottom/Spring" "beside Contact = bilateral" -- "Boundary botto
 invalid "Boundary top/Spring" "is negative at" -- "Boundary top/Spring=1 - x; 0"
 invalid "Boundary top/Spring" "1 component(s)" -- "Boundary top/Spring=1"
 invalid "Boundary top/Spring" "uses t" -- "Boundary top/Spring=t; 0" "Loading/Steps=2"
-invalid "Boundary top/Spring" "the primal path" -- "Boundary top/Spring=1; 0" "Solver/Path=primal" "Adaptivity/Method=hap2"
+refused "Boundary top/Spring" "the primal path" -- "$scenes/base.prm" --set "Boundary top/Spring=1; 0" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 invalid "Boundary left/On" "unknown entry" -- "Boundary left/On=top"
 invalid "Exact solution/Solution" "knows one material" -- "Exact solution/Solution=smooth" "Material soft/Where=x - 2"
 

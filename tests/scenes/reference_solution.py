@@ -34,8 +34,8 @@ class ReferenceSolution(RunTest):
                     words=["Boundary bottom/Friction bound = 4.5 there, 4 here"])
         self.refuse("Boundary top/Traction=0; -1",
                     words=["Boundary top/Traction = nothing there, 0; -1 here"])
-        self.refuse("Material core/Where=y > 2", words=["Material core/Where"])
-        self.refuse("Boundary foot/On=top", "Boundary foot/Where=x > 2", words=["Boundary foot/On"])
+        self.refuse("Material core/Where=y > 2", words=["other entries"])
+        self.refuse("Boundary foot/On=top", "Boundary foot/Where=x > 2", words=["other entries"])
         self.refuse("Geometry/Upper corner=4, 5", words=["Geometry/Upper corner = 4, 4 there"])
         self.refuse("Geometry/Subdivisions=2, 2", words=["Geometry/Subdivisions = 4, 4 there"])
         self.refuse("Geometry/Graded towards=0, 0", "Geometry/Grading levels=9",
