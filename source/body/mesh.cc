@@ -109,7 +109,10 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
       one[d] = 1.;
     GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions(geometry), Point<dim>(),
                                               one, /*colorize=*/true);
-    GridTools::transform(GridLines<dim>(geometry), triangulation);
+    if (is_cut)
+      GridTools::transform(GridLines<dim>(geometry), triangulation);
+    else
+      GridTools::transform([&](const Point<dim> &x) { return geometry.point(x); }, triangulation);
   }
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.
   AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
