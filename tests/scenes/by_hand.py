@@ -162,6 +162,22 @@ class ByHand(RunTest):
                     largest = max(abs(value), *(abs(other) for other in expected.values()))
                     self.assertAlmostEqual(found(summary, path), value, delta=1e-8 * largest + 1e-10, msg=path)
 
+    def test_four_times_as_thick(self):
+        """Energies and forces four times, norms and bounds twice, what is relative as it was."""
+        tables = []
+        for thickness in (1, 4):
+            self.run_scene("Adaptivity/Maximum steps=2", f"Material/Thickness={thickness}", "Output/VTU=false",
+                           scene=SCENES / "footing.prm")
+            tables.append(self.rows())
+        powers = {"energy": 2, "lagrangian": 2, "slack": 2, "energy_low": 2, "energy_high": 2, "normal_resultant": 2,
+                  "friction_resultant": 2, "friction_resultant_x": 2, "error_bound": 1, "bound_stress": 1, "bound_slip": 1,
+                  "estimate": 1, "estimate_scaled": 1, "estimate_jumps": 1, "estimate_contact": 1, "energy_norm": 1,
+                  "error_bound_relative": 0, "estimate_relative": 0, "elements": 0}
+        for thin, thick in zip(*tables):
+            for name, power in powers.items():
+                value = 2 ** power * float(thin[name])
+                self.assertAlmostEqual(float(thick[name]), value, delta=1e-12 * abs(value), msg=name)
+
     def test_a_bound_at_a_million_times_the_stiffness(self):
         """u_N has 16 digits, of which the motion of the stiff part takes six or seven: the bound pays for what is left."""
         file = self.home / "inclusion.prm"
