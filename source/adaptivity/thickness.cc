@@ -52,6 +52,8 @@ void take_thickness(StepReport<dim> &step)
     take(b, state);
   for (BoundaryForce<dim> &force : step.equilibrium.reactions)
     multiply(b, force.force, force.moment);
+  for (PlateState<dim> &plate : step.equilibrium.plates)
+    plate.moment *= b;
   multiply(b, step.equilibrium.loads.force, step.equilibrium.loads.moment);
 }
 

@@ -6,7 +6,7 @@
 // nodes that are not free how they follow from others.
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/edge_constraints.h>
-#include <hpvi/body/supports.h>
+#include <hpvi/body/plates.h>
 
 namespace hpvi
 {
@@ -27,7 +27,10 @@ AffineConstraints<double> constraints_of(const Scene<dim> &scene,
 {
   AffineConstraints<double> constraints;
   constrain_hanging_nodes(numbering, tables, constraints);
-  constrain_supports(supported_nodes(scene, numbering, tables), constraints);
+  const std::vector<SupportedNode<dim>> nodes = supported_nodes(scene, numbering, tables);
+  for (const Plate &plate : plates_of(scene, nodes))
+    plate.constrain(constraints);
+  constrain_supports(nodes, constraints);
   constraints.close();
   return constraints;
 }

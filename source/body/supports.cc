@@ -50,6 +50,19 @@ std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<di
   }
   return basis;
 }
+
+/** A plate exerts any force, and holds what its motion leaves to hold (Plate). */
+template <int dim>
+void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
+{
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    Tensor<1, dim> direction;
+    direction[c] = 1.;
+    node.conditions.push_back({direction, 0., boundary.id});
+  }
+  node.is_on_plate = true;
+}
 } // namespace
 
 // @sect3{Collecting them}
@@ -71,7 +84,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           continue;
         const auto face = cell->face(f);
         const BoundaryCondition<dim> &boundary = scene.boundaries[face->boundary_id()];
-        if (!boundary.has_displacement() && !boundary.holds_normal())
+        if (!boundary.has_displacement() && !boundary.holds_normal() && !boundary.plate)
           continue;
         const CellMap<dim> map = map_of<dim>(cell);
         const unsigned int p = numbering.degrees()[cell->active_cell_index()];
@@ -88,9 +101,13 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           // A vertex inside an edge of the body gets the same conditions from both of its cells.
           if (std::none_of(node.conditions.begin(), node.conditions.end(),
                            [&](const auto &known) { return known.boundary == boundary.id; }))
+          {
             for (const PointCondition<dim> &condition :
                  conditions_at(boundary, map.normal(f, reference), boundary.holds_normal(), node.x))
               node.conditions.push_back(condition);
+            if (boundary.plate)
+              add_plate(boundary, node);
+          }
         }
       }
   std::vector<SupportedNode<dim>> result;
@@ -103,13 +120,16 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
 //
 // <code>AffineConstraints</code> wants each constrained component expressed by free ones. Gauss and
 // Jordan's elimination, with the largest component as pivot, does so for a direction askew as well
-// as for an axis.
+// as for an axis. A rigid plate, whose nodes follow each other, has constraints of its own, which agree with what
+// other boundaries ask at its ends.
 template <int dim>
 void constrain_supports(const std::vector<SupportedNode<dim>> &nodes,
                         AffineConstraints<double> &constraints)
 {
   for (const SupportedNode<dim> &node : nodes)
   {
+    if (node.is_on_plate)
+      continue;
     std::vector<PointCondition<dim>> rows = independent(node.conditions);
     std::vector<unsigned int> pivots;
     // Gauss and Jordan: each row is solved for its largest component, which leaves the others.

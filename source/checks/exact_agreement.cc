@@ -184,8 +184,11 @@ void check_exact_solution(const Scene<2> &scene)
            "knows whole sides, and Boundary " + scene.boundaries.back().name +
                " is a part; measure errors by Error/Reference solution");
   for (const BoundaryCondition<2> &boundary : scene.boundaries)
-    if (boundary.symmetry || boundary.spring)
-      reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Spring",
+    if (boundary.symmetry || boundary.spring || boundary.plate)
+      reject(scene, section_of(boundary),
+             boundary.symmetry ? "Symmetry"
+             : boundary.spring ? "Spring"
+                               : "Rigid",
              "is none of " + mention(scene, "Exact solution", "Solution") +
                  "; give Displacement = exact, or measure errors by Error/Reference solution");
   if (scene.thickness != 1)

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/plate_motion.h>
 
 #include <algorithm>
 #include <array>
@@ -113,6 +114,17 @@ struct Rows
   std::vector<RigidMotion<dim>> held, resisted;
 };
 
+/** What a rigid plate does not leave free. */
+void add_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary, const Point<2> &centre,
+               const double length, std::vector<RigidMotion<2>> &held)
+{
+  const PlateMotion plate(scene, boundary);
+  for (unsigned int m = 0; m < PlateMotion::n_motions; ++m)
+    if (!boundary.plate->is_free(m))
+      held.push_back(m < 2 ? row_of(plate.motion(m, centre), (plate.centre() - centre) / length)
+                           : RigidMotion<2>{{0, 0, 1}});
+}
+
 /** Conditions at the corners of each piece, for a rigid-body motion is linear along it. */
 template <int dim>
 Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const double length)
@@ -140,6 +152,10 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
           if (boundary.friction) // where it vanishes, the mesh decides
             rows.resisted.push_back(row_of(sides[f].tangent(end), arm));
       }
+  if constexpr (dim == 2)
+    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+      if (boundary.plate)
+        add_plate(scene, boundary, centre, length, rows.held);
   rows.resisted.insert(rows.resisted.end(), rows.held.begin(), rows.held.end());
   return rows;
 }

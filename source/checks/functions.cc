@@ -127,6 +127,34 @@ void check_symmetry_and_springs(const Scene<dim> &scene, const BoundaryCondition
                "; keep one of the two, or give each a part of the side");
 }
 
+/** A plate decides all that a boundary does. */
+template <int dim>
+void check_plate(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  if (!boundary.plate)
+    return;
+  const std::string section = section_of(boundary);
+  for (const auto &[is_there, entry] :
+       {std::pair<bool, std::string>{boundary.has_displacement(), "Displacement"},
+        {boundary.has_contact(), "Contact"},
+        {boundary.symmetry, "Symmetry"},
+        {boundary.has_traction(), entry_of_load(scene, section)},
+        {bool(boundary.spring), "Spring"}})
+    if (is_there)
+      reject(scene, section, "Rigid",
+             "contradicts " + mention(scene, section, entry) +
+                 "; a rigid plate stands alone, give the other a part of the side",
+             "true");
+  for (unsigned int m = 0; m < RigidPlate<dim>::n_motions; ++m)
+    for (const auto &[value, entry] :
+         {std::pair{boundary.plate->displacement[m].value_or(0.),
+                    m < dim ? "Displacement" : "Rotation"},
+          std::pair{boundary.plate->force[m], m < dim ? "Force" : "Moment"}})
+      if (!(std::abs(value) <= largest_magnitude))
+        reject(scene, section, entry, "is not a number up to 1e100 that can be squared",
+               to_string(value));
+}
+
 /** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
 template <int dim>
 void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
@@ -143,6 +171,7 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
   if (boundary.gap != nullptr && !boundary.is_unilateral())
     reject(scene, section, "Gap", gap_needs_contact);
   check_symmetry_and_springs(scene, boundary);
+  check_plate(scene, boundary);
   if (boundary.has_contact() && boundary.has_displacement())
     reject(scene, section, "Displacement",
            "stands beside Contact = " + name_of(boundary.contact) + "; keep only one of the two");

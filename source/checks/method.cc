@@ -162,6 +162,11 @@ void check_primal_path(const Scene<dim> &scene)
     if (boundary.spring)
       reject(scene, section_of(boundary), "Spring",
              "is not offered by " + why + "; run the reduced path on one process, or remove it");
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.plate)
+      reject(scene, section_of(boundary), "Rigid",
+             "is not offered by " + why + "; run the reduced path on one process, or remove it",
+             "true");
   if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",
            "is not offered by " + why + ", whose pressures are multipliers; set multiplier",

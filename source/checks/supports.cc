@@ -3,6 +3,7 @@
 #include <hpvi/checks/rejection.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/plate_motion.h>
 
 #include <cmath>
 
@@ -112,6 +113,45 @@ void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
                          scene.boundaries[limit.boundary], point, -rest.value);
 }
 
+/**
+ * What @p other asks for at a point that it shares with a plate holds whichever way the plate moves: else its free motions
+ * would be no motions of the body.
+ */
+void check_beside_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
+                        const BoundaryCondition<2> &other, const Tensor<1, 2> &normal,
+                        const Point<2> &point, const double tolerance)
+{
+  const PlateMotion plate(scene, boundary);
+  std::vector<PointCondition<2>> conditions =
+      conditions_at(other, normal, other.symmetry || other.contact == Contact::bilateral, point);
+  for (unsigned int c = 0; other.plate && c < 2; ++c)
+  {
+    Tensor<1, 2> axis;
+    axis[c] = 1.;
+    conditions.push_back(
+        {axis, PlateMotion(scene, other).held(axis, point).value_or(std::nan("")), other.id});
+  }
+  const std::string entry = other.plate ? "Rigid" : support_entry(other),
+                    place = mention(scene, section_of(other), entry) + meeting_place<2> +
+                            to_string(point);
+  for (const PointCondition<2> &condition : conditions)
+  {
+    const std::optional<double> held = plate.held(condition.direction, point);
+    if (!held || std::isnan(condition.value))
+      reject(scene, section_of(boundary), "Rigid",
+             "leaves a plate free to move against " + place +
+                 "; prescribe Displacement and Rotation of the plate as that has it, or end one of "
+                 "the two before",
+             "true");
+    if (std::abs(*held - condition.value) > tolerance)
+      reject(scene, section_of(boundary), "Displacement",
+             "contradicts " + place + " by " + to_string(std::abs(*held - condition.value)) +
+                 "; make both agree there");
+  }
+  if (const auto held = plate.held(normal, point);
+      other.is_unilateral() && held && *held > other.gap_at(point) + tolerance)
+    reject_penetration(scene, boundary, other, point, *held - other.gap_at(point));
+}
 } // namespace
 
 template <int dim>
@@ -135,6 +175,11 @@ void check_supports(const Scene<dim> &scene)
             limits.push_back({sides[f].normal(point), boundary.gap_at(point), boundary.id});
         }
         check_meeting(scene, point, conditions, limits, tolerance);
+        if constexpr (dim == 2)
+          for (const auto &[one, other] : {std::pair{a, b}, std::pair{b, a}})
+            if (scene.boundaries[one].plate)
+              check_beside_plate(scene, scene.boundaries[one], scene.boundaries[other],
+                                 sides[other].normal(point), point, tolerance);
       }
 }
 

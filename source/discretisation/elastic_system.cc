@@ -4,6 +4,7 @@
 // local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
+#include <hpvi/body/plates.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/springs.h>
 
@@ -27,6 +28,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   CondensedElements<dim> &elements)
     : f(unknowns.n()), load(load_vector(scene, space, tables, rules))
 {
+  load += plate_loads(scene, space, tables);
   Vector<double> boundary_load(load);
   if (scene.has_body_force())
     condensation.eliminate(boundary_load);
@@ -257,6 +259,17 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
 }
 
 template <int dim>
+Vector<double> plate_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                           const ShapeTables<dim> &tables)
+{
+  Vector<double> load(space.n_dofs());
+  if (scene.has_plates())
+    for (const Plate &plate : plates_of(scene, supported_nodes(scene, space.numbering(), tables)))
+      plate.add_load(load);
+  return load;
+}
+
+template <int dim>
 double ElasticSystem<dim>::work(const Vector<double> &u) const
 {
   // deal.II's product would split the sum by threads; a result must not depend on their number.
@@ -272,4 +285,6 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 template class ElasticSystem<2>;
 template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
                                     const ShapeTables<2> &, const LoadRules<2> &);
+template Vector<double> plate_loads(const Scene<2> &, const DisplacementSpace<2> &,
+                                    const ShapeTables<2> &);
 } // namespace hpvi

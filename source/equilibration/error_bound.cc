@@ -181,6 +181,10 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
     return "the displacement penetrates the foundation between nodes, by " +
            text(correction.penetration() / largest, 2) +
            " of the largest, and supports keep it there";
+  if (solution.scene.has_plates() && has_long_cells(solution))
+    return "cells are more than four times as long as wide, and a stress that is made in all of "
+           "them at "
+           "once knows no rigid plate";
   const std::string &unit = solution.scene.length_unit;
   if (!(data.unread <= 1e-8 * largest))
     return "a prescribed displacement or gap is not smooth along the edge at " +

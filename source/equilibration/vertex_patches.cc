@@ -113,6 +113,8 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
     other.is_unknown = false;
     return;
   }
+  if (condition.plate)
+    return;
   if (condition.symmetry)
   {
     other.is_unknown = false;

@@ -2,7 +2,7 @@
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/body/edge_constraints.h>
-#include <hpvi/body/supports.h>
+#include <hpvi/body/plates.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/springs.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -121,6 +121,13 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
   sums.sum_up(communicator);
   Equilibrium<dim> result;
   together(communicator, [&]() { result = balance_of(sums, scene); });
+  result.plates = forces.plates;
+  if constexpr (dim == 2)
+    for (PlateState<dim> &plate : result.plates)
+    {
+      const BoundaryForce<dim> &reaction = sums.reactions[plate.boundary];
+      plate.moment = reaction.moment - moment_of(plate.centre - sums.centre, reaction.force);
+    }
   return result;
 }
 
@@ -211,9 +218,12 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
   const ShapeTables<dim> &tables = solution.tables;
   const Nodes<dim> nodes(space);
   NodalForces<dim> result;
+  // What presses a plate is the force that the plate exerts.
+  Vector<double> loads = system.loads();
+  loads -= plate_loads(solution.scene, space, tables);
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
-    if (system.loads()[dof] != 0.)
-      result.loads.push_back({nodes.component[dof], system.loads()[dof], nodes.x[dof]});
+    if (loads[dof] != 0.)
+      result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof]});
 
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
@@ -244,8 +254,15 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         }
     }
 
-  const Vector<double> reactions = support_reactions(solution, system.loads());
-  for (const SupportedNode<dim> &node : supported_nodes(solution.scene, space.numbering(), tables))
+  const Vector<double> reactions = support_reactions(solution, loads);
+  const auto supported = supported_nodes(solution.scene, space.numbering(), tables);
+  for (const Plate &plate : plates_of(solution.scene, supported))
+  {
+    const auto q = plate.amounts(solution.u);
+    result.plates.push_back(
+        {plate.boundary(), plate.motion().centre(), Tensor<1, dim>({q[0], q[1]}), q[2]});
+  }
+  for (const SupportedNode<dim> &node : supported)
   {
     Tensor<1, dim> force;
     for (unsigned int c = 0; c < dim; ++c)

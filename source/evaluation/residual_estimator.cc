@@ -244,12 +244,14 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
 
 // @sect3{Under loads}
 //
-// Against the load and what springs exert. A component that a support prescribes has no residual:
-// whatever traction it needs is its reaction.
+// Against the load and what springs exert. A component that a support prescribes has no residual, and a rigid plate none
+// at all: whatever traction they need is their reaction, and the discrete equations balance what presses the plate.
 template <int dim>
 void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
 {
   const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
+  if (condition.plate)
+    return;
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
   const FacePoints points = face_points(cell, face, table);

@@ -86,6 +86,31 @@ std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::b
   return points;
 }
 
+namespace
+{
+/** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free". */
+template <int dim>
+void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
+               std::vector<std::string> &phrases)
+{
+  const auto names = [](const unsigned int m) -> std::array<std::string, 2>
+  {
+    if (m == dim)
+      return {{"rotation", "moment"}};
+    return {{std::string("u") + coordinates[m], std::string("F") + coordinates[m]}};
+  };
+  phrases.push_back("rigid plate");
+  for (unsigned int m = 0; m < plate.n_motions; ++m)
+    if (plate.displacement[m])
+      phrases.push_back(names(m)[0] + " = " +
+                        with_unit(*plate.displacement[m], m < dim ? scene.length_unit : "rad"));
+    else if (plate.force[m] != 0)
+      phrases.push_back(names(m)[1] + " = " + text(scene.thickness * plate.force[m], 4));
+    else
+      phrases.push_back(names(m)[0] + " free");
+}
+} // namespace
+
 template <int dim>
 std::vector<std::string> support_phrases(const Scene<dim> &scene,
                                          const BoundaryCondition<dim> &boundary,
@@ -102,6 +127,8 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
           std::string("spring ") + name + " = " +
           range_in_words(values_at<dim>(points, k),
                          stiffness.front() == '/' || stiffness.back() == '/' ? "" : stiffness));
+  if (boundary.plate)
+    add_plate(scene, *boundary.plate, phrases);
   if (!boundary.has_displacement())
     return phrases;
   bool is_clamp = true;
@@ -128,7 +155,8 @@ std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary
   const auto found =
       std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
                    [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
-  const std::string kind = found->symmetry                               ? "symmetry "
+  const std::string kind = found->plate                                  ? "plate "
+                           : found->symmetry                             ? "symmetry "
                            : found->spring && !found->has_displacement() ? "spring "
                                                                          : "support ";
   return kind + boundary;

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/plate_report.h>
 #include <hpvi/output/record.h>
 
 #include <algorithm>
@@ -290,7 +291,8 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
                      { return scene.boundaries[state.boundary].name == reaction.boundary; }))
       words += std::exchange(separator, "") + kind_of_support(scene, reaction.boundary) +
                ": force " + point_text(clean(reaction.force, scale)) + ", " +
-               moment_text(reaction, equilibrium) + "\n";
+               moment_text(reaction, equilibrium) +
+               plate_in_words(scene, reaction.boundary, equilibrium) + "\n";
   for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
     words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
   return words;
@@ -362,7 +364,8 @@ std::string loads_in_words(const Scene<2> &scene)
   const double size = scene.geometry.diameter();
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
          text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +
-         " about " + point_text<2>(sum.centre) + "\n";
+         " about " + point_text<2>(sum.centre) +
+         (scene.has_plates() ? ", without those on rigid plates" : "") + "\n";
 }
 
 std::string loads_json(const std::optional<LoadSum> &loads)

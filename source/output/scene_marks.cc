@@ -112,6 +112,67 @@ double draw_symmetry(SceneSheet &sheet, const MarkedPart &marked, const double b
   return band + 13.;
 }
 
+namespace
+{
+/** Half a circle with a head, from where the plate is pushed on one side to the other. */
+void draw_turn(Drawing &drawing, const Station &place, const double away,
+               const bool is_counterclockwise)
+{
+  constexpr double radius = 16.;
+  const PageVector along({-place.normal[1], place.normal[0]});
+  const PagePoint middle = place.at + away * place.normal;
+  std::vector<PagePoint> arc;
+  for (unsigned int k = 0; k <= 20; ++k)
+  {
+    const double angle = numbers::PI * k / 20.;
+    arc.push_back(middle + radius * std::cos(angle) * along +
+                  radius * std::sin(angle) * place.normal);
+  }
+  // y grows downwards on the page: counterclockwise from the one end or from the other
+  const bool is_from_begin =
+      (along[0] * place.normal[1] - along[1] * place.normal[0] < 0) == is_counterclockwise;
+  if (!is_from_begin)
+    std::reverse(arc.begin(), arc.end());
+  drawing.line(arc, "class=\"moment\" " + stroke(mark_colours::load, 1.4));
+  drawing.arrow(arc[arc.size() - 4], arc.back(), ArrowHead::filled, mark_colours::load);
+}
+} // namespace
+
+/** A thick bar, with its force and moment at the mean point. */
+double draw_plate(SceneSheet &sheet, const MarkedPart &marked, const double band)
+{
+  if (!marked.condition.plate)
+    return band;
+  constexpr double thickness = 9.;
+  const RigidPlate<2> &plate = *marked.condition.plate;
+  Drawing &drawing = sheet.drawing;
+  drawing.begin("plate", marked.condition.name);
+  std::vector<PagePoint> line;
+  for (const Station &place : sheet.stations(marked.part, 4., true))
+    line.push_back(place.at + (band + 1. + thickness / 2) * place.normal);
+  drawing.line(line, "class=\"plate\" stroke-linecap=\"butt\" " +
+                         stroke(mark_colours::ground, thickness));
+  double deepest = band + thickness + 2.;
+  const Station middle = sheet.station(marked.part, 0.5);
+  const Tensor<1, 2> force({plate.force[0], plate.force[1]});
+  if (force.norm() > 0)
+  {
+    const PageVector way = 34. * sheet.direction(force / force.norm());
+    const bool pushes = way * middle.normal < 0;
+    const PagePoint tip = middle.at + deepest * middle.normal;
+    drawing.arrow(pushes ? tip - way : tip, pushes ? tip : tip + way, ArrowHead::filled,
+                  mark_colours::load);
+    deepest += std::max(4., std::abs(way * middle.normal));
+  }
+  if (plate.force[2] != 0)
+  {
+    draw_turn(drawing, middle, deepest, plate.force[2] > 0);
+    deepest += 20.;
+  }
+  drawing.end();
+  return deepest + 2.;
+}
+
 double draw_springs(SceneSheet &sheet, const MarkedPart &marked, const double band)
 {
   if (!marked.condition.spring)
@@ -252,5 +313,6 @@ double draw_words(SceneSheet &sheet, const MarkedPart &marked, const double band
 }
 
 const std::vector<BoundaryMark> boundary_marks = {
-    draw_support, draw_symmetry, draw_springs, draw_foundation, draw_tractions, draw_displacements};
+    draw_support,    draw_plate,     draw_symmetry,     draw_springs,
+    draw_foundation, draw_tractions, draw_displacements};
 } // namespace hpvi

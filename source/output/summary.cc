@@ -3,6 +3,7 @@
 #include <hpvi/base/version.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/plate_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/reader/scene_entries.h>
@@ -76,6 +77,8 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   ending.error_bound = bound_json(step);
   ending.no_error_bound = known(step.bound ? "" : step.no_bound);
   ending.forces = forces_json(step.equilibrium);
+  if (step.scene.has_plates())
+    ending.plates = plates_json(step.scene, step.equilibrium);
   ending.balance = balance_json(step.equilibrium);
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.von_mises = von_mises_json(step.peaks, step.unbounded);
@@ -88,32 +91,35 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       scene.has_unilateral_contact()
           ? normal_contact_names[static_cast<unsigned int>(scene.normal_contact())]
           : "";
-  return json_file({{"status", json_string(status)},
-                    {"stopped_by", known(stopped_by)},
-                    {"message", known(message)},
-                    {"scene", json_string(scene.name)},
-                    {"scene_file", known(scene.parameters ? scene.parameters->file_name() : "")},
-                    {"title", json_string(scene.title)},
-                    {"program", json_string("hpvi " + version())},
-                    {"build", json_string(build_type())},
-                    {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
-                    {"units", units_json(scene.length_unit, scene.stress_unit)},
-                    {"normal_contact", known(normal_contact)},
-                    {"processes", text(processes)},
-                    {"loads", loads_json(loads)},
-                    {"steps", text(steps)},
-                    {"final", steps == 0 ? "null" : json_object(last_row)},
-                    {"loading", loading_json(load, scene.loading.steps)},
-                    {"error_bound", ending.error_bound},
-                    {"no_error_bound", ending.no_error_bound},
-                    {"last_error_bound", last_error_bound},
-                    {"forces", ending.forces},
-                    {"balance", ending.balance},
-                    {"contact", ending.contact},
-                    {"von_mises", ending.von_mises},
-                    {"seconds", json_object(stage_record(times))},
-                    {"warnings", json_lines(warnings)},
-                    {"files", json_lines(files)}});
+  Record entries{{"status", json_string(status)},
+                 {"stopped_by", known(stopped_by)},
+                 {"message", known(message)},
+                 {"scene", json_string(scene.name)},
+                 {"scene_file", known(scene.parameters ? scene.parameters->file_name() : "")},
+                 {"title", json_string(scene.title)},
+                 {"program", json_string("hpvi " + version())},
+                 {"build", json_string(build_type())},
+                 {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
+                 {"units", units_json(scene.length_unit, scene.stress_unit)},
+                 {"normal_contact", known(normal_contact)},
+                 {"processes", text(processes)},
+                 {"loads", loads_json(loads)},
+                 {"steps", text(steps)},
+                 {"final", steps == 0 ? "null" : json_object(last_row)},
+                 {"loading", loading_json(load, scene.loading.steps)},
+                 {"error_bound", ending.error_bound},
+                 {"no_error_bound", ending.no_error_bound},
+                 {"last_error_bound", last_error_bound},
+                 {"forces", ending.forces},
+                 {"balance", ending.balance},
+                 {"contact", ending.contact},
+                 {"von_mises", ending.von_mises},
+                 {"seconds", json_object(stage_record(times))},
+                 {"warnings", json_lines(warnings)},
+                 {"files", json_lines(files)}};
+  if (scene.has_plates())
+    entries.emplace_back("plates", ending.plates);
+  return json_file(entries);
 }
 
 template void Summary::add(const StepReport<2> &, const Record &);

@@ -4,6 +4,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/plate_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -109,7 +110,10 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   read_loads<dim>(expressions, section, side, exact_traction, boundary);
   boundary.symmetry = parameters.boolean(section, "Symmetry");
   if constexpr (dim == 2)
+  {
     read_spring(parameters, expressions, section, points, boundary);
+    read_plate(parameters, expressions, section, points, scene.thickness, boundary);
+  }
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
   boundary.friction.bound =

@@ -123,6 +123,23 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "the "
         "traction -k_n u_n n - k_t u_t t, whichever way the body moves. It may stand beside a load "
         "or a prescribed displacement, not beside contact; empty: none."},
+       {section, "Rigid", "false", matching(Patterns::Bool()), "true or false",
+        "true: the boundary is glued to a rigid plate, as of a testing machine. Displacement is "
+        "that "
+        "of the plate at the mean point of the boundary then, numbers or functions of t; what "
+        "neither it nor Force, Rotation or Moment names is free. It stands without contact, "
+        "symmetry, springs and tractions."},
+       {section, "Force", "", text, "Fx; Fy or nothing",
+        "Force on a rigid plate in all, at the mean point of the boundary [stress length^2, per "
+        "thickness stress length], numbers or functions of t; `free` for a component that is moved "
+        "by Displacement or not loaded; empty: none."},
+       {section, "Rotation", "", text, "one number or nothing",
+        "Small rotation of a rigid plate about that point, counterclockwise [radians]; empty: "
+        "free."},
+       {section, "Moment", "", text, "one number or nothing",
+        "Moment on a rigid plate about that point, counterclockwise [stress length^3, per "
+        "thickness "
+        "stress length^2]; empty: none."},
        {section, "Contact", "none", one_of(contact_names),
         "none, bilateral, unilateral or tangential",
         "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
@@ -298,7 +315,8 @@ void add_program_entries(std::vector<Entry> &entries)
 bool is_of_the_plane(const Entry &entry)
 {
   return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Spring" ||
-         (entry.section == "Output" && entry.name == "Mesh picture") ||
+         entry.name == "Rigid" || entry.name == "Force" || entry.name == "Rotation" ||
+         entry.name == "Moment" || (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }
 

@@ -26,6 +26,20 @@ void raise(double &magnitude, const Expression<dim> &function,
         magnitude = std::max(magnitude, value);
 }
 
+/** Forces and moments as stresses on a body of @p size, rotations as displacements there. */
+template <int dim>
+void raise_by(const RigidPlate<dim> &plate, const double size, DataScale &scale)
+{
+  for (unsigned int m = 0; m < plate.n_motions; ++m)
+  {
+    const double lever = m < dim ? 1. : size;
+    scale.displacement =
+        std::max(scale.displacement, lever * std::abs(plate.displacement[m].value_or(0.)));
+    scale.stress =
+        std::max(scale.stress, std::abs(plate.force[m]) / (lever * std::pow(size, dim - 1)));
+  }
+}
+
 /** @p function, but 0 where that is round-off. */
 template <int dim>
 void drop(const double round_off, Expression<dim> &function)
@@ -37,6 +51,20 @@ void drop(const double round_off, Expression<dim> &function)
           const double value = function->value(x);
           return std::abs(value) < round_off ? 0. : value;
         });
+}
+/** The same of a plate, with round-off of stresses and displacements. */
+template <int dim>
+void drop_round_off(const double stress, const double displacement, const double size,
+                    RigidPlate<dim> &plate)
+{
+  for (unsigned int m = 0; m < plate.n_motions; ++m)
+  {
+    const double lever = m < dim ? 1. : size;
+    if (plate.displacement[m] && std::abs(*plate.displacement[m]) * lever < displacement)
+      plate.displacement[m] = 0.;
+    if (std::abs(plate.force[m]) < stress * lever * std::pow(size, dim - 1))
+      plate.force[m] = 0.;
+  }
 }
 } // namespace
 
@@ -61,6 +89,8 @@ DataScale data_scale(const Scene<dim> &scene)
       raise<dim>(scale.displacement, boundary.displacement[c], points, absolute);
     }
     raise<dim>(scale.displacement, boundary.gap, points, [](const double gap) { return -gap; });
+    if (boundary.plate)
+      raise_by(*boundary.plate, size, scale);
   }
   double softest = scene.largest_weight();
   for (const Material &material : scene.materials)
@@ -102,6 +132,9 @@ Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const D
       drop(round_off(scale.displacement), boundary.displacement[c]);
     }
     drop(round_off(scale.displacement), boundary.gap);
+    if (boundary.plate)
+      drop_round_off(round_off(scale.stress), round_off(scale.displacement),
+                     scene.geometry.diameter(), *boundary.plate);
   }
   return result;
 }

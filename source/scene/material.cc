@@ -15,6 +15,17 @@ using namespace dealii;
 
 namespace
 {
+/** Of C on symmetric tensors, the largest first [stress]. */
+std::array<double, 3> eigenvalues_of(const Orthotropy &orthotropy, const PlaneModel plane)
+{
+  const VoigtMatrix C = inverse(orthotropy.compliance(plane));
+  SymmetricTensor<2, 3> matrix; // in a basis of length 1: xx, yy, sqrt(2) xy
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      matrix[i][j] = C[i][j] * (i == 2 ? std::sqrt(2.) : 1.) * (j == 2 ? std::sqrt(2.) : 1.);
+  return eigenvalues(matrix);
+}
+
 const std::string unnamed = "Material", plane_stress = "stress", plane_strain = "strain",
                   number_words = "a number E > 0 (a stress) from 1e-100 to 1e100";
 const Patterns::Double young_pattern(1e-100, 1e100);
@@ -112,9 +123,14 @@ Material read_material(const Parameters &parameters, const int dim, const std::s
 
 std::optional<Material::Flaw> Material::flaw() const
 {
-  if (!young_pattern.match(text(young)))
+  if (orthotropy)
+  {
+    if (const auto problem = orthotropy->flaw(plane))
+      return Flaw{"Poisson's ratios", *problem, text(orthotropy->poisson[0])};
+  }
+  else if (!young_pattern.match(text(young)))
     return Flaw{"Young's modulus", "is not accepted here; give " + number_words, text(young)};
-  if (!(poisson > -1 && poisson < 0.5))
+  else if (!(poisson > -1 && poisson < 0.5))
     return Flaw{"Poisson's ratio", "is outside (-1, 1/2); an elastic material has -1 < nu < 1/2",
                 text(poisson)};
   if (!(density >= 0 && std::isfinite(density)))
@@ -124,6 +140,8 @@ std::optional<Material::Flaw> Material::flaw() const
 
 std::map<std::string, double> Material::constants() const
 {
+  if (orthotropy)
+    return {};
   return {{"E", young}, {"nu", poisson}, {"mu", mu()}};
 }
 
@@ -133,13 +151,62 @@ std::map<std::string, double> Material::constants() const
  */
 double Material::coercivity(const int dim) const
 {
+  if (orthotropy)
+    return eigenvalues_of(*orthotropy, plane).back();
   return 2 * mu() + std::min(dim * lambda(dim), 0.);
+}
+
+double Material::modulus() const
+{
+  return orthotropy ? std::max(orthotropy->young[0], orthotropy->young[1]) : young;
+}
+
+double Material::locking_ratio(const int dim) const
+{
+  if (!orthotropy)
+    return lambda(dim) / mu();
+  const auto values = eigenvalues_of(*orthotropy, plane);
+  return values.front() / values.back() - 1;
+}
+
+double Material::transverse_stress(const SymmetricTensor<2, 2> &sigma, const double e33) const
+{
+  if (plane == PlaneModel::stress)
+    return 0.;
+  if (!orthotropy)
+    return poisson * trace(sigma) - young * e33;
+  const auto factor = orthotropy->transverse();
+  return factor[0] * sigma[0][0] + factor[1] * sigma[1][1] + factor[2] * sigma[0][1] -
+         orthotropy->young[2] * e33;
+}
+
+/** In plane strain `eps_zz = 0`: what e33 wants to expand is pressed back and widens the plane. */
+SymmetricTensor<2, 2> Material::in_plane(const PlaneStrain &initial) const
+{
+  SymmetricTensor<2, 2> result;
+  result[0][0] = initial[0];
+  result[1][1] = initial[1];
+  result[0][1] = initial[2];
+  if (plane == PlaneModel::stress)
+    return result;
+  const std::array<double, 3> widening =
+      orthotropy ? orthotropy->transverse() : std::array<double, 3>{{poisson, poisson, 0.}};
+  result[0][0] += widening[0] * initial[3];
+  result[1][1] += widening[1] * initial[3];
+  result[0][1] += widening[2] / 2 * initial[3];
+  return result;
 }
 
 std::string Material::locking_in_words(const int dim) const
 {
   std::ostringstream words;
   words.precision(3);
+  if (orthotropy)
+  {
+    words << "the material is " << locking_ratio(dim) + 1
+          << " times as stiff in one direction as in another";
+    return words.str();
+  }
   words << "Poisson's ratio " << text(poisson) << " is near 1/2 (lambda/mu = " << locking_ratio(dim)
         << ')';
   return words.str();
@@ -147,6 +214,9 @@ std::string Material::locking_in_words(const int dim) const
 
 std::string Material::stiffness_in_words() const
 {
+  if (orthotropy)
+    return "Young's moduli " + to_string(orthotropy->young[0]) + ", " +
+           to_string(orthotropy->young[1]);
   return "Young's modulus " + to_string(young);
 }
 

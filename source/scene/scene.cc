@@ -36,7 +36,7 @@ bool BoundaryCondition<dim>::has_traction() const
 template <int dim>
 bool BoundaryCondition<dim>::exerts_forces() const
 {
-  return has_displacement() || has_contact() || symmetry || spring;
+  return has_displacement() || has_contact() || symmetry || spring || plate;
 }
 
 template <int dim>
@@ -74,6 +74,12 @@ template <int dim>
 double BoundaryCondition<dim>::gap_at(const Point<dim> &x) const
 {
   return gap ? gap->value(x) : 0.;
+}
+
+template <int dim>
+Tensor<1, dim> BoundaryCondition<dim>::held_direction(const Tensor<1, dim> &normal) const
+{
+  return contact_direction && has_contact() ? *contact_direction : normal;
 }
 
 unsigned int own_start_degree(const Method method)
@@ -176,6 +182,31 @@ bool Scene<dim>::has_springs() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
                      [](const BoundaryCondition<dim> &boundary) { return bool(boundary.spring); });
+}
+
+template <int dim>
+bool Scene<dim>::has_plates() const
+{
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const BoundaryCondition<dim> &boundary) { return bool(boundary.plate); });
+}
+
+template <int dim>
+bool Scene<dim>::has_initial_strain() const
+{
+  return std::any_of(initial_strains.begin(), initial_strains.end(),
+                     [](const InitialStrain<dim> &strain) { return bool(strain); });
+}
+
+template <int dim>
+Tensor<2, dim> Scene<dim>::initial_strain(const types::material_id material,
+                                          const Point<dim> &x) const
+{
+  if constexpr (dim == 2)
+    if (const InitialStrain<dim> &initial = initial_strains.at(material))
+      return materials[material].in_plane(initial.value(x));
+  (void)material, (void)x;
+  return {};
 }
 
 template <int dim>

@@ -55,6 +55,7 @@ invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
 invalid "Material/Thickness" "only a body in the plane" -- "Material/Thickness=2"
 invalid "Boundary top/Spring" "springs" -- "Boundary top/Spring=1; 1"
+invalid "Boundary top/Rigid" "only a body in the plane" -- "Boundary top/Rigid=true"
 invalid "Boundary top/Shear" "two tangents" -- "Boundary top/Shear=1"
 invalid "Boundary foot/Where" "inside a face" "grid line" -- "Boundary foot/On=top" "Boundary foot/Where=x^2 + z^2 - 0.5"
 invalid "Material soft/Where" "inside a cell" -- "Material soft/Where=x^2 + y^2 + z^2 - 0.5"

@@ -18,6 +18,7 @@ struct SupportedNode
   std::array<dealii::types::global_dof_index, dim> dofs; ///< one by component
   dealii::Point<dim> x;
   std::vector<PointCondition<dim>> conditions;
+  bool is_on_plate = false; ///< conditions say where its force can point to, and Plate what it does
 
   /**
    * The force at this node, taken apart by the conditions that can exert it: coefficients mu with
@@ -27,7 +28,7 @@ struct SupportedNode
 };
 
 /**
- * The nodes on boundaries with prescribed displacements or bilateral contact, by their first
+ * The nodes on boundaries with prescribed displacements, bilateral contact or a rigid plate, by their first
  * unknown; a node in a corner stands once, with the conditions of all boundaries that meet there.
  */
 template <int dim>

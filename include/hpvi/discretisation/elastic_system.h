@@ -59,6 +59,11 @@ private:
 template <int dim>
 dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                    const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
+
+/** The same of the forces and moments on rigid plates. */
+template <int dim>
+dealii::Vector<double> plate_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                                   const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif

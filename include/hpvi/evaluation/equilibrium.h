@@ -26,6 +26,17 @@ struct BoundaryForce
   Moment<dim> moment{};         ///< about Equilibrium::centre
 };
 
+/** What became of a rigid plate. */
+template <int dim>
+struct PlateState
+{
+  dealii::types::boundary_id boundary;
+  dealii::Point<dim> centre;           ///< c, the mean point of the boundary
+  dealii::Tensor<1, dim> displacement; ///< U, that of c [length]
+  double rotation;                     ///< phi, counterclockwise [rad]
+  double moment = 0;                   ///< that it exerts about c [stress length^2]
+};
+
 /**
  * The forces on the body as the discrete solution has them: nodal reactions `a(u_N, v_i) - L(v_i)`.
  * They are the exact resultants of the discrete problem, where an integral of sigma(u_N) n over a
@@ -37,6 +48,7 @@ struct Equilibrium
 {
   dealii::Point<dim> centre;                 ///< of the body, for moments
   std::vector<BoundaryForce<dim>> reactions; ///< of boundaries with supports or contact, by id
+  std::vector<PlateState<dim>> plates;       ///< by id; their forces are among the reactions
   BoundaryForce<dim> loads;                  ///< of all tractions and the body force together
   double force_imbalance = 0;  ///< |sum of forces| over the sum of absolute nodal forces
   double moment_imbalance = 0; ///< the same of moments
@@ -62,6 +74,7 @@ struct NodalForces
 
   std::vector<Load> loads;
   std::vector<Reaction> reactions;
+  std::vector<PlateState<dim>> plates; ///< without their moments
 };
 
 /** Adds up @p forces by boundary, over all processes. Collective. */

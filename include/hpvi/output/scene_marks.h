@@ -20,6 +20,9 @@ double draw_support(SceneSheet &sheet, const MarkedPart &marked, double band);
 /** A dashed axis along the boundary, and short pairs of strokes across it. */
 double draw_symmetry(SceneSheet &sheet, const MarkedPart &marked, double band);
 
+/** A thick bar, with force and moment at the mean point of the boundary. */
+double draw_plate(SceneSheet &sheet, const MarkedPart &marked, double band);
+
 /** Zigzags from the body to a line of ground. */
 double draw_springs(SceneSheet &sheet, const MarkedPart &marked, double band);
 

@@ -35,7 +35,8 @@ struct Summary
   struct Ending
   {
     std::string error_bound = "null", no_error_bound = "null"; ///< or the reason
-    std::string forces = "null", balance = "null", contact = "null", von_mises = "null";
+    std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
+                plates = "null";
   };
   Ending ending;
 

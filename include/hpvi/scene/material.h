@@ -4,6 +4,8 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
+#include <hpvi/scene/initial_strain.h>
+#include <hpvi/scene/orthotropy.h>
 
 #include <map>
 #include <optional>
@@ -23,16 +25,18 @@ enum class PlaneModel
 };
 
 /**
- * Isotropic linear elasticity, `sigma = lambda tr(eps) I + 2 mu eps` (thesis, Section 2.1). Stages ask it and
- * HookesLaw, which has the formulas; Lame's parameters are for closed forms and for what is below.
+ * Linear elasticity (thesis, Section 2.1), isotropic, `sigma = lambda tr(eps) I + 2 mu eps`, or with the general tensor (2.7) of
+ * Orthotropy. Stages ask it and HookesLaw, which has the formulas; Lame's parameters are for closed forms and for
+ * what is below.
  */
 struct Material
 {
-  double young = 1.;                     ///< Young's modulus E > 0, a stress
-  double poisson = 0.3;                  ///< Poisson's ratio nu in (-1, 1/2), dimensionless
-  PlaneModel plane = PlaneModel::strain; ///< used in two dimensions only
-  double density = 0;                    ///< mass per volume, what gravity acts on
-  std::string name{};                    ///< of its section; empty: the unnamed one
+  double young = 1.;                      ///< Young's modulus E > 0, a stress
+  double poisson = 0.3;                   ///< Poisson's ratio nu in (-1, 1/2), dimensionless
+  PlaneModel plane = PlaneModel::strain;  ///< used in two dimensions only
+  double density = 0;                     ///< mass per volume, what gravity acts on
+  std::string name{};                     ///< of its section; empty: the unnamed one
+  std::optional<Orthotropy> orthotropy{}; ///< in the place of E and nu, in the plane
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
   double mu() const
@@ -53,20 +57,17 @@ struct Material
   /** Stress over shear [stress]: weighs residuals of parts with each other, makes tractions of displacements. */
   double weight() const
   {
-    return mu();
+    return orthotropy ? orthotropy->shear : mu();
   }
 
   /** Stress over strain of a bar [stress]. */
-  double modulus() const
-  {
-    return young;
-  }
+  double modulus() const;
 
-  /** How much stiffer against changes of volume than against shear: low degrees lock where it is large. */
-  double locking_ratio(const int dim) const
-  {
-    return lambda(dim) / mu();
-  }
+  /**
+   * How much stiffer against changes of volume, or along fibres, than against shear: low degrees lock where it is large. lambda/mu;
+   * half the largest by the least eigenvalue of C, less one, is the same and general.
+   */
+  double locking_ratio(int dim) const;
 
   /** Why it locks, for messages: "Poisson's ratio 0.4999 is near 1/2 (lambda/mu = 5e+03)". */
   std::string locking_in_words(int dim) const;
@@ -74,16 +75,19 @@ struct Material
   /** For messages: "Young's modulus 210000". */
   std::string stiffness_in_words() const;
 
-  /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress]. */
-  double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma) const
-  {
-    return plane == PlaneModel::strain ? poisson * dealii::trace(sigma) : 0.;
-  }
+  /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress] and the initial strain e33 across it. */
+  double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma, double e33 = 0) const;
 
-  /** Is lambda above 20 mu, as from nu = 0.476 on? Below, mixed methods are no better than others. */
+  /** What an initial strain is in the plane: there `sigma = C : (eps - result)`; in plane strain e33 presses, too. */
+  dealii::SymmetricTensor<2, 2> in_plane(const PlaneStrain &initial) const;
+
+  /**
+   * Is lambda above 20 mu, as from nu = 0.476 on? Below, mixed methods are no better than others; orthotropic materials have
+   * none.
+   */
   bool is_nearly_incompressible(const int dim) const
   {
-    return lambda(dim) > 20. * mu();
+    return !orthotropy && lambda(dim) > 20. * mu();
   }
 
   /** By their names in expressions. */
@@ -114,20 +118,29 @@ std::vector<Entry> material_entries(int dim, const std::string &name);
 Material read_material(const Parameters &parameters, int dim, const std::string &name);
 
 /**
- * Hooke's law of one material, with Lame's parameters at hand for loops over points and unknowns. The
- * entry (i,j) of a gradient is `d u_i / d x_j`.
+ * Hooke's law of one material, with its moduli at hand for loops over points and unknowns. The
+ * entry (i,j) of a gradient is `d u_i / d x_j`; where there is an initial strain, it is subtracted from that.
  */
 template <int dim>
 class HookesLaw
 {
 public:
-  explicit HookesLaw(const Material &material) : lambda(material.lambda(dim)), mu(material.mu())
+  explicit HookesLaw(const Material &material)
+      : is_isotropic(!material.orthotropy), lambda(is_isotropic ? material.lambda(dim) : 0.),
+        mu(is_isotropic ? material.mu() : 0.)
   {
+    if (!is_isotropic)
+    {
+      S = material.orthotropy->compliance(material.plane);
+      C = inverse(S);
+    }
   }
 
   /** sigma of a displacement gradient [stress]. */
   dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient) const
   {
+    if (!is_isotropic)
+      return general_stress(gradient);
     const double pressure = lambda * dealii::trace(gradient);
     dealii::SymmetricTensor<2, dim> sigma;
     for (unsigned int i = 0; i < dim; ++i)
@@ -152,9 +165,15 @@ public:
     dealii::Tensor<1, dim> result;
     for (unsigned int c = 0; c < dim; ++c)
     {
-      result[c] += mu * dealii::trace(second[c]);
+      if (is_isotropic)
+        result[c] += mu * dealii::trace(second[c]);
       for (unsigned int d = 0; d < dim; ++d)
-        result[d] += (lambda + mu) * second[c][d][c];
+        if (is_isotropic)
+          result[d] += (lambda + mu) * second[c][d][c];
+        else
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = 0; l < dim; ++l)
+              result[c] += C[voigt(c, d)][voigt(k, l)] * second[k][l][d];
     }
     return result;
   }
@@ -162,6 +181,8 @@ public:
   /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy. */
   double energy_product(const dealii::Tensor<2, dim> &gradient) const
   {
+    if (!is_isotropic)
+      return dealii::scalar_product(dealii::Tensor<2, dim>(general_stress(gradient)), gradient);
     const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
     const double divergence = dealii::trace(strain);
     return lambda * divergence * divergence + 2 * mu * dealii::scalar_product(strain, strain);
@@ -171,17 +192,27 @@ public:
   template <class Stress>
   double complementary_product(const Stress &s, const Stress &t) const
   {
+    if (!is_isotropic)
+    {
+      double sum = 0;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = k; l < dim; ++l)
+              sum += S[voigt(i, j)][voigt(k, l)] * s[i][j] * t[k][l];
+      return sum;
+    }
     const double nu = lambda / (dim * lambda + 2 * mu);
     return (dealii::scalar_product(s, t) - nu * dealii::trace(s) * dealii::trace(t)) / (2 * mu);
   }
 
-  /** The factor of `(tr eps)^2` in energy_product() [stress], what locks where it is large. */
+  /** The factor of `(tr eps)^2` in energy_product() [stress], what locks where it is large; of isotropic materials. */
   double volume_modulus() const
   {
     return lambda;
   }
 
-  /** What of a stress with this @p trace resists the change of volume, `lambda tr(eps)` [stress]. */
+  /** What of a stress with this @p trace resists the change of volume, `lambda tr(eps)` [stress]; likewise. */
   double volumetric_stress(const double trace) const
   {
     return lambda / (dim * lambda + 2 * mu) * trace;
@@ -194,6 +225,14 @@ public:
   template <class Products>
   double stiffness(const Products &P, const unsigned int c, const unsigned int d) const
   {
+    if (!is_isotropic)
+    {
+      double general = 0;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+          general += C[voigt(c, a)][voigt(d, b)] * P(a, b);
+      return general;
+    }
     double sum = lambda * P(c, d) + mu * P(d, c);
     for (unsigned int a = 0; c == d && a < dim; ++a)
       sum += mu * P(a, a);
@@ -201,7 +240,26 @@ public:
   }
 
 private:
+  /** Of a component in a VoigtMatrix; orthotropic materials are those of the plane. */
+  static unsigned int voigt(const unsigned int i, const unsigned int j)
+  {
+    return i == j ? i % 2 : 2;
+  }
+
+  dealii::SymmetricTensor<2, dim> general_stress(const dealii::Tensor<2, dim> &gradient) const
+  {
+    dealii::SymmetricTensor<2, dim> sigma;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int l = 0; l < dim; ++l)
+            sigma[i][j] += C[voigt(i, j)][voigt(k, l)] * gradient[k][l];
+    return sigma;
+  }
+
+  const bool is_isotropic;
   const double lambda, mu;
+  VoigtMatrix C{}, S{}; ///< of others
 };
 } // namespace hpvi
 

@@ -7,7 +7,9 @@
 #include <hpvi/scene/exact_solution.h>
 #include <hpvi/scene/friction_law.h>
 #include <hpvi/scene/geometry.h>
+#include <hpvi/scene/initial_strain.h>
 #include <hpvi/scene/material.h>
+#include <hpvi/scene/rigid_plate.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -69,13 +71,16 @@ struct BoundaryCondition
   Load<dim> traction;                       ///< components of G [stress]; null: zero
   bool symmetry = false;                    ///< u_n = 0 without friction, a plane of symmetry
   Spring<dim> spring;
+  std::optional<RigidPlate<dim>> plate;
   Contact contact = Contact::none;
   Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
   FrictionLaw<dim> friction;
+  /** A unit vector d out of the body along which contact is measured, in the plane; nothing: the normal. */
+  std::optional<dealii::Tensor<1, dim>> contact_direction;
 
   bool has_displacement() const; ///< is any component prescribed?
   bool has_traction() const;     ///< is any component given?
-  bool exerts_forces() const;    ///< a support, contact or springs?
+  bool exerts_forces() const;    ///< a support, plate, contact or springs?
   bool has_contact() const;
   bool is_unilateral() const;
   /** u_n = 0 as a constraint of the space: symmetry; bilateral contact whose friction knows no pressure. */
@@ -83,6 +88,8 @@ struct BoundaryCondition
   bool has_pressure()
       const; ///< a multiplier of its own for T_n: unilateral, or friction knows the pressure
   double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
+  /** Along which contact and symmetry measure u_n, where the body has @p normal. */
+  dealii::Tensor<1, dim> held_direction(const dealii::Tensor<1, dim> &normal) const;
 };
 
 /** The methods of Chapter 5, and one that needs fewer unknowns and less time. */
@@ -259,6 +266,8 @@ struct Scene
   Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
   /** In its place, by material id, where materials differ in what they weigh. */
   std::vector<Load<dim>> body_force_of_material;
+  /** By material id; empty: there is none anywhere. */
+  std::vector<InitialStrain<dim>> initial_strains;
   double thickness = 1;                                     ///< of a plane body [length]
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
@@ -315,8 +324,21 @@ struct Scene
                                           : body_force_of_material.at(cell->material_id());
   }
 
+  bool has_initial_strain() const;
+
+  /** That of @p cell at @p x, in the plane (Material::in_plane()): what HookesLaw wants to be subtracted from gradients. */
+  template <class Cell>
+  dealii::Tensor<2, dim> initial_strain_in(const Cell &cell, const dealii::Point<dim> &x) const
+  {
+    return initial_strains.empty() ? dealii::Tensor<2, dim>()
+                                   : initial_strain(cell->material_id(), x);
+  }
+  dealii::Tensor<2, dim> initial_strain(dealii::types::material_id material,
+                                        const dealii::Point<dim> &x) const;
+
   bool has_parts() const; ///< is any boundary a part of a side?
   bool has_springs() const;
+  bool has_plates() const;
 
   /** Is any of the materials? */
   bool is_nearly_incompressible() const;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_plate_reader_h
+#define hpvi_plate_reader_h
+
+#include <hpvi/input/expressions.h>
+#include <hpvi/scene/scene.h>
+
+#include <string>
+
+namespace hpvi
+{
+/**
+ * Takes what @p section says of a rigid plate, Displacement among it, which is of no node then. Values are those at the
+ * first of @p points, wherever that is. Without Rigid its entries must be empty.
+ */
+void read_plate(const Parameters &parameters, const ExpressionReader<2> &expressions,
+                const std::string &section, const std::vector<dealii::Point<2>> &points,
+                double thickness, BoundaryCondition<2> &boundary);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_initial_strain_h
+#define hpvi_initial_strain_h
+
+#include <deal.II/base/point.h>
+#include <hpvi/scene/expression.h>
+
+#include <array>
+
+namespace hpvi
+{
+/** Tensor components of a strain (e12 is half the angle) in and across the plane: e11, e22, e12, e33. */
+using PlaneStrain = std::array<double, 4>;
+
+/** The strain eps_0 of a material that carries no stress: stresses are `C : (eps - eps_0)`. */
+template <int dim>
+struct InitialStrain
+{
+  std::array<Expression<dim>, 4> components; ///< as PlaneStrain has them; null: zero
+  double expansion = 0;                      ///< alpha [1/temperature], in all directions
+  Expression<dim> temperature;               ///< difference to the state without stress; null: zero
+
+  explicit operator bool() const;
+
+  PlaneStrain value(const dealii::Point<dim> &x) const;
+};
+} // namespace hpvi
+
+#endif
