@@ -3,6 +3,7 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/interpolation.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
@@ -39,6 +40,7 @@ struct LoadHistory<dim>::Evolution
   LoadStep load;
   unsigned int n_steps = 0; ///< of finished load steps
   double seconds = 0;       ///< likewise
+  double initial_part = 0;  ///< of stored energy: initial_energy()
   unsigned int first = 0;   ///< load step with an error; 0: none yet
   double tolerance = 0;     ///< that it sets for those after it
   Warnings warnings;        ///< the worst of each kind
@@ -142,7 +144,7 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
 {
   if (report.reduced)
     count_work(*report.reduced);
-  load.stored = 0.5 * report.energies.norm * report.energies.norm;
+  load.stored = 0.5 * report.energies.norm * report.energies.norm + initial_part;
   report.load = load;
   n_steps = report.number;
   seconds = report.seconds;
@@ -168,6 +170,11 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
     const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
                            : work_from_rest(solution, loads);
     load.work += scene.thickness * done.external;
+    const double initial =
+        scene.thickness *
+        initial_energy(solution.scene, solution.displacement_space, solution.tables, solution.u);
+    load.work += initial - initial_part; // what heats the body does work on it, too
+    initial_part = initial;
     load.dissipated += scene.thickness * done.dissipated;
     load.released += scene.thickness * done.released;
     load.unbalanced += scene.thickness * done.unbalanced;

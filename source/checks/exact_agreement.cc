@@ -175,6 +175,9 @@ void check_exact_solution(const Scene<2> &scene)
     reject(scene, "Body force", "Expression",
            "contradicts " + mention(scene, "Exact solution", "Solution") +
                ", which has none; remove it or set Solution = none");
+  if (scene.has_initial_strain())
+    reject(scene, "Exact solution", "Solution",
+           "knows no initial strain; remove it, or measure errors by Error/Reference solution");
   if (scene.materials.size() > 1)
     reject(scene, "Exact solution", "Solution",
            "knows one material, and the scene has " + std::to_string(scene.materials.size()) +

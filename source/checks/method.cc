@@ -162,6 +162,10 @@ void check_primal_path(const Scene<dim> &scene)
     if (boundary.spring)
       reject(scene, section_of(boundary), "Spring",
              "is not offered by " + why + "; run the reduced path on one process, or remove it");
+  if (scene.has_initial_strain())
+    reject(scene, "Material", "Initial strain",
+           "or Thermal expansion is not offered by " + why +
+               "; run the reduced path on one process, or remove it");
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.plate)
       reject(scene, section_of(boundary), "Rigid",

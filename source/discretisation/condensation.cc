@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/discretisation/condensation.h>
+#include <hpvi/discretisation/initial_stress.h>
 
 #include <iterator>
 
@@ -29,7 +30,7 @@ void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
 template <int dim>
 CondensedElements<dim>::CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables,
                                           const Volume volume)
-    : matrices(scene, tables, volume), interior_loads(scene.has_body_force())
+    : matrices(scene, tables, volume), interior_loads(has_interior_loads(scene))
 {
 }
 

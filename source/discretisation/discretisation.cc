@@ -6,6 +6,7 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/discretisation/discretisation.h>
+#include <hpvi/discretisation/initial_stress.h>
 
 namespace hpvi
 {
@@ -83,7 +84,7 @@ Vector<double> Discretisation<dim>::displacement(const Vector<double> &x) const
 {
   Vector<double> u = unknowns.distribute(x);
   condensation.extend(u);
-  if (scene.has_body_force())
+  if (has_interior_loads(scene))
     condensation.add_interior(system.loads(), u);
   return u;
 }

@@ -6,6 +6,7 @@
 // same way share the product, and of a mesh that has been bisected again and again many are.
 #include <hpvi/body/plates.h>
 #include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/springs.h>
 
 #include <algorithm>
@@ -28,9 +29,8 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   CondensedElements<dim> &elements)
     : f(unknowns.n()), load(load_vector(scene, space, tables, rules))
 {
-  load += plate_loads(scene, space, tables);
   Vector<double> boundary_load(load);
-  if (scene.has_body_force())
+  if (has_interior_loads(scene))
     condensation.eliminate(boundary_load);
   f = unknowns.collect(boundary_load);
   std::vector<Contribution> contributions;
@@ -213,6 +213,18 @@ template <int dim>
 Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                            const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
 {
+  Vector<double> load = applied_loads(scene, space, tables, rules);
+  if (scene.has_plates())
+    load += plate_loads(scene, space, tables);
+  if (scene.has_initial_strain())
+    load += initial_strain_loads(scene, space, tables);
+  return load;
+}
+
+template <int dim>
+Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                             const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
+{
   Vector<double> load(space.n_dofs());
   const bool interior_loads = scene.has_body_force();
   for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -263,9 +275,8 @@ Vector<double> plate_loads(const Scene<dim> &scene, const DisplacementSpace<dim>
                            const ShapeTables<dim> &tables)
 {
   Vector<double> load(space.n_dofs());
-  if (scene.has_plates())
-    for (const Plate &plate : plates_of(scene, supported_nodes(scene, space.numbering(), tables)))
-      plate.add_load(load);
+  for (const Plate &plate : plates_of(scene, supported_nodes(scene, space.numbering(), tables)))
+    plate.add_load(load);
   return load;
 }
 
@@ -285,6 +296,8 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 template class ElasticSystem<2>;
 template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
                                     const ShapeTables<2> &, const LoadRules<2> &);
+template Vector<double> applied_loads(const Scene<2> &, const DisplacementSpace<2> &,
+                                      const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> plate_loads(const Scene<2> &, const DisplacementSpace<2> &,
                                     const ShapeTables<2> &);
 } // namespace hpvi

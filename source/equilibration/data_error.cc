@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/admissible_pressure.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/displacement_lift.h>
@@ -234,6 +235,26 @@ double absolute_traction(const EquilibratedStress &stress, const unsigned int in
 
 } // namespace
 
+/** What s lacks of the initial stress is a stress: it needs no constant. What the discrete equations miss of it does work on u_N. */
+void DataError::add_initial_strain(const Solution<2> &solution, const EquilibratedStress &stress)
+{
+  double missed = 0;
+  for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
+  {
+    oscillation[cell] += stress.missed_initial_stress(cell);
+    missed += initial_stress_error(solution.scene, stress.patches().cells()[cell].iterator,
+                                   solution.displacement_space.degrees()[cell], solution.tables);
+  }
+  const double norm = std::sqrt(
+      internal_forces(solution.scene, solution.displacement_space, solution.tables, solution.u)
+          .energy_product);
+  missed = std::sqrt(missed);
+  if (missed <= 1e-12 * norm)
+    return; // round-off
+  unresolved += missed;
+  unread_work += missed * norm;
+}
+
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
     : oscillation(stress.squares.size()), lifts(oscillation.size()),
       unresolved(unresolved_loads(solution, stress))
@@ -280,6 +301,8 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     oscillation[cell] *=
         shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
   }
+  if (solution.scene.has_initial_strain())
+    add_initial_strain(solution, stress);
   lift = std::sqrt(lift);
 }
 } // namespace hpvi

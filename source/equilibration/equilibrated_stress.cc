@@ -73,6 +73,11 @@ double EquilibratedStress::missed_force(const unsigned int cell) const
   return macro_stresses ? macro_stresses->missed_force(cell) : plain_stresses->missed_force(cell);
 }
 
+double EquilibratedStress::missed_initial_stress(const unsigned int cell) const
+{
+  return plain_stresses ? plain_stresses->missed_initial_stress(cell) : 0.;
+}
+
 PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned int hat) const
 {
   return macro_stresses ? macro_stresses->patch_cell(cell, hat)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/element_matrices.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/equilibration/macro_stresses.h>
 
 #include <algorithm>
@@ -89,7 +90,8 @@ struct Fields
 
 Fields fields_of(const MacroStressElement &element, const unsigned int f, const double h,
                  const CellMap<2> &map, const TriangleTable &table, const Gradient &gradient,
-                 const HookesLaw<2> &law, const Load<2> *const load)
+                 const HookesLaw<2> &law, const Load<2> *const load,
+                 const std::function<Tensor<2, 2>(const Point<2> &)> &initial_strain)
 {
   Fields result;
   const auto &piece = element.piece(f);
@@ -103,7 +105,8 @@ Fields fields_of(const MacroStressElement &element, const unsigned int f, const 
   const std::vector<Tensor<2, 2>> slopes = gradient.at(result.reference);
   for (unsigned int q = 0; q < slopes.size(); ++q)
   {
-    const Tensor<2, 2> s = law.stress(slopes[q] * invert(map.jacobian(result.reference[q])));
+    const Tensor<2, 2> s = law.stress(slopes[q] * invert(map.jacobian(result.reference[q])) -
+                                      initial_strain(result.points[q]));
     result.sigma.push_back({{s[0][0], s[1][1], s[0][1]}});
   }
   if (load)
@@ -241,6 +244,9 @@ void MacroStresses::set_cell(const unsigned int index)
   unsigned int n_gauss = stiffness_points(map, p) + k / 2 + 2;
   if (solution.scene.has_body_force())
     n_gauss = std::max(n_gauss, solution.spaces->loads->body_force(iterator, p).most_points + 2);
+  if (solution.scene.has_initial_strain())
+    n_gauss =
+        std::max(n_gauss, initial_strain_points(solution.scene, iterator, p, solution.tables) + 2);
   const TriangleTable &table = cache.triangles.table(k, n_gauss);
   const Gradient gradient(solution, index, cache.legendre);
   const HookesLaw<2> law(solution.scene.material_of(iterator));
@@ -250,7 +256,9 @@ void MacroStresses::set_cell(const unsigned int index)
       solution.scene.has_body_force() ? &solution.scene.body_force_in(iterator) : nullptr;
   for (unsigned int f = 0; f < 4; ++f)
   {
-    const Fields fields = fields_of(*cell.element, f, cell.h, map, table, gradient, law, force);
+    const Fields fields =
+        fields_of(*cell.element, f, cell.h, map, table, gradient, law, force,
+                  [&](const Point<2> &x) { return solution.scene.initial_strain_in(iterator, x); });
     const std::vector<double> moments = moments_of(fields, map, cell.h, table);
     std::vector<double> sum(5 * n);
     for (unsigned int i = 0; i < moments.size(); ++i)

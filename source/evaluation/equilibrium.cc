@@ -3,6 +3,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/plates.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/springs.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -218,9 +219,13 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
   const ShapeTables<dim> &tables = solution.tables;
   const Nodes<dim> nodes(space);
   NodalForces<dim> result;
-  // What presses a plate is the force that the plate exerts.
-  Vector<double> loads = system.loads();
-  loads -= plate_loads(solution.scene, space, tables);
+  // What presses a plate is the force that the plate exerts, and initial strains balance themselves.
+  Vector<double> loads = system.loads(), reacting(loads);
+  if (solution.scene.has_plates())
+    reacting -= plate_loads(solution.scene, space, tables);
+  loads = reacting;
+  if (solution.scene.has_initial_strain())
+    loads -= initial_strain_loads(solution.scene, space, tables);
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (loads[dof] != 0.)
       result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof]});
@@ -254,7 +259,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         }
     }
 
-  const Vector<double> reactions = support_reactions(solution, loads);
+  const Vector<double> reactions = support_reactions(solution, reacting);
   const auto supported = supported_nodes(solution.scene, space.numbering(), tables);
   for (const Plate &plate : plates_of(solution.scene, supported))
   {

@@ -146,8 +146,10 @@ PointValue<dim> value_at(const Field<dim> &field, const typename Field<dim>::Cel
     for (unsigned int j = 0; j < dim; ++j)
       gradient[c][j] = derivatives[c * dim + j];
   }
+  const CellMap<dim> map = map_of<dim>(cell);
   result.stress = HookesLaw<dim>(field.scene.material_of(cell))
-                      .stress(gradient * invert(map_of<dim>(cell).jacobian(reference)));
+                      .stress(gradient * invert(map.jacobian(reference)) -
+                              field.scene.initial_strain_in(cell, map.point(reference)));
   return result;
 }
 } // namespace

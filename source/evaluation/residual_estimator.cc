@@ -44,6 +44,9 @@ private:
   void add_volume(const Cell &cell);
   bool sees_jump(const Cell &cell, unsigned int face) const;
   void add_jump(const Cell &cell, unsigned int face);
+  void subtract_initial_slopes(const Cell &cell, const CellMap<dim> &map,
+                               const Point<dim> &reference, const Tensor<2, dim> &inverse,
+                               Tensor<3, dim> &second) const;
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const FieldFace<dim> &face);
   double penetration(const FieldFace<dim> &face) const;
@@ -108,6 +111,29 @@ double Residuals<dim>::weight(const unsigned int cell) const
 // $r_K = -\mathrm{div}\,\sigma(u_N) - F$ (4.44) needs second derivatives of $u_N$. On a
 // parallelogram they are those on the reference cell, transformed twice; on other quadrilaterals
 // the second derivatives of the map come in.
+/** From D^2 u what the slopes of the initial strain take away, by differences: points are inside the cell. */
+template <int dim>
+void Residuals<dim>::subtract_initial_slopes(const Cell &cell, const CellMap<dim> &map,
+                                             const Point<dim> &reference,
+                                             const Tensor<2, dim> &inverse,
+                                             Tensor<3, dim> &second) const
+{
+  constexpr double step = 1e-4;
+  for (unsigned int r = 0; r < dim; ++r)
+  {
+    Point<dim> before(reference), behind(reference);
+    before[r] -= step;
+    behind[r] += step;
+    const Tensor<2, dim> slope = (scene.initial_strain_in(cell, map.point(behind)) -
+                                  scene.initial_strain_in(cell, map.point(before))) /
+                                 (2 * step);
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        for (unsigned int d = 0; d < dim; ++d)
+          second[k][l][d] -= slope[k][l] * inverse[r][d];
+  }
+}
+
 /**
  * -div sigma(u) - F at a point; second derivatives by the chain rule
  * `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
@@ -146,6 +172,8 @@ void Residuals<dim>::add_volume(const Cell &cell)
         }
       second[c] = transpose(inverse) * reference * inverse;
     }
+    if (scene.has_initial_strain())
+      subtract_initial_slopes(cell, maps[index], table.points[q], inverse, second);
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
     if (scene.has_body_force())
       residual -= load_at<dim>(scene.body_force_in(cell), maps[index].point(table.points[q]));
@@ -190,9 +218,11 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
   {
     if (q == 0 || !maps[index].is_affine())
       inverse = invert(maps[index].jacobian(table.points[q]));
-    result[q] = law.traction(physical_gradient<dim>(derivatives, q * table.rows_per_point,
-                                                    table.derivatives.m(), inverse),
-                             normals[q]);
+    Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, q * table.rows_per_point,
+                                                     table.derivatives.m(), inverse);
+    if (scene.has_initial_strain())
+      gradient -= scene.initial_strain_in(cell, maps[index].point(table.points[q]));
+    result[q] = law.traction(gradient, normals[q]);
   }
   return result;
 }

@@ -331,6 +331,12 @@ ExpressionReader<2>::read<1>(const std::string &, const std::string &, const std
 template std::array<ExpressionReader<2>::Expression, 2>
 ExpressionReader<2>::read<2>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<2>> &, const ExactField &) const;
+template std::array<ExpressionReader<2>::Expression, 3>
+ExpressionReader<2>::read<3>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<2>> &, const ExactField &) const;
+template std::array<ExpressionReader<2>::Expression, 4>
+ExpressionReader<2>::read<4>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<2>> &, const ExactField &) const;
 template class ExpressionReader<3>;
 template std::array<ExpressionReader<3>::Expression, 1>
 ExpressionReader<3>::read<1>(const std::string &, const std::string &, const std::string &,

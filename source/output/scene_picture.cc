@@ -174,12 +174,14 @@ void draw_title(SceneSheet &sheet, const unsigned int n_cells, const bool has_hi
   const double left = drawing.extent().left, top = drawing.extent().top;
   const Scene<2> &scene = sheet.scene;
   const std::string cells = text(n_cells) + (n_cells == 1 ? " coarse cell" : " coarse cells");
+  const std::string temperature = temperature_in_words(scene);
   drawing.begin("title");
   drawing.text_at({left, top - 46.}, {legible(scene.title), true}, "start", 15.);
   drawing.text_at(
       {left, top - 27.},
       {cells +
-       (scene.materials.size() == 1 ? ", " + material_in_words(scene, scene.materials[0]) : "")});
+       (scene.materials.size() == 1 ? ", " + material_in_words(scene, scene.materials[0]) : "") +
+       (temperature.empty() ? "" : ", " + temperature)});
   if (has_history)
     drawing.text_at({left, top - 11.},
                     {"load history: loads, displacements and gaps are those at its end, t = 1"});

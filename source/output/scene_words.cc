@@ -74,6 +74,35 @@ std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
   return scene.parameters ? "material elsewhere" : "material " + std::to_string(number);
 }
 
+namespace
+{
+/** As in ", initial strain e1 = 0.001, thermal expansion 1.2e-05"; wherever the material may be. */
+template <int dim>
+std::string initial_strain_in_words(const InitialStrain<dim> &initial,
+                                    const std::vector<Point<dim>> &points)
+{
+  const std::array<std::string, 4> names{{"e1", "e2", "e12", "e33"}};
+  std::string words;
+  for (unsigned int k = 0; k < 4; ++k)
+    if (initial.components[k])
+      words += (words.empty() ? ", initial strain " : ", ") + names[k] + " = " +
+               range_in_words(values_at<dim>(points, initial.components[k]), "");
+  if (initial.expansion != 0)
+    words += ", thermal expansion " + text(initial.expansion, 6);
+  return words;
+}
+} // namespace
+
+template <int dim>
+std::string temperature_in_words(const Scene<dim> &scene)
+{
+  for (const InitialStrain<dim> &initial : scene.initial_strains)
+    if (initial.temperature)
+      return "temperature: " +
+             range_in_words(values_at<dim>(sample_body(scene.geometry), initial.temperature), "");
+  return {};
+}
+
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material)
 {
@@ -86,6 +115,9 @@ std::string material_in_words(const Scene<dim> &scene, const Material &material)
     words += material.plane == PlaneModel::stress ? ", plane stress" : ", plane strain";
   if (material.density > 0)
     words += ", density " + text(material.density, 6);
+  const std::size_t number = &material - scene.materials.data();
+  if (number < scene.initial_strains.size())
+    words += initial_strain_in_words(scene.initial_strains[number], sample_body(scene.geometry));
   if (scene.thickness != 1)
     words += ", thickness " + with_unit(scene.thickness, scene.length_unit, 6);
   return words;
@@ -118,7 +150,8 @@ std::string materials_in_words(const Scene<dim> &scene)
   std::string lines;
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
     lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
-  return lines;
+  const std::string temperature = temperature_in_words(scene);
+  return lines + (temperature.empty() ? "" : temperature + "\n");
 }
 
 /** All that a boundary has, phrase by phrase; empty where it is free. */
@@ -212,6 +245,7 @@ std::string scene_in_words(const Scene<dim> &scene)
 }
 
 template std::string body_force_unit(const Scene<2> &);
+template std::string temperature_in_words(const Scene<2> &);
 template Scene<2> at_the_end(const Scene<2> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);
 template std::string material_in_words(const Scene<2> &, const Material &);

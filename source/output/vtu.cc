@@ -4,6 +4,7 @@
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/peaks/stress_peak.h>
@@ -33,6 +34,36 @@ Tensor<2, dim> gradient(const DataPostprocessorInputs::Vector<dim> &inputs, cons
   return result;
 }
 
+/** Places count where there is an initial strain. */
+template <int dim>
+UpdateFlags flags_for(const Scene<dim> &scene)
+{
+  return scene.has_initial_strain() ? update_gradients | update_quadrature_points
+                                    : update_gradients;
+}
+
+template <int dim>
+SymmetricTensor<2, dim> stress_at(const Scene<dim> &scene,
+                                  const DataPostprocessorInputs::Vector<dim> &inputs,
+                                  const unsigned int q)
+{
+  const auto cell = inputs.template get_cell<dim>();
+  Tensor<2, dim> strain = gradient<dim>(inputs, q);
+  if (scene.has_initial_strain())
+    strain -= scene.initial_strain_in(cell, inputs.evaluation_points[q]);
+  return HookesLaw<dim>(scene.material_of(cell)).stress(strain);
+}
+
+/** The initial strain e33. */
+template <int dim>
+double across_at(const Scene<dim> &scene, const DataPostprocessorInputs::Vector<dim> &inputs,
+                 const unsigned int q)
+{
+  return scene.has_initial_strain() ? initial_strain_across(scene, inputs.template get_cell<dim>(),
+                                                            inputs.evaluation_points[q])
+                                    : 0.;
+}
+
 /** von Mises' stress and the components of sigma as scalar fields. */
 template <int dim>
 class StressFields : public DataPostprocessor<dim>
@@ -45,12 +76,12 @@ public:
   void evaluate_vector_field(const DataPostprocessorInputs::Vector<dim> &inputs,
                              std::vector<Vector<double>> &fields) const override
   {
-    const Material &material = scene.material_of(inputs.template get_cell<dim>());
+    const auto cell = inputs.template get_cell<dim>();
+    const Material &material = scene.material_of(cell);
     for (unsigned int q = 0; q < fields.size(); ++q)
     {
-      const SymmetricTensor<2, dim> sigma =
-          HookesLaw<dim>(material).stress(gradient<dim>(inputs, q));
-      fields[q][0] = von_mises(material, sigma);
+      const SymmetricTensor<2, dim> sigma = stress_at(scene, inputs, q);
+      fields[q][0] = von_mises(material, sigma, across_at(scene, inputs, q));
       for (unsigned int i = 0; i < sigma.n_independent_components; ++i)
         fields[q][1 + i] = sigma.access_raw_entry(i);
     }
@@ -76,7 +107,7 @@ public:
 
   UpdateFlags get_needed_update_flags() const override
   {
-    return update_gradients;
+    return flags_for(scene);
   }
 
 private:
@@ -89,7 +120,7 @@ class TransverseStress : public DataPostprocessorScalar<dim>
 {
 public:
   explicit TransverseStress(const Scene<dim> &scene)
-      : DataPostprocessorScalar<dim>("sigma_zz", update_gradients), scene(scene)
+      : DataPostprocessorScalar<dim>("sigma_zz", flags_for(scene)), scene(scene)
   {
   }
 
@@ -98,11 +129,9 @@ public:
   {
     const Material &material = scene.material_of(inputs.template get_cell<dim>());
     for (unsigned int q = 0; q < fields.size(); ++q)
-    {
       if constexpr (dim == 2)
         fields[q][0] =
-            material.transverse_stress(HookesLaw<dim>(material).stress(gradient<dim>(inputs, q)));
-    }
+            material.transverse_stress(stress_at(scene, inputs, q), across_at(scene, inputs, q));
   }
 
 private:

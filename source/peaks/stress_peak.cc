@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/peaks/stress_peak.h>
 
@@ -39,12 +40,16 @@ StressSample<dim> largest_von_mises(const typename Field<dim>::Cell &cell, const
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
+    const Point<dim> x = map.point(table.points[q]);
     const double value =
-        von_mises<dim>(material, law.stress(reference * invert(map.jacobian(table.points[q]))));
+        von_mises<dim>(material,
+                       law.stress(reference * invert(map.jacobian(table.points[q])) -
+                                  field.scene.initial_strain_in(cell, x)),
+                       initial_strain_across(field.scene, cell, x));
     if (value > largest.value)
     {
       largest.value = value;
-      largest.where = map.point(table.points[q]);
+      largest.where = x;
     }
   }
   return largest;
@@ -67,14 +72,14 @@ constexpr unsigned int most_peaks = 3;
 } // namespace
 
 template <int dim>
-double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma)
+double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma, const double e33)
 {
   SymmetricTensor<2, 3> full;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
       full[i][j] = sigma[i][j];
   if constexpr (dim == 2)
-    full[2][2] = material.transverse_stress(sigma);
+    full[2][2] = material.transverse_stress(sigma, e33);
   return std::sqrt(1.5) * deviator(full).norm();
 }
 
@@ -122,8 +127,8 @@ std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>>
   return result;
 }
 
-template double von_mises(const Material &, const SymmetricTensor<2, 2> &);
-template double von_mises(const Material &, const SymmetricTensor<2, 3> &);
+template double von_mises(const Material &, const SymmetricTensor<2, 2> &, double);
+template double von_mises(const Material &, const SymmetricTensor<2, 3> &, double);
 template std::vector<StressSample<2>> stress_samples(const Field<2> &);
 template std::vector<StressSample<3>> stress_samples(const Field<3> &);
 template double reach(const StressSample<2> &, const Scene<2> &);

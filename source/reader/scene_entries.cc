@@ -81,7 +81,11 @@ void add_problem_entries(std::vector<Entry> &entries, const int dim,
        {"Body force", "Gravity", "", text, "gx; gy or nothing",
         "Force per mass gx; gy as expressions of x and y; each Material's Density times it is "
         "added "
-        "to Expression; empty: none."}});
+        "to Expression; empty: none."},
+       {"Temperature", "Expression", "", text, "one expression or nothing",
+        "Temperature T(x,y) above that of the body without stress; each Material's Thermal "
+        "expansion "
+        "times it is an initial strain; empty: 0."}});
 }
 
 /** What a part of a side has beside what it has in common with sides. */
@@ -315,8 +319,10 @@ void add_program_entries(std::vector<Entry> &entries)
 bool is_of_the_plane(const Entry &entry)
 {
   return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Spring" ||
-         entry.name == "Rigid" || entry.name == "Force" || entry.name == "Rotation" ||
-         entry.name == "Moment" || (entry.section == "Output" && entry.name == "Mesh picture") ||
+         entry.section == "Temperature" || entry.name == "Initial strain" ||
+         entry.name == "Thermal expansion" || entry.name == "Rigid" || entry.name == "Force" ||
+         entry.name == "Rotation" || entry.name == "Moment" ||
+         (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }
 

@@ -9,6 +9,7 @@
 #include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
+#include <hpvi/reader/strain_reader.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -205,6 +206,8 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_body(*parameters, names, scene);
   read_method(*parameters, scene);
   read_body_force(*parameters, t, scene);
+  if constexpr (dim == 2)
+    read_initial_strains(*parameters, t, scene);
   if constexpr (dim == 2)
     scene.exact_solution = read_exact_solution(
         *parameters, ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t)), scene);

@@ -26,6 +26,16 @@ void raise(double &magnitude, const Expression<dim> &function,
         magnitude = std::max(magnitude, value);
 }
 
+/** Wherever its material may be. */
+double largest_initial_stress(const Scene<2> &scene)
+{
+  double largest = 0;
+  for (unsigned int m = 0; m < scene.materials.size(); ++m)
+    for (const Point<2> &x : sample_body(scene.geometry))
+      largest = std::max(largest, scene.materials[m].weight() * scene.initial_strain(m, x).norm());
+  return largest <= largest_magnitude ? largest : 0.;
+}
+
 /** Forces and moments as stresses on a body of @p size, rotations as displacements there. */
 template <int dim>
 void raise_by(const RigidPlate<dim> &plate, const double size, DataScale &scale)
@@ -79,6 +89,9 @@ DataScale data_scale(const Scene<dim> &scene)
     for (const Expression<dim> &component : load)
       raise<dim>(force, component, sample_body(scene.geometry), absolute);
   scale.stress = std::max(scale.stress, force * size);
+  if constexpr (dim == 2)
+    if (scene.has_initial_strain())
+      scale.stress = std::max(scale.stress, largest_initial_stress(scene));
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
@@ -124,6 +137,13 @@ Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const D
   drop_force(result.body_force);
   std::for_each(result.body_force_of_material.begin(), result.body_force_of_material.end(),
                 drop_force);
+  for (InitialStrain<dim> &initial : result.initial_strains)
+  {
+    const double strain = round_off(scale.stress) / scene.largest_weight();
+    for (Expression<dim> &component : initial.components)
+      drop(strain, component);
+    drop(strain / std::max(std::abs(initial.expansion), smallest_magnitude), initial.temperature);
+  }
   for (BoundaryCondition<dim> &boundary : result.boundaries)
   {
     for (unsigned int c = 0; c < dim; ++c)

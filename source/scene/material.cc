@@ -91,6 +91,14 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
       "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
   if (dim == 2)
   {
+    add("Initial strain", "", Patterns::Anything(), "e1; e2; e12 or e1; e2; e12; e33 or nothing",
+        "Strain eps_0 that carries no stress: tensor components (e12 is half the angle) as "
+        "expressions of x and y; "
+        "the fourth, across the plane, presses in plane strain. Stresses are C : (eps - eps_0).");
+    add("Thermal expansion", "0", Patterns::Double(), "a number",
+        "Coefficient of expansion alpha, in all three directions: Temperature/Expression times it "
+        "is added to "
+        "eps_0 [1/temperature].");
     add("Plane", plane_strain, Patterns::Selection(plane_stress + '|' + plane_strain),
         plane_stress + " or " + plane_strain,
         "Plane stress or plane strain (thesis, Section 2.1.3), one for the whole body.");

@@ -21,7 +21,16 @@ SPACE = {"Dimension": "3", "Geometry/Upper corner": "2, 1, 1", "Geometry/Subdivi
          "Adaptivity/Method": "hup2", "Adaptivity/Maximum steps": "1", "Solver/Primal tolerance": "1e-12"}
 PLATE = {**BLOCK, "Boundary left/Displacement": "0; 0", "Boundary bottom/Displacement": None,
          "Boundary right/Rigid": "true"}
+HOT = {**BLOCK, "Material/Thermal expansion": "0.001", "Temperature/Expression": "100"}
 HISTORY = {"Loading/Steps": "2", "Adaptivity/Method": "hup2"}
+
+
+
+def timoshenko(strain, h1, E1, h2, E2):
+    """Curvature of two strips, the first one below and longer by @p strain (J. Opt. Soc. Am. 11, 1925, 233)."""
+    m, n, h = h1 / h2, E1 / E2, h1 + h2
+    return 6 * strain * (1 + m) ** 2 / (h * (3 * (1 + m) ** 2 + (1 + m * n) * (m ** 2 + 1 / (m * n))))
+
 
 # Name, settings, {path in summary.json: value}; J = -L(u)/2 where loads alone act, a(u,u)/2 under displacements.
 ROWS = [
@@ -126,6 +135,40 @@ ROWS = [
       "Boundary punch/Rigid": "true", "Boundary punch/Force": "0.3; -4", "Boundary punch/Moment": "0.1"},
      {"contact.bottom.normal_resultant": -4, "forces.bottom.0": -0.3, "plates.punch.moment": 0.1,
       "plates.punch.mean_point.0": 1.05}),
+    ("free expansion", {**HOT, "Material/Poisson's ratio": "0.3"},
+     {"final.energy": -0.5 * 2 * 0.1 ** 2 * 10 / 0.7 * 2, "von_mises.largest": 0, "forces.left.0": 0}),
+    ("heat between two walls", {**HOT, "Boundary right/Displacement": "0; free"},
+     {"forces.left.0": 1, "forces.right.0": -1, "von_mises.largest": 1}),
+    ("free expansion in plane strain", {**HOT, "Material/Plane": "strain", "Material/Poisson's ratio": "0.3"},
+     {"von_mises.largest": 1, "forces.left.0": 0,
+      "final.energy": -0.5 * 2 * 0.13 * 0.13 * 10 / (1.3 * 0.4) * 2}),
+    ("an initial strain across the plane",
+     {**HOT, "Temperature/Expression": None, "Material/Plane": "strain", "Material/Poisson's ratio": "0.3",
+      "Material/Initial strain": "0; 0; 0; 0.1"},
+     {"von_mises.largest": 1, "final.energy": -0.5 * 2 * 0.03 * 0.03 * 10 / (1.3 * 0.4) * 2}),
+    ("an initial shear", {**HOT, "Temperature/Expression": None, "Material/Initial strain": "0; 0; 0.05",
+                          "Boundary left/Displacement": "0; 0", "Boundary bottom/Displacement": None},
+     {"von_mises.largest": 0, "final.energy": -0.5 * 2 * 0.05 * 2 * 5 * 0.05 * 2}),
+    ("a temperature that bends", {**HOT, "Temperature/Expression": "100*y", "Boundary bottom/Displacement": None,
+                                  "Boundary left/Displacement": "0; 0.05*y^2"},
+     {"von_mises.largest": 0, "forces.left.0": 0, "forces.left.1": 0}),
+    ("heat on cells that are no parallelograms",
+     {**HOT, "Geometry/Upper corner": None, "Geometry/Shape": "quadrilateral", "Geometry/Corners": "0, 0; 2, 0; 1.5, 1; 0, 1",
+      "Error/Bound on distorted cells": "true"},
+     {"von_mises.largest": 0, "final.energy": -0.5 * 2 * 0.1 ** 2 * 10 * 1.75}),
+    ("a strip of two metals bends as Timoshenko says",
+     {**PLATE, "Material/Initial strain": "0.01; 0; 0", "Material steel/Where": "y - 0.25", "Material steel/Young's modulus": "30",
+      "Material steel/Initial strain": "0.002; 0; 0"},
+     {"plates.right.rotation": 2 * timoshenko(0.01 - 0.002, 0.25, 10, 0.75, 30), "plates.right.moment": 0,
+      "forces.left.0": 0}),
+    ("heat in time", {**HOT, **HISTORY, "Temperature/Expression": "100*t"},
+     {"loading.stored_energy": 0, "loading.work": 0, "von_mises.largest": 0}),
+    ("heat between two walls in time",
+     {**HOT, **HISTORY, "Temperature/Expression": "100*t", "Boundary right/Displacement": "0; free", "Material/Thickness": "3"},
+     {"loading.stored_energy": 3 * 0.5 * 0.1 * 1 * 2, "loading.work": 3 * 0.5 * 0.1 * 1 * 2, "forces.left.0": 3}),
+    ("heat that comes and goes",
+     {**HOT, "Loading/Steps": "4", "Temperature/Expression": "100*sin(pi*t)", "Boundary right/Displacement": "0; free"},
+     {"loading.stored_energy": 0, "forces.left.0": 0}),
     ("pressure in time", {**TOP, **HISTORY, "Boundary top/Pressure": "3*t"}, {"forces.bottom.1": 6}),
     ("materials in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free"}, {"forces.right.0": 1.0}),
     ("thickness in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free", "Material/Thickness": "2"},

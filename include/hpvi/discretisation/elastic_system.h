@@ -55,12 +55,17 @@ private:
       constrained; ///< kept for the next step
 };
 
-/** L(v_i) of the loads of @p scene for every displacement unknown, constrained or not. */
+/** L(v_i) of all that acts in @p scene, for every displacement unknown, constrained or not: the sum of what follows. */
 template <int dim>
 dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                    const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
 
-/** The same of the forces and moments on rigid plates. */
+/** Tractions and body forces. */
+template <int dim>
+dealii::Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                                     const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
+
+/** Forces and moments on rigid plates; with initial_strain_loads() all. */
 template <int dim>
 dealii::Vector<double> plate_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                    const ShapeTables<dim> &tables);

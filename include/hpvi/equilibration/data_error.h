@@ -47,6 +47,9 @@ public:
   double unread =
       0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
   dealii::Point<2> unread_at;
+
+private:
+  void add_initial_strain(const Solution<2> &solution, const EquilibratedStress &stress);
 };
 } // namespace hpvi
 

@@ -50,6 +50,9 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
+  /** What the initial stress has beyond the polynomials of s, in complementary energy; macro cells count it in `squares`. */
+  double missed_initial_stress(unsigned int cell) const;
+
   const LegendreTables &legendre_tables() const;
 
   /** s on a cell of a mesh of parallelograms. */

@@ -47,6 +47,9 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
+  /** The norm in complementary energy of what sigma lacks of C eps_0 on the cell. */
+  double missed_initial_stress(unsigned int cell) const;
+
 private:
   /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
   struct Cell
@@ -55,7 +58,8 @@ private:
     dealii::Tensor<2, 2> B;
     double h; ///< of the element [length]
     Modes<3> sigma;
-    Modes<2> force; ///< -F in the frame, from the points of the loads; without modes: none
+    Modes<3> initial; ///< what sigma has of -C eps_0; without modes: none
+    Modes<2> force;   ///< -F in the frame, from the points of the loads; without modes: none
     unsigned int place, first_hat; ///< in its batch
   };
 
@@ -74,6 +78,8 @@ private:
   void set_cells(const std::vector<unsigned int> &marked_corners);
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);
+  void subtract_initial_stress(unsigned int cell);
+  Modes<3> stable_stress(unsigned int cell) const;
   void set_own_data(unsigned int cell);
   void set_force(unsigned int cell);
   void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);

@@ -13,15 +13,15 @@ class ContactTraces
 {
 public:
   ContactTraces(const FieldFace<dim> &face, const ShapeTable<dim> &table, const Field<dim> &field)
-      : ContactTraces(face.face_no, *face.condition, field.scene.material_of(face.cell), face.map,
-                      table, field.coefficients(face.cell))
+      : ContactTraces(face.face_no, *face.condition, field.scene, face.cell->material_id(),
+                      face.map, table, field.coefficients(face.cell))
   {
   }
 
   /** At Gauss points of a face of the reduced path. */
   ContactTraces(const ContactFace<dim> &face, const unsigned int n_gauss,
                 const Solution<dim> &solution)
-      : ContactTraces(face.face_no, *face.condition, solution.scene.material_of(face.cell),
+      : ContactTraces(face.face_no, *face.condition, solution.scene, face.cell->material_id(),
                       face.map, solution.tables.face(face.degree, face.face_no, n_gauss),
                       solution.coefficients(face.cell->active_cell_index()))
   {
@@ -41,7 +41,10 @@ public:
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    return law.stress(reference * dealii::invert(map.jacobian(table.points[q])));
+    dealii::Tensor<2, dim> strain = reference * dealii::invert(map.jacobian(table.points[q]));
+    if (!scene.initial_strains.empty())
+      strain -= scene.initial_strain(material, map.point(table.points[q]));
+    return law.stress(strain);
   }
 
   /** sigma n - G: what the plane exerts, without an applied traction G. */
@@ -63,9 +66,11 @@ public:
 
 private:
   ContactTraces(const unsigned int face_no, const BoundaryCondition<dim> &condition,
-                const Material &material, const CellMap<dim> &map, const ShapeTable<dim> &table,
+                const Scene<dim> &scene, const dealii::types::material_id material,
+                const CellMap<dim> &map, const ShapeTable<dim> &table,
                 const std::vector<double> &coefficients)
-      : face_no(face_no), condition(condition), law(material), map(map), table(table),
+      : face_no(face_no), condition(condition), scene(scene), material(material),
+        law(scene.materials[material]), map(map), table(table),
         values(evaluate(table.values, coefficients)),
         derivatives(evaluate(table.derivatives, coefficients))
   {
@@ -73,6 +78,8 @@ private:
 
   const unsigned int face_no;
   const BoundaryCondition<dim> &condition;
+  const Scene<dim> &scene;
+  const dealii::types::material_id material;
   const HookesLaw<dim> law;
   const CellMap<dim> map;
   const ShapeTable<dim> &table;

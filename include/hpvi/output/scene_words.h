@@ -18,6 +18,10 @@ Scene<dim> at_the_end(const Scene<dim> &scene);
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material);
 
+/** As in "temperature: 20 to 80"; empty where there is none. */
+template <int dim>
+std::string temperature_in_words(const Scene<dim> &scene);
+
 /** As in "material", "material steel"; the unnamed one of a file with several is "material elsewhere". */
 template <int dim>
 std::string name_in_words(const Scene<dim> &scene, std::size_t number);

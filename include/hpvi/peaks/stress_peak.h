@@ -25,9 +25,10 @@ struct StressSample
   }
 };
 
-/** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well. */
+/** `sqrt(3/2 s:s)` with the deviator s; plane strain holds sigma_zz as well, with an initial strain @p e33 across it. */
 template <int dim>
-double von_mises(const Material &material, const dealii::SymmetricTensor<2, dim> &sigma);
+double von_mises(const Material &material, const dealii::SymmetricTensor<2, dim> &sigma,
+                 double e33 = 0);
 
 /**
  * The largest pressure on each contact edge, where it presses, and von Mises' stress in each cell, at about

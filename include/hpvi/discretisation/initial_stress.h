@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_initial_stress_h
+#define hpvi_initial_stress_h
+
+#include <deal.II/lac/vector.h>
+#include <hpvi/body/displacement_space.h>
+#include <hpvi/body/shape_tables.h>
+
+namespace hpvi
+{
+/** Does anything act inside cells? */
+template <int dim>
+bool has_interior_loads(const Scene<dim> &scene)
+{
+  return scene.has_body_force() || scene.has_initial_strain();
+}
+
+/** e33 in @p cell at @p x, that of the initial strain across the plane. */
+template <int dim, class Cell>
+double initial_strain_across(const Scene<dim> &scene, const Cell &cell, const dealii::Point<dim> &x)
+{
+  return scene.initial_strains.empty() ? 0.
+                                       : scene.initial_strains[cell->material_id()].value(x)[3];
+}
+
+/**
+ * Gauss points per direction for integrals with the initial strain eps_0 in a cell: as many, at least p + 3, as give its moments
+ * with polynomials of degree 2 to round-off. Then the discrete equations are those of the polynomial through its values at
+ * these points, which equilibrated stresses count on.
+ */
+unsigned int initial_strain_points(const Scene<2> &scene,
+                                   const dealii::Triangulation<2>::cell_iterator &cell,
+                                   unsigned int degree, const ShapeTables<2> &tables);
+
+/** The square in energy of what that polynomial misses of eps_0 in the cell, seen at more points. */
+double initial_stress_error(const Scene<2> &scene,
+                            const dealii::Triangulation<2>::cell_iterator &cell,
+                            unsigned int degree, const ShapeTables<2> &tables);
+
+/** `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length]. */
+dealii::Vector<double> initial_strain_loads(const Scene<2> &scene,
+                                            const DisplacementSpace<2> &space,
+                                            const ShapeTables<2> &tables);
+
+/**
+ * `1/2 int C eps_0 : eps_0 - int C eps_0 : eps(u)`, by what the elastic energy `1/2 int C (eps(u) - eps_0) : (eps(u) - eps_0)`
+ * differs from a(u,u)/2, for unit thickness [stress length^2].
+ */
+double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                      const ShapeTables<2> &tables, const dealii::Vector<double> &u);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/load_quadrature.h>
+#include <hpvi/discretisation/initial_stress.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** grad u in a cell at the points of @p table, in x and y; @p coefficients as in Field. */
+Tensor<2, 2> gradient_at(const ShapeTable<2> &table, const unsigned int q,
+                         const std::vector<double> &derivatives, const Tensor<2, 2> &inverse)
+{
+  Tensor<2, 2> reference;
+  for (unsigned int c = 0; c < 2; ++c)
+    for (unsigned int r = 0; r < 2; ++r)
+      reference[c][r] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + r];
+  return reference * inverse;
+}
+
+/** Calls f(cell, map, table, q, C eps_0, weight) for all points at which there is an initial strain. */
+template <class F>
+void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                    const ShapeTables<2> &tables, const F &f)
+{
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    if (!scene.has_initial_strain() || !scene.initial_strains[cell->material_id()])
+      continue;
+    const unsigned int p = space.degrees()[cell->active_cell_index()];
+    const CellMap<2> map = map_of<2>(cell);
+    const HookesLaw<2> law(scene.material_of(cell));
+    const ShapeTable<2> &table = tables.gradients(p, initial_strain_points(scene, cell, p, tables));
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+    {
+      const Tensor<2, 2> strain = scene.initial_strain_in(cell, map.point(table.points[q]));
+      f(cell, map, table, q, strain, Tensor<2, 2>(law.stress(strain)),
+        table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))));
+    }
+  }
+}
+} // namespace
+
+unsigned int initial_strain_points(const Scene<2> &scene,
+                                   const Triangulation<2>::cell_iterator &cell,
+                                   const unsigned int degree, const ShapeTables<2> &tables)
+{
+  const InitialStrain<2> &initial = scene.initial_strains[cell->material_id()];
+  const CellMap<2> map = map_of<2>(cell);
+  const auto value = [&](const Function<2> &component, const Point<2> &s)
+  { return component.value(map.point(s)); };
+  unsigned int n = degree + 3;
+  for (const std::array<Expression<2>, 2> &pair :
+       {std::array<Expression<2>, 2>{{initial.components[0], initial.components[1]}},
+        {{initial.components[2], initial.components[3]}},
+        {{initial.temperature, nullptr}}})
+    n = std::max(n, rule_on<2>({BoundingBox<2>({Point<2>(), Point<2>(1., 1.)})}, degree + 1, pair,
+                               value, tables)
+                        .n_gauss);
+  return n;
+}
+
+double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
+                            const unsigned int degree, const ShapeTables<2> &tables)
+{
+  const unsigned int n = initial_strain_points(scene, cell, degree, tables);
+  const CellMap<2> map = map_of<2>(cell);
+  const HookesLaw<2> law(scene.material_of(cell));
+  const QGauss<1> &own = tables.gauss(n), &finer = tables.gauss(n + 3);
+  FullMatrix<double> basis(n + 3, n); // through the points of the one at those of the other
+  for (unsigned int q = 0; q < n + 3; ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      basis(q, i) = tables.gauss_lagrange(n)[i].value(finer.point(q)[0]);
+  const auto strains_at = [&](const QGauss<1> &gauss)
+  {
+    std::array<FullMatrix<double>, 3> values;
+    values.fill(FullMatrix<double>(gauss.size(), gauss.size()));
+    for (unsigned int a = 0; a < gauss.size(); ++a)
+      for (unsigned int b = 0; b < gauss.size(); ++b)
+      {
+        const Tensor<2, 2> strain = scene.initial_strain_in(
+            cell, map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+        for (unsigned int k = 0; k < 3; ++k)
+          values[k](a, b) = strain[k == 1][k != 0];
+      }
+    return values;
+  };
+  std::array<FullMatrix<double>, 3> missed = strains_at(finer);
+  const std::array<FullMatrix<double>, 3> known = strains_at(own);
+  FullMatrix<double> half(n + 3, n), whole(n + 3, n + 3);
+  for (unsigned int k = 0; k < 3; ++k)
+  {
+    basis.mmult(half, known[k]);
+    half.mTmult(whole, basis);
+    missed[k].add(-1., whole);
+  }
+  double sum = 0;
+  for (unsigned int a = 0; a < n + 3; ++a)
+    for (unsigned int b = 0; b < n + 3; ++b)
+    {
+      Tensor<2, 2> strain;
+      strain[0][0] = missed[0](a, b);
+      strain[1][1] = missed[1](a, b);
+      strain[0][1] = strain[1][0] = missed[2](a, b);
+      sum += finer.weight(a) * finer.weight(b) *
+             std::abs(determinant(map.jacobian(Point<2>(finer.point(a)[0], finer.point(b)[0])))) *
+             law.energy_product(strain);
+    }
+  return sum;
+}
+
+Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                                    const ShapeTables<2> &tables)
+{
+  Vector<double> load(space.n_dofs());
+  for_each_point(
+      scene, space, tables,
+      [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
+          const Tensor<2, 2> &, const Tensor<2, 2> &stress, const double weight)
+      {
+        // C eps_0 : grad v = (C eps_0 J^-T) : reference gradient of v
+        const Tensor<2, 2> pulled =
+            weight * stress * transpose(invert(map.jacobian(table.points[q])));
+        const unsigned int index = cell->active_cell_index();
+        const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
+        const auto dofs = space.cell_dofs(index);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          for (unsigned int r = 0; r < 2; ++r)
+            load[dofs[i]] += pulled[numbering.component[i]][r] *
+                             table.derivatives(q * table.rows_per_point + r, numbering.shape[i]);
+      });
+  return load;
+}
+
+double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                      const ShapeTables<2> &tables, const Vector<double> &u)
+{
+  double sum = 0;
+  unsigned int known = numbers::invalid_unsigned_int;
+  std::vector<double> derivatives;
+  for_each_point(
+      scene, space, tables,
+      [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
+          const Tensor<2, 2> &strain, const Tensor<2, 2> &stress, const double weight)
+      {
+        const unsigned int index = cell->active_cell_index();
+        if (index != known)
+        {
+          const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
+          const auto dofs = space.cell_dofs(index);
+          std::vector<double> local(dofs.size());
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            local[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = u[dofs[i]];
+          derivatives = evaluate(table.derivatives, local);
+          known = index;
+        }
+        sum +=
+            weight * scalar_product(stress, 0.5 * strain -
+                                                gradient_at(table, q, derivatives,
+                                                            invert(map.jacobian(table.points[q]))));
+      });
+  return sum;
+}
+} // namespace hpvi
