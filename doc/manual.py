@@ -25,6 +25,7 @@ MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # Entries that no scene of prm/ sets: what one could write.
 EXAMPLES = {
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
+    ("Boundary NAME", "Contact direction"): "0.1; -1",
     ("Adaptivity", "hap threshold"): "0.7", ("Adaptivity", "hpa1 bisected fraction"): "0.05",
     ("Adaptivity", "hpa1 raised fraction"): "0.2", ("Adaptivity", "Maximum seconds"): "60",
     ("Solver", "Path"): "reduced", ("Solver", "Linear"): "direct",
@@ -171,7 +172,7 @@ def scene_examples():
 def check_example(program, key, value):
     if key == ("Error", "Reference solution"):
         return  # names a file of another run
-    run(program, "--validate", "--set", f"{key[0].replace('NAME', 'top')}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
+    run(program, "--validate", "--set", f"{key[0].replace('NAME', 'bottom')}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
 
 
 def escaped(text):

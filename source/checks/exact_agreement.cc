@@ -194,6 +194,12 @@ void check_exact_solution(const Scene<2> &scene)
                                : "Rigid",
              "is none of " + mention(scene, "Exact solution", "Solution") +
                  "; give Displacement = exact, or measure errors by Error/Reference solution");
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+    if (boundary.contact_direction)
+      reject(scene, section_of(boundary), "Contact direction",
+             "is none of " + mention(scene, "Exact solution", "Solution") +
+                 ", which has contact along the normal; remove it, or measure errors by "
+                 "Error/Reference solution");
   if (scene.thickness != 1)
     reject(scene, "Exact solution", "Solution",
            "is that of a body of unit thickness; remove Material/Thickness");

@@ -150,7 +150,8 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
             rows.held.push_back(row_of(sides[f].tangent(end), arm));
         if constexpr (dim == 2)
           if (boundary.friction) // where it vanishes, the mesh decides
-            rows.resisted.push_back(row_of(sides[f].tangent(end), arm));
+            rows.resisted.push_back(
+                row_of(-cross_product_2d(boundary.held_direction(sides[f].normal(end))), arm));
       }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)

@@ -155,6 +155,33 @@ void check_plate(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary
                to_string(value));
 }
 
+/** A unit vector out of the body all along the boundary; at the end of a curved side it may be along it. */
+template <int dim>
+void check_direction(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+                     const std::vector<Point<dim>> &points, const Side<dim> &side)
+{
+  if (!boundary.contact_direction)
+    return;
+  const std::string section = section_of(boundary), entry = "Contact direction";
+  const Tensor<1, dim> &d = *boundary.contact_direction;
+  if (dim == 3)
+    reject(scene, section, entry, "is not offered in space; remove it");
+  if (!boundary.has_contact())
+    reject(scene, section, entry, direction_needs_contact);
+  if (!(std::abs(d.norm() - 1) < 1e-12))
+    reject(scene, section, entry, "has the length " + to_string(d.norm()) + "; give a unit vector");
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const Point<dim> &x = points[k];
+    const Tensor<1, dim> n = side.normal(x);
+    const bool is_end = k == 0 || k + 1 == points.size();
+    if (!(d * n > (is_end ? -1e-12 : 1e-12)))
+      reject(scene, section, entry,
+             "does not point out of the body at " + to_string(x) + ", where the normal is " +
+                 to_string(Point<dim>(n)) + "; give a direction d with d . n > 0");
+  }
+}
+
 /** A load needs a displacement that can give way, contact a boundary that nothing else holds. */
 template <int dim>
 void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
@@ -170,6 +197,7 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
   check_friction(scene, section, boundary, side.sample());
   if (boundary.gap != nullptr && !boundary.is_unilateral())
     reject(scene, section, "Gap", gap_needs_contact);
+  check_direction(scene, boundary, side.sample(), side);
   check_symmetry_and_springs(scene, boundary);
   check_plate(scene, boundary);
   if (boundary.has_contact() && boundary.has_displacement())

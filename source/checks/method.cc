@@ -171,6 +171,10 @@ void check_primal_path(const Scene<dim> &scene)
       reject(scene, section_of(boundary), "Rigid",
              "is not offered by " + why + "; run the reduced path on one process, or remove it",
              "true");
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.contact_direction)
+      reject(scene, section_of(boundary), "Contact direction",
+             "is not offered by " + why + "; run the reduced path on one process, or remove it");
   if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",
            "is not offered by " + why + ", whose pressures are multipliers; set multiplier",

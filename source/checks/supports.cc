@@ -25,7 +25,7 @@ std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &bou
       conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
     }
   if (slides)
-    conditions.push_back({normal, 0., boundary.id});
+    conditions.push_back({boundary.held_direction(normal), 0., boundary.id});
   return conditions;
 }
 
@@ -148,7 +148,7 @@ void check_beside_plate(const Scene<2> &scene, const BoundaryCondition<2> &bound
              "contradicts " + place + " by " + to_string(std::abs(*held - condition.value)) +
                  "; make both agree there");
   }
-  if (const auto held = plate.held(normal, point);
+  if (const auto held = plate.held(other.held_direction(normal), point);
       other.is_unilateral() && held && *held > other.gap_at(point) + tolerance)
     reject_penetration(scene, boundary, other, point, *held - other.gap_at(point));
 }
@@ -172,7 +172,8 @@ void check_supports(const Scene<dim> &scene)
                              boundary.symmetry || boundary.contact == Contact::bilateral, point))
             conditions.push_back(condition);
           if (boundary.is_unilateral())
-            limits.push_back({sides[f].normal(point), boundary.gap_at(point), boundary.id});
+            limits.push_back({boundary.held_direction(sides[f].normal(point)),
+                              boundary.gap_at(point), boundary.id});
         }
         check_meeting(scene, point, conditions, limits, tolerance);
         if constexpr (dim == 2)

@@ -22,6 +22,7 @@ struct ContactSide
   double friction = 0;                        ///< int of the limit without pressure
   double most = 0;                            ///< and with any pressure
   std::vector<std::array<double, 2>> mu = {}; ///< mu_f at distances from the first end
+  bool is_oblique = false; ///< contact is not along the normal of the body: friction turns, too
 
   bool is_coulomb() const
   {
@@ -47,6 +48,8 @@ std::vector<ContactSide<dim>> contact_sides(const ContactSpace<dim> &contact_spa
       sides.push_back(
           {face.condition, middle.normal, middle.tangent, {{face.point(0.), face.point(0.)}}});
     ContactSide<dim> &side = sides.back();
+    side.is_oblique |=
+        std::abs((face.point(1.) - face.point(0.)) * middle.normal) > 1e-10 * face.length;
     side.friction += face.friction_without_pressure();
     for (const PointLimit &point : face.limits)
       side.most += face.length * point.weight * point.friction.most;
@@ -145,7 +148,7 @@ Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sid
   const double N = std::max(0., loads.N.value_or(0.)), T = std::abs(loads.T.value_or(0.));
   std::optional<double>
       s; // where the loads press, which they do on a side with a coefficient alone
-  if (N > 0. && loads.M[0])
+  if (N > 0. && loads.M[0] && !side.is_oblique)
     s = std::clamp(-*loads.M[0] / N, 0., side.length());
   const double mu = coefficient_at(side, s);
   double limit = std::min(mu * N, side.most), without_pressure = 0;
@@ -238,7 +241,7 @@ std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions
         (presses || !is_coulomb))
       consider(slide(side, sides, loads));
     for (const unsigned int end : {0U, 1U})
-      if (presses)
+      if (presses && !side.is_oblique)
         consider(topple(side, end, loads));
   }
   return worst.excess > 1e-13 ? worst.words : "";

@@ -8,7 +8,10 @@ using namespace dealii;
 template <int dim>
 ContactFrame<dim> ContactFace<dim>::frame(const double s) const
 {
-  return contact_frame<dim>(map, face_no, Point<dim - 1>(s));
+  ContactFrame<dim> result = contact_frame<dim>(map, face_no, Point<dim - 1>(s));
+  result.normal = condition->held_direction(result.normal);
+  result.tangent = -cross_product_2d(result.normal);
+  return result;
 }
 
 template <int dim>

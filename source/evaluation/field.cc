@@ -56,7 +56,7 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
 {
   FaceFrame<dim> result;
   result.x = map.point(reference);
-  result.normal = map.normal(face_no, reference);
+  result.normal = condition->held_direction(map.normal(face_no, reference));
   result.measure = map.face_measure(face_no, reference);
   if constexpr (dim == 2)
     result.tangents = {{-cross_product_2d(result.normal)}};

@@ -210,6 +210,13 @@ std::vector<std::string> contact_phrases(const Scene<dim> &scene,
     phrases = {"unilateral contact", gap_in_words(scene, boundary, points)};
   else
     phrases = {boundary.contact == Contact::bilateral ? "bilateral contact" : "tangential contact"};
+  if (const auto &d = boundary.contact_direction)
+  {
+    std::string components;
+    for (unsigned int c = 0; c < dim; ++c)
+      components += (c > 0 ? " " : "") + text((*d)[c], 4);
+    phrases.push_back("contact along (" + components + ")");
+  }
   phrases.push_back(boundary.friction ? friction_in_words(scene, boundary.friction, points)
                                       : "no friction");
   return phrases;

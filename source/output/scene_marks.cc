@@ -235,6 +235,23 @@ double gap_magnification(const SceneSheet &sheet, const MarkedPart &marked)
   return wanted == 1 ? 1. : decade * std::floor(wanted / decade); // a round number
 }
 
+double draw_contact_direction(SceneSheet &sheet, const MarkedPart &marked, const double band)
+{
+  if (!marked.condition.contact_direction || !marked.condition.has_contact())
+    return band;
+  const PageVector d = sheet.direction(*marked.condition.contact_direction);
+  double deepest = band;
+  sheet.drawing.begin("direction", marked.condition.name);
+  for (const Station &place : sheet.stations(marked.part, 60., false))
+  {
+    const PagePoint tail = place.at + (band + 2.) * place.normal, head = tail + 20. * d;
+    sheet.drawing.arrow(tail, head, ArrowHead::open, mark_colours::contact);
+    deepest = std::max(deepest, (head - place.at) * place.normal + 2.);
+  }
+  sheet.drawing.end();
+  return deepest;
+}
+
 double draw_foundation(SceneSheet &sheet, const MarkedPart &marked, double band)
 {
   const BoundaryCondition<2> &condition = marked.condition;
@@ -251,10 +268,12 @@ double draw_foundation(SceneSheet &sheet, const MarkedPart &marked, double band)
   {
     const double gap =
         condition.is_unilateral() ? magnification * sheet.scale * condition.gap_at(place.x) : 0.;
+    const PageVector along_contact =
+        condition.contact_direction ? sheet.direction(*condition.contact_direction) : place.normal;
     side.push_back(place.at + 1. * place.normal);
-    line.push_back(place.at + (clearance + gap) * place.normal);
-    normals.push_back(place.normal);
-    deepest = std::max(deepest, clearance + gap);
+    line.push_back(place.at + clearance * place.normal + gap * along_contact);
+    normals.push_back(along_contact);
+    deepest = std::max(deepest, clearance + gap * (along_contact * place.normal));
   }
   drawing.begin("foundation " + std::string(is_bilateral                ? "bilateral"
                                             : condition.is_unilateral() ? "unilateral"
@@ -313,6 +332,6 @@ double draw_words(SceneSheet &sheet, const MarkedPart &marked, const double band
 }
 
 const std::vector<BoundaryMark> boundary_marks = {
-    draw_support,    draw_plate,     draw_symmetry,     draw_springs,
-    draw_foundation, draw_tractions, draw_displacements};
+    draw_support,           draw_plate,     draw_symmetry,     draw_springs, draw_foundation,
+    draw_contact_direction, draw_tractions, draw_displacements};
 } // namespace hpvi

@@ -150,9 +150,14 @@ void add_boundary_entries(std::vector<Entry> &entries, const std::string &bounda
         "obstacle, u_n <= u_0, and pull nowhere, T_n <= 0. tangential: nothing in the normal "
         "direction, friction alone acts. Friction bound may stand beside all three."},
        {section, "Gap", "", text, "one expression u_0 or nothing",
-        "Distance u_0(x,y) of the obstacle along the outer normal before any displacement "
-        "[length], negative: interference; of Contact = unilateral; empty or 0: the body touches "
-        "it."},
+        "Distance u_0(x,y) of the obstacle along the outer normal, or Contact direction, before "
+        "any displacement [length], negative: interference; of Contact = unilateral; empty or 0: "
+        "the body touches it."},
+       {section, "Contact direction", "", text, "dx; dy or nothing",
+        "Direction dx; dy of contact, numbers, out of the body, of whatever length: u_n, T_n and "
+        "Gap are those along it and u_t, T_t those along (-dy, dx), per length of the boundary, as "
+        "of an obstacle with another normal than the body's. The error has no guaranteed bound "
+        "then; empty: the outer normal."},
        {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
         "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
         "empty or 0: no friction."},
@@ -321,7 +326,7 @@ bool is_of_the_plane(const Entry &entry)
   return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Spring" ||
          entry.section == "Temperature" || entry.name == "Initial strain" ||
          entry.name == "Thermal expansion" || entry.name == "Rigid" || entry.name == "Force" ||
-         entry.name == "Rotation" || entry.name == "Moment" ||
+         entry.name == "Rotation" || entry.name == "Moment" || entry.name == "Contact direction" ||
          (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }

@@ -85,6 +85,9 @@ std::vector<Hint> hints_in_plane()
         "point load"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
        "\"Boundary top/Force\" = Fx; Fy"},
+      {{"normal", "contact normal", "normal direction", "direction"},
+       "contact is along the normal of the body, or along \"Boundary bottom/Contact direction\" = "
+       "dx; dy"},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
       {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
@@ -97,7 +100,7 @@ std::vector<Hint> hints_in_space()
            "friction is \"Boundary bottom/Friction bound\", Tresca's; a shear modulus follows from "
            "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
-          {{"thickness"}, "only a body in the plane has it; remove it"},
+          {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
           {{"spring", "elastic foundation", "winkler"},
            "only a body in the plane has springs; remove it"},
           {{"rigid", "force", "rotation", "moment"},

@@ -54,8 +54,8 @@ void read_initial_strains(const Parameters &parameters, const std::optional<doub
     const ExpressionReader<2> expressions(parameters, constants_of(material, t));
     InitialStrain<2> strain;
     strain.components = read_components(parameters, expressions, material, points);
-    strain.expansion = parameters.number(
-        section_with(parameters, material, "Thermal expansion"), "Thermal expansion");
+    strain.expansion = parameters.number(section_with(parameters, material, "Thermal expansion"),
+                                         "Thermal expansion");
     strain.temperature = expressions.read<1>(section, entry, "0", points)[0];
     expands = expands || strain.expansion != 0.;
     scene.initial_strains.push_back(strain);

@@ -3,6 +3,7 @@
 
 #include <hpvi/base/text.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <limits>
@@ -13,6 +14,8 @@ using namespace dealii;
 
 namespace
 {
+constexpr double same_direction = 1e-12; ///< as round-off leaves a unit vector
+
 template <int dim>
 bool any_given(const std::array<Expression<dim>, dim> &components)
 {
@@ -79,7 +82,10 @@ double BoundaryCondition<dim>::gap_at(const Point<dim> &x) const
 template <int dim>
 Tensor<1, dim> BoundaryCondition<dim>::held_direction(const Tensor<1, dim> &normal) const
 {
-  return contact_direction && has_contact() ? *contact_direction : normal;
+  if (!contact_direction || !has_contact())
+    return normal;
+  // The normal itself, so that one who writes it down gets what one gets who does not.
+  return (*contact_direction - normal).norm() <= same_direction ? normal : *contact_direction;
 }
 
 unsigned int own_start_degree(const Method method)
@@ -249,12 +255,34 @@ bool Scene<dim>::has_friction() const
                      [](const BoundaryCondition<dim> &b) { return b.has_contact() && b.friction; });
 }
 
+namespace
+{
+/** The first boundary whose contact is along another direction than the normal; null: there is none. */
+template <int dim>
+const BoundaryCondition<dim> *oblique_contact(const Scene<dim> &scene)
+{
+  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
+                   [](const BoundaryCondition<dim> &b)
+                   { return b.contact_direction && b.has_contact(); }))
+    return nullptr;
+  const std::vector<Side<dim>> sides = sides_of(scene);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    for (const Point<dim> &x : sides[boundary.id].sample())
+      if (const Tensor<1, dim> n = sides[boundary.id].normal(x); boundary.held_direction(n) != n)
+        return &boundary;
+  return nullptr;
+}
+} // namespace
+
 template <int dim>
 std::string Scene<dim>::no_error_bound() const
 {
   for (const BoundaryCondition<dim> &boundary : boundaries)
     if (boundary.has_contact() && boundary.friction.knows_pressure())
       return boundary.friction.name() + " minimises no energy";
+  if (const BoundaryCondition<dim> *const oblique = oblique_contact(*this))
+    return "contact of " + printable(oblique->name) +
+           " acts along its Contact direction, which is not the normal";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (!geometry.has_affine_cells() && !bound_on_distorted_cells)

@@ -71,6 +71,9 @@ void choose_law(RandomScene &scene, Dice &dice)
       side.coefficient.clear();
       side.bound = dice.positive(0.02 * scene.young);
     }
+  for (Side &side : scene.sides)
+    if (side.turn) // what is left is the normal, written down
+      side.turn = 0.;
   const std::string in_time = "*sin(4*t)";
   for (Side &side : scene.sides)
     for (std::string *component : {&side.displacement[0], &side.displacement[1], &side.traction[0],

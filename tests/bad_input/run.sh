@@ -138,6 +138,19 @@ invalid "Boundary top/Displacement" "contradicts Boundary right/Displacement" "b
 invalid "free to move against Boundary left/Rigid" -- "Boundary top/Traction=" "Boundary right/Displacement=" "Boundary top/Rigid=true" "Boundary left/Traction=" "Boundary left/Rigid=true" "Boundary bottom/Contact=unilateral"
 refused "Boundary top/Rigid = true" "the primal path" -- "$scenes/base.prm" --set "Boundary right/Displacement=" --set "Boundary top/Traction=" --set "Boundary top/Rigid=true" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 invalid "Boundary left/On" "unknown entry" -- "Boundary left/On=top"
+invalid "Boundary top/Contact direction = 0; 1" "needs contact" "or remove it" -- "Boundary top/Contact direction=0; 1"
+invalid "Boundary bottom/Contact direction = 0; 0" "has no direction" "0; -1" -- "Boundary bottom/Contact direction=0; 0"
+invalid "Boundary bottom/Contact direction = 1e-320 - 1e-320; 0" "has no direction" -- "Boundary bottom/Contact direction=1e-320 - 1e-320; 0"
+invalid "Boundary bottom/Contact direction = 1; 2" "does not point out of the body at" "normal is (0, -1)" "d . n > 0" -- "Boundary bottom/Contact direction=1; 2"
+invalid "Boundary bottom/Contact direction = 1; 0" "does not point out of the body at" -- "Boundary bottom/Contact direction=1; 0"
+invalid "Boundary bottom/Contact direction = x; -1" "uses x, y or t" "two numbers" -- "Boundary bottom/Contact direction=x; -1"
+invalid "Boundary bottom/Contact direction = t; -1" "uses x, y or t" -- "Boundary bottom/Contact direction=t; -1" "Loading/Steps=2"
+invalid "Boundary bottom/Contact direction = 1" "1 component(s)" -- "Boundary bottom/Contact direction=1"
+invalid "Boundary bottom/Contact direction = free; -1" "not an expression" -- "Boundary bottom/Contact direction=free; -1"
+invalid "Boundary bottom/Contact direction = ; -1" "empty component" -- "Boundary bottom/Contact direction=; -1"
+invalid "Boundary right/Displacement = 0.1; 0" "Contact = unilateral" "exceeds the gap by 0.06" -- "Boundary right/Displacement=0.1; 0" "Boundary bottom/Contact=unilateral" "Boundary bottom/Contact direction=3; -4"
+invalid "Boundary right/Displacement = 0.1; 0" "contradicts Boundary bottom/Contact = bilateral" -- "Boundary right/Displacement=0.1; 0" "Boundary bottom/Contact direction=3; -4"
+refused "Boundary bottom/Contact direction" "the primal path" "reduced" -- "$scenes/base.prm" --set "Boundary bottom/Contact direction=0; -1" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 invalid "Exact solution/Solution" "knows one material" -- "Exact solution/Solution=smooth" "Material soft/Where=x - 2"
 
 # --- names: the nearest known one is named, from the file with the line
@@ -380,6 +393,8 @@ invalid "Boundary bottom/Friction bound = exact" "not an expression" -- "Boundar
 invalid "Boundary right/Displacement = exact; 0; 0" "3 component(s) instead of 2" -- "Boundary right/Displacement=exact; 0; 0"
 exact=("Exact solution/Solution=stick-slip" "Exact solution/Transition=2" "Boundary left/Traction=exact"
   "Boundary top/Traction=exact" "Boundary right/Displacement=exact")
+invalid "Boundary bottom/Contact direction = 0; -1" "Exact solution/Solution = stick-slip" "along the normal" -- \
+  "${exact[@]}" "Boundary bottom/Contact direction=0; -1"
 invalid "Exact solution/Solution = boussinesq" "none, stick-slip, smooth, hertz or partial-slip" -- \
   "Exact solution/Solution=boussinesq"
 invalid "Exact solution/Pressure = 0" "positive number" -- "Exact solution/Pressure=0"

@@ -212,6 +212,17 @@ void divide(RandomScene &scene, Dice &dice)
     scene.exchange_materials();
 }
 
+/** Now and then contact is askew, or the normal is written down; less askew where friction could jam. */
+void choose_directions(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random()); // so that all else of a seed stays as it was
+  Dice dice(own);
+  for (Side &side : scene.sides)
+    if (!side.contact.empty() && dice.happens(0.1))
+      side.turn =
+          dice.happens(0.2) ? 0. : dice.number(-1, 1) * (side.coefficient.empty() ? 0.6 : 0.2);
+}
+
 // ---------------------------------------------------------------- files
 
 /** The file, with sections and entries in an order of their own. */
@@ -279,6 +290,7 @@ RandomScene::RandomScene(std::mt19937 &random) : sides(4)
         if (!component->empty() && *component != "0")
           *component = "(" + *component + ")*sin(4*t)";
   }
+  choose_directions(*this, random);
 }
 
 Frame RandomScene::own_frame() const
@@ -319,6 +331,20 @@ bool RandomScene::has(std::string Side::*const entry) const
 {
   return std::any_of(sides.begin(), sides.end(),
                      [&](const Side &side) { return !(side.*entry).empty(); });
+}
+
+bool RandomScene::has_direction() const
+{
+  return std::any_of(sides.begin(), sides.end(),
+                     [](const Side &side) { return side.turn.has_value(); });
+}
+
+Tensor<1, 2> RandomScene::contact_direction(const Side &side) const
+{
+  const Tensor<1, 2> along = corners[(side.on + 1) % 4] - corners[side.on];
+  const Tensor<1, 2> normal = cross_product_2d(along) / along.norm();
+  const double angle = side.turn.value_or(0.);
+  return std::cos(angle) * normal - std::sin(angle) * cross_product_2d(normal);
 }
 
 Section RandomScene::geometry(const Frame &frame) const
@@ -370,6 +396,11 @@ Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
   add("Shear", frame.function(side.shear, frame.is_mirrored() ? -traction : traction));
   add("Contact", side.contact);
   add("Gap", frame.function(side.gap, u));
+  if (side.turn)
+  {
+    const Tensor<1, 2> d = frame.Q * contact_direction(side);
+    add("Contact direction", metamorphic::text(d[0]) + "; " + metamorphic::text(d[1]));
+  }
   add("Friction bound", frame.function(side.bound, traction));
   add("Friction coefficient", frame.function(side.coefficient, 1));
   return section;

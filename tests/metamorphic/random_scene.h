@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -19,6 +20,8 @@ struct Side
   std::array<std::string, 2> displacement, traction; ///< in the axes of the body
   std::string pressure, shear;                       ///< along its normal, its tangent
   std::string contact, gap, bound, coefficient;
+  std::optional<double>
+      turn; ///< of the direction of contact from the normal, counterclockwise; nothing: is not said
   unsigned int on = 0; ///< the side
   std::string where;   ///< the part; empty: what parts leave
 };
@@ -51,6 +54,10 @@ struct RandomScene
   bool is_held() const;    ///< without its contact
   bool has_polynomial_data() const;
   bool has(std::string Side::*entry) const;
+  bool has_direction() const; ///< of contact, which has no bound and no other path then
+
+  /** Along which @p side has contact, in the axes of the body. */
+  Tensor<1, 2> contact_direction(const Side &side) const;
 
   bool is_box = false;
   std::array<Point<2>, 4> corners; ///< counterclockwise, side k from corner k to corner k+1

@@ -120,8 +120,8 @@ void Relations::take_the_primal_path()
 {
   const std::string method = scene.settings.at("Adaptivity/Method").substr(0, 3);
   if (scene.is_box && scene.is_held() && !scene.has(&Side::coefficient) && !has_history() &&
-      (method == "hup" || method == "hap") && scene.has_polynomial_data() &&
-      scene.settings.at("Solver/Normal contact") == "multiplier")
+      !scene.has_direction() && (method == "hup" || method == "hap") &&
+      scene.has_polynomial_data() && scene.settings.at("Solver/Normal contact") == "multiplier")
     vary("the primal path", {{"Solver/Path", "primal"}}, Claim::same_primal);
 }
 
@@ -156,7 +156,10 @@ RandomScene Relations::without_friction() const
   {
     side.bound = side.coefficient = "";
     if (side.contact == "tangential")
+    {
       side.contact = "";
+      side.turn.reset();
+    }
   }
   return result;
 }
@@ -169,6 +172,7 @@ void Relations::hold_without_friction()
     return;
   one.sides[0].contact = "bilateral";
   one.sides[0].gap = "";
+  one.sides[0].turn.reset();
   RandomScene other = one;
   other.sides[0].contact = "";
   other.sides[0].displacement[1] = "0";
@@ -189,8 +193,7 @@ void Relations::carry_along()
       return;
     for (unsigned int c = 0; c < 2 && !side.displacement[c].empty(); ++c)
       side.displacement[c] = "(" + side.displacement[c] + ") + " + text(motion[c]);
-    const Tensor<1, 2> along = scene.corners[(side.on + 1) % 4] - scene.corners[side.on];
-    const double u_n = (motion[0] * along[1] - motion[1] * along[0]) / along.norm();
+    const double u_n = motion * scene.contact_direction(side);
     if (!side.contact.empty())
       side.gap = (side.gap.empty() ? "" : "(" + side.gap + ") + ") + text(u_n);
   }
@@ -200,8 +203,8 @@ void Relations::carry_along()
 
 void Relations::meet_another_method()
 {
-  if (has_history() || scene.has(&Side::coefficient))
-    return;
+  if (has_history() || scene.has(&Side::coefficient) || scene.has_direction())
+    return; // no intervals of energy
   const std::array<std::string, 5> methods = {{"hup3", "hap2", "pu", "hpa2", "hpa3"}};
   vary("another method",
        {{"Adaptivity/Method", methods[random() % methods.size()]},

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """by_hand.py HPVI: scenes whose energies and forces anybody can compute, a row each: settings and what summary.json has to say."""
 
+import re
 import unittest
 
 from runs import SCENES, RunTest
@@ -23,6 +24,17 @@ PLATE = {**BLOCK, "Boundary left/Displacement": "0; 0", "Boundary bottom/Displac
          "Boundary right/Rigid": "true"}
 HOT = {**BLOCK, "Material/Thermal expansion": "0.001", "Temperature/Expression": "100"}
 HISTORY = {"Loading/Steps": "2", "Adaptivity/Method": "hup2"}
+# A block whose stress is uniform, s_xy = 0.6 p + 0.8 z and s_yy = -0.8 p + 0.6 z under p along -d = (-0.6, 0.8) and z
+# along -t = -(0.8, 0.6); with E = 10, nu = 0 its bottom moves by the top's displacement less (s_xy/5, s_yy/10).
+OBLIQUE = {"Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "10",
+           "Material/Poisson's ratio": "0", "Material/Plane": "stress", "Boundary bottom/Contact direction": "3; -4",
+           "Adaptivity/Method": "hup3", "Adaptivity/Maximum steps": "1"}
+PRESSED = {**OBLIQUE, "Boundary bottom/Contact": "unilateral", "Boundary top/Displacement": "0.1; -0.2",
+           "Boundary left/Traction": "0; -0.6", "Boundary right/Traction": "0; 0.6"}
+RUBBED = {**OBLIQUE, "Boundary left/Traction": "0; -1", "Boundary right/Traction": "0; 1"}  # p = 1, z = 0.5
+SLIDING = {**RUBBED, "Boundary bottom/Contact": "unilateral", "Boundary bottom/Gap": "0.3", "Boundary top/Displacement": "0.5; -0.2"}
+# A weight of 6 on a plane that falls to the left by atan(3/4), whatever side of the body lies on it.
+SLOPE = {**OBLIQUE, "Boundary bottom/Contact": "unilateral", "Body force/Expression": "0; -3"}
 
 
 
@@ -169,6 +181,48 @@ ROWS = [
     ("heat that comes and goes",
      {**HOT, "Loading/Steps": "4", "Temperature/Expression": "100*sin(pi*t)", "Boundary right/Displacement": "0; free"},
      {"loading.stored_energy": 0, "forces.left.0": 0}),
+    ("contact along a direction", {**PRESSED, "Boundary bottom/Gap": "0.084"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": 0, "forces.bottom.0": -1.2,
+      "forces.bottom.1": 1.6, "contact.bottom.largest_penetration": 0, "contact.bottom.through.0": 1, "final.energy": 0.136, "final.estimate": 0}),
+    ("a gap along a direction", {**PRESSED, "Boundary bottom/Gap": "0.23", "Boundary left/Traction": None, "Boundary right/Traction": None},
+     {"contact.bottom.normal_resultant": 0, "contact.bottom.open_area": 2, "final.energy": 0}),
+    ("the same by multipliers", {**PRESSED, "Boundary bottom/Gap": "0.084", "Solver/Normal contact": "multiplier"},
+     {"contact.bottom.normal_resultant": -2, "forces.bottom.0": -1.2, "forces.bottom.1": 1.6}),
+    ("Tresca's friction along a direction", {**SLIDING, "Boundary bottom/Friction bound": "0.5"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1, "forces.bottom.0": -2, "forces.bottom.1": 1,
+      "final.energy": 0.225 + 0.5 * 2 * 0.15, "final.estimate": 0}),
+    ("Coulomb's friction along a direction", {**SLIDING, "Boundary bottom/Friction coefficient": "0.5"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1, "contact.bottom.slipping_area": 2, "final.estimate": 0}),
+    ("cohesive friction along a direction", {**SLIDING, "Boundary bottom/Friction coefficient": "0.3", "Boundary bottom/Friction bound": "0.2",
+                                             "Boundary bottom/Friction law": "cohesive"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1}),
+    ("friction alone along a direction",
+     {**OBLIQUE, "Boundary bottom/Contact": "tangential", "Boundary bottom/Friction bound": "0.5", "Boundary top/Displacement": "0.5; -0.2",
+      "Boundary left/Traction": "0; -0.4", "Boundary right/Traction": "0; 0.4"},
+     {"contact.bottom.friction_resultant": -1, "forces.bottom.0": -0.8, "forces.bottom.1": -0.6, "final.estimate": 0}),
+    ("bilateral contact along a direction", {**RUBBED, "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": "0.5",
+                                             "Boundary top/Displacement": f"{1.6 / 3}; 0.2"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1, "forces.bottom.0": -2, "forces.bottom.1": 1, "final.estimate": 0}),
+    ("bilateral contact with Coulomb's law", {**RUBBED, "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction coefficient": "0.5",
+                                              "Boundary top/Displacement": f"{1.6 / 3}; 0.2"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1}),
+    ("a direction in time", {**RUBBED, "Loading/Steps": "2", "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": "0.5*t",
+                             "Boundary top/Displacement": f"{1.6 / 3}*t; 0.2*t", "Boundary left/Traction": "0; -t", "Boundary right/Traction": "0; t"},
+     {"contact.bottom.normal_resultant": -2, "contact.bottom.friction_resultant": -1,
+      "loading.dissipated_energy": 2 * (0.8 * 1.6 / 3 + 0.6 * 0.2 - 0.13) * (0.25 + 0.5) / 2}),
+    ("a frictionless direction between rollers", {**OBLIQUE, "Boundary bottom/Contact": "bilateral", "Boundary left/Displacement": "0; free",
+                                                  "Boundary top/Pressure": "1"},
+     {"forces.bottom.0": -1.5, "forces.bottom.1": 2, "forces.left.0": 1.5}),
+    ("held up by friction along a direction", {**OBLIQUE, "Boundary bottom/Contact": "tangential", "Boundary bottom/Friction bound": "1",
+                                               "Boundary left/Displacement": "0; free", "Boundary top/Pressure": "0.1"},
+     {"contact.bottom.friction_resultant": 1 / 3, "forces.bottom.1": 0.2, "forces.left.0": -0.8 / 3}),
+    ("a slanted side that lies on a level plane", {**OBLIQUE, "Geometry/Upper corner": None, "Geometry/Shape": "quadrilateral",
+                                                   "Geometry/Corners": "0, 0; 2, 1; 1.5, 2; -0.5, 1", "Boundary bottom/Contact": "unilateral",
+                                                   "Boundary bottom/Contact direction": "0; -1", "Boundary bottom/Friction bound": "1",
+                                                   "Body force/Expression": "0; -3"},
+     {"contact.bottom.normal_resultant": -3 * 2.5, "contact.bottom.friction_resultant": 0, "contact.bottom.through.0": 0.75}),
+    ("at rest on a slope", {**SLOPE, "Boundary bottom/Friction coefficient": "0.76"},
+     {"contact.bottom.normal_resultant": -6 * 0.8, "contact.bottom.friction_resultant": 6 * 0.6, "contact.bottom.through.0": 1}),
     ("pressure in time", {**TOP, **HISTORY, "Boundary top/Pressure": "3*t"}, {"forces.bottom.1": 6}),
     ("materials in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free"}, {"forces.right.0": 1.0}),
     ("thickness in time", {**LAYERS, **HISTORY, "Boundary right/Displacement": "0.1*t; free", "Material/Thickness": "2"},
@@ -227,15 +281,77 @@ class ByHand(RunTest):
         for name, scene, expected in ROWS:
             with self.subTest(name):
                 if isinstance(scene, dict):
-                    file = self.home / "row.prm"
-                    file.write_text(text_of({path: value for path, value in scene.items() if value is not None}))
-                    self.run_scene("Output/VTU=false", scene=file)
+                    self.run_settings(scene)
                 else:
                     self.run_scene("Adaptivity/Maximum steps=4", scene=scene)
                 summary = self.summary()
                 for path, value in expected.items():
                     largest = max(abs(value), *(abs(other) for other in expected.values()))
                     self.assertAlmostEqual(found(summary, path), value, delta=1e-8 * largest + 1e-10, msg=path)
+
+    def run_settings(self, settings, **options):
+        file = self.home / "row.prm"
+        file.write_text(text_of({path: value for path, value in settings.items() if value is not None}))
+        return self.run_scene("Output/VTU=false", scene=file, **options)
+
+    def test_a_slope_too_steep(self):
+        """tan = 3/4: a coefficient of 0.74 holds 0.74 * 4.8 of the 3.6 along the slope."""
+        line = self.run_settings({**SLOPE, "Boundary bottom/Friction coefficient": "0.74"}, status=2)
+        self.assertIn("sliding along bottom: the loads push with 3.6, friction resists with 0.74 * 4.8 = 3.552", line)
+
+    def test_a_block_that_turns_on_a_slope(self):
+        """Loads of (20, -6) meet the base at x = 1 + 20/12, beyond its end: friction turns the body, too, and no end is blamed."""
+        line = self.run_settings({**SLOPE, "Boundary bottom/Friction coefficient": "0.8", "Boundary left/Traction": "20; 0"}, status=2)
+        self.assertIn("no equilibrium: the loads turn the body", line)
+
+    def test_what_a_direction_leaves_free(self):
+        """Along (-d_y, d_x) alone nothing holds the body, whatever its normal."""
+        line = self.run_settings({**OBLIQUE, "Boundary bottom/Contact": "bilateral", "Boundary top/Pressure": "1"}, status=1)
+        self.assertIn("translation along (1.33333, 1)", line)
+
+    def test_contact_along_the_normal(self):
+        """Whoever writes the normal down gets the same bytes, bound included, whatever round-off does to its digits."""
+        slanted = {**OBLIQUE, "Geometry/Upper corner": None, "Geometry/Shape": "quadrilateral", "Geometry/Corners": "0, 0; 2, 1; 1.5, 2; -0.5, 1",
+                   "Boundary bottom/Contact direction": None, "Boundary bottom/Contact": "unilateral", "Boundary bottom/Friction bound": "0.1",
+                   "Boundary top/Displacement": "0.05; -0.1", "Adaptivity/Method": "hpa3", "Adaptivity/Maximum steps": "4"}
+        file = self.home / "slanted.prm"
+        file.write_text(text_of({path: value for path, value in slanted.items() if value is not None}))
+        for scene, direction in [(SCENES / "han-6-12-unilateral.prm", "1e-13; -7"), (SCENES / "ssnv128.prm", "0; -1"), (file, "1 + 1e-13; -2")]:
+            tables = []
+            for settings in ([], [f"Boundary bottom/Contact direction={direction}"]):
+                self.run_scene("Adaptivity/Maximum steps=4", "Output/VTU=false", *settings, scene=scene)
+                tables.append([(self.out / name).read_bytes() for name in self.names() if name.startswith("contact-")] +
+                              [[{name: value for name, value in row.items() if not re.match("seconds|peak_memory", name)} for row in self.rows()]])
+            self.assertGreater(len(tables[0]), 1)
+            self.assertEqual(*tables)
+
+    def test_a_direction_has_no_bound(self):
+        self.run_settings({**SLIDING, "Boundary bottom/Friction bound": "0.5"})
+        self.assertIn("bottom acts along its Contact direction, which is not the normal", self.summary()["no_error_bound"])
+        self.assertTrue(all(row["error_bound"] == "" for row in self.rows()))
+
+    def test_conditions_at_all_points(self):
+        """u . d <= u_0 and p >= 0 at the nodes, one of them with equality; |z| <= mu p; forces balance the loads."""
+        curved = {**OBLIQUE, "Boundary bottom/Contact": "unilateral", "Boundary bottom/Gap": "0.05*(x - 1)^2", "Boundary top/Displacement": "0.03; -0.1",
+                  "Adaptivity/Method": "hap3", "Adaptivity/Maximum steps": "8", "Material/Poisson's ratio": "0.3"}
+        for law, limit in [({}, None), ({"Boundary bottom/Friction coefficient": "0.4"}, 0.4)]:
+            self.run_settings({**curved, **law})
+            points, summary = self.rows("contact-08.csv"), self.summary()
+            modes = {point["state"] for point in points}
+            self.assertIn("open", modes)
+            self.assertIn("slip", modes)
+            for point in points:
+                gap, pressure, friction = (float(point[name]) for name in ("gap", "normal_traction", "tangential_traction"))
+                x, u_d = float(point["x"]), float(point["normal_displacement"])
+                self.assertAlmostEqual(gap, 0.05 * (x - 1) ** 2 - u_d, delta=1e-12)
+                self.assertGreater(gap, -2e-4)
+                self.assertLessEqual(pressure, 1e-2)
+                self.assertLess(abs(pressure * gap), 1e-3)
+                if limit:
+                    self.assertLessEqual(abs(friction), limit * max(0, -pressure) + 1e-9)
+            contact, force = summary["contact"]["bottom"], summary["forces"]["bottom"]["force"]
+            self.assertAlmostEqual(0.6 * force[0] - 0.8 * force[1], contact["normal_resultant"], delta=1e-9)
+            self.assertAlmostEqual(0.8 * force[0] + 0.6 * force[1], contact["friction_resultant"], delta=1e-9)
 
     def test_four_times_as_thick(self):
         """Energies and forces four times, norms and bounds twice, what is relative as it was."""

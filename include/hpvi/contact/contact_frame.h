@@ -6,12 +6,15 @@
 
 namespace hpvi
 {
-/** A contact face at one of its points: the one source of normals, tangents and lengths there. */
+/**
+ * A contact face at one of its points: the one source of normals, tangents and lengths there. ContactFace::frame() has
+ * `Contact direction` d in the place of the normal, and t = (-d_y, d_x).
+ */
 template <int dim>
 struct ContactFrame
 {
   dealii::Point<dim> x;
-  dealii::Tensor<1, dim> normal;  ///< outer unit normal n
+  dealii::Tensor<1, dim> normal;  ///< outer unit normal n, or d
   dealii::Tensor<1, dim> tangent; ///< t = (-n_y, n_x); in space the first of two
   double measure; ///< ds over ds of the reference face: the length of a straight edge
 };

@@ -58,10 +58,10 @@ public:
     return result;
   }
 
-  /** Its part along n: positive pulls. */
+  /** Its part along the direction of contact, n or d: positive pulls. */
   double normal_traction(const unsigned int q) const
   {
-    return traction(q) * map.normal(face_no, table.points[q]);
+    return traction(q) * condition.held_direction(map.normal(face_no, table.points[q]));
   }
 
 private:

@@ -32,6 +32,9 @@ double draw_springs(SceneSheet &sheet, const MarkedPart &marked, double band);
  */
 double draw_foundation(SceneSheet &sheet, const MarkedPart &marked, double band);
 
+/** Arrows along `Contact direction`, from the foundation on. */
+double draw_contact_direction(SceneSheet &sheet, const MarkedPart &marked, double band);
+
 /** The name of a boundary and what it has, in words. */
 double draw_words(SceneSheet &sheet, const MarkedPart &marked, double band);
 

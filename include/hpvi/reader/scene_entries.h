@@ -84,12 +84,15 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Output", "Reference solution", output.reference);
 }
 
-/** What is wrong with a bound where there is no contact, and with a gap where none can open. */
+/** What is wrong with a bound or a direction where there is no contact, and with a gap where none can open. */
 inline const std::string friction_needs_contact =
                              "needs contact; set Contact = bilateral, unilateral or tangential, or "
                              "remove it",
                          gap_needs_contact =
-                             "needs contact that can open; set Contact = unilateral or remove it";
+                             "needs contact that can open; set Contact = unilateral or remove it",
+                         direction_needs_contact =
+                             "needs contact that is measured along it; set Contact = bilateral, "
+                             "unilateral or tangential, or remove it";
 
 /**
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible
