@@ -81,6 +81,10 @@ std::vector<Hint> hints_in_plane()
        "modulus\" and \"Material/Poisson's ratio\""},
       {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
        "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
+      {{"thermal", "heat", "temperature change", "thermal strain", "eigenstrain", "prestress",
+        "prestrain", "shrinkage"},
+       "strains without load are \"Material/Initial strain\" = e1; e2; e12, or "
+       "\"Material/Thermal expansion\" with \"Temperature/Expression\""},
       {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force",
         "point load"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
@@ -103,6 +107,8 @@ std::vector<Hint> hints_in_space()
           {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
           {{"spring", "elastic foundation", "winkler"},
            "only a body in the plane has springs; remove it"},
+          {{"temperature", "initial strain", "thermal expansion"},
+           "only a body in the plane has initial strains; remove it"},
           {{"rigid", "force", "rotation", "moment"},
            "only a body in the plane has rigid plates; remove it"},
           {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},

@@ -55,6 +55,8 @@ invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
 invalid "Material/Thickness" "only a body in the plane" -- "Material/Thickness=2"
 invalid "Boundary top/Spring" "springs" -- "Boundary top/Spring=1; 1"
+invalid "Material/Initial strain" "only a body in the plane" -- "Material/Initial strain=0; 0; 0"
+invalid "Temperature" "only a body in the plane" -- "Temperature/Expression=20"
 invalid "Boundary top/Rigid" "only a body in the plane" -- "Boundary top/Rigid=true"
 invalid "Boundary bottom/Contact direction" "only a body in the plane" -- "Boundary bottom/Contact direction=0; -1; 0"
 invalid "Boundary top/Shear" "two tangents" -- "Boundary top/Shear=1"

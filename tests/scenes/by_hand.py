@@ -252,6 +252,12 @@ ROWS = [
     ("retaining.prm", SCENES / "retaining.prm",
      {"forces.bottom.1": 2.4 * 9.81 * 6, "forces.bottom.0": -9.81 * 4.5, "contact.bottom.friction_resultant": -9.81 * 4.5, "contact.bottom.normal_resultant": -2.4 * 9.81 * 6}),
     ("ballast.prm", SCENES / "ballast.prm", {"forces.bottom.1": 60, "forces.left.0+forces.bottom.0": 0}),
+    ("punch-plate.prm", SCENES / "punch-plate.prm",
+     {"forces.bottom.0": -20000, "forces.bottom.1": 300000, "contact.bottom.line_of_action.0": 70 + 80 * 20 / 300,
+      "plates.punch.moment": 0}),
+    ("key.prm", SCENES / "key.prm", {"forces.right.1": -1200, "forces.left.0+forces.right.0+forces.grip.0": 0}),
+    ("bolt.prm", SCENES / "bolt.prm", {"forces.shaft.1+forces.bottom.1": -450, "forces.left.0": 0}),
+    ("thermal-joint.prm", SCENES / "thermal-joint.prm", {"forces.left.0": 800, "forces.bottom.0": -800, "forces.bottom.1": 4000}),
     ("footing.prm", SCENES / "footing.prm", {"forces.bottom.1": 200 + 9.81 * 8 * (1.8 * 2.5 + 2.1 * 1.5)}),
 ]
 
@@ -368,6 +374,14 @@ class ByHand(RunTest):
             for name, power in powers.items():
                 value = 2 ** power * float(thin[name])
                 self.assertAlmostEqual(float(thick[name]), value, delta=1e-12 * abs(value), msg=name)
+
+    def test_a_strip_of_two_metals(self):
+        """Far from its ends a heated strip bends as Timoshenko says: they cost less than a third of a percent."""
+        self.run_scene("Adaptivity/Maximum steps=4", "Output/VTU=false", scene=SCENES / "bimetal.prm")
+        plate = self.summary()["plates"]["right"]
+        angle = 100 * timoshenko((19e-6 - 1.2e-6) * 60, 1, 100000, 1, 145000)
+        self.assertAlmostEqual(plate["rotation"] / -angle, 1, delta=0.003)
+        self.assertAlmostEqual(plate["displacement"][1] / (-angle * 50), 1, delta=0.003)
 
     def test_a_bound_at_a_million_times_the_stiffness(self):
         """u_N has 16 digits, of which the motion of the stiff part takes six or seven: the bound pays for what is left."""
