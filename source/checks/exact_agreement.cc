@@ -182,6 +182,12 @@ void check_exact_solution(const Scene<2> &scene)
     reject(scene, "Exact solution", "Solution",
            "knows one material, and the scene has " + std::to_string(scene.materials.size()) +
                "; measure errors by Error/Reference solution");
+  if (scene.materials[0].orthotropy)
+    reject(
+        scene, section_of_material(scene.materials[0].name), "Elasticity",
+        "contradicts " + mention(scene, "Exact solution", "Solution") +
+            ", which is that of an isotropic material; measure errors by Error/Reference solution",
+        "orthotropic");
   if (scene.has_parts())
     reject(scene, "Exact solution", "Solution",
            "knows whole sides, and Boundary " + scene.boundaries.back().name +

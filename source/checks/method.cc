@@ -158,6 +158,14 @@ void check_primal_path(const Scene<dim> &scene)
       reject(scene, section_of(boundary), "Friction coefficient",
              "is " + boundary.friction.name() + ", which " + why +
                  " does not offer; give Friction bound, Tresca's");
+  for (const Material &material : scene.materials)
+    if (material.orthotropy)
+      reject(scene, section_of_material(material.name), "Elasticity",
+             "is not offered by " + why +
+                 (dim == 3
+                      ? "; give Young's modulus and Poisson's ratio"
+                      : "; run the reduced path on one process, or give an isotropic material"),
+             "orthotropic");
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.spring)
       reject(scene, section_of(boundary), "Spring",

@@ -11,6 +11,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace hpvi
 {
@@ -38,6 +40,45 @@ void draw_body(SceneSheet &sheet, const Triangulation<2> &mesh)
     const double size = sheet.scale * cell->minimum_vertex_distance();
     sheet.drawing.area(corners, "class=\"cell\" fill=\"" + material_colour(cell->material_id()) +
                                     "\" " + stroke("#8a97a6", std::min(0.8, 0.06 * size)));
+  }
+  sheet.drawing.end();
+}
+
+/** A cross along the axes of one material, axis 1 the longer one, with @p number where it ends. */
+void draw_material_axes(SceneSheet &sheet, const Point<2> &centre, const double reach,
+                        const double degrees, const std::string &number)
+{
+  const double angle = degrees * numbers::PI / 180;
+  const PagePoint at = sheet.page(centre);
+  const PageVector one = sheet.direction(Tensor<1, 2>({std::cos(angle), std::sin(angle)})),
+                   two = sheet.direction(Tensor<1, 2>({-std::sin(angle), std::cos(angle)}));
+  sheet.drawing.strokes({{at - reach * one, at + reach * one}}, stroke("#55606e", 1.4));
+  sheet.drawing.strokes({{at - 0.4 * reach * two, at + 0.4 * reach * two}}, stroke("#55606e", 0.8));
+  if (!number.empty())
+    sheet.drawing.text_at(at + (reach + 7.) * one + PageVector({0., 4.}),
+                          {number, false, "#55606e"}, "middle");
+}
+
+/** Of orthotropic materials, so far from each other that they are told apart. */
+void draw_material_axes(SceneSheet &sheet, const Triangulation<2> &mesh)
+{
+  constexpr double apart = 40.; // pixels
+  std::map<types::material_id, std::vector<PagePoint>> drawn;
+  sheet.drawing.begin("axes-of-materials");
+  for (const auto &cell : mesh.active_cell_iterators())
+  {
+    const std::optional<Orthotropy> &own = sheet.scene.material_of(cell).orthotropy;
+    if (!own)
+      continue;
+    const PagePoint at = sheet.page(cell->center());
+    std::vector<PagePoint> &others = drawn[cell->material_id()];
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const PagePoint &other) { return other.distance(at) < apart; }))
+      continue;
+    const double size = sheet.scale * cell->minimum_vertex_distance();
+    draw_material_axes(sheet, cell->center(), std::clamp(0.3 * size, 5., 20.), own->angle,
+                       others.empty() ? "1" : "");
+    others.push_back(at);
   }
   sheet.drawing.end();
 }
@@ -199,6 +240,7 @@ std::string scene_picture(const Scene<2> &scene)
   const std::vector<MarkedPart> marked = marked_parts(last, parts);
   find_largest(sheet, marked);
   draw_body(sheet, mesh);
+  draw_material_axes(sheet, mesh);
   draw_outline(sheet, parts);
   draw_boundaries(sheet, marked);
   draw_body_force(sheet, mesh);

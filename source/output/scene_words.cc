@@ -7,6 +7,7 @@
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
+#include <hpvi/scene/elasticity.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -106,11 +107,7 @@ std::string temperature_in_words(const Scene<dim> &scene)
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material)
 {
-  const std::string unit = unit_name(scene.stress_unit);
-  std::string words = material.stiffness_in_words() + (unit.empty() ? "" : " " + unit);
-  const auto constants = material.constants();
-  if (const auto nu = constants.find("nu"); nu != constants.end())
-    words += ", Poisson's ratio " + text(nu->second, 6);
+  std::string words = elasticity_in_words(material, unit_name(scene.stress_unit));
   if (dim == 2)
     words += material.plane == PlaneModel::stress ? ", plane stress" : ", plane strain";
   if (material.density > 0)

@@ -43,15 +43,14 @@ UpdateFlags flags_for(const Scene<dim> &scene)
 }
 
 template <int dim>
-SymmetricTensor<2, dim> stress_at(const Scene<dim> &scene,
+SymmetricTensor<2, dim> stress_at(const Scene<dim> &scene, const HookesLaw<dim> &law,
                                   const DataPostprocessorInputs::Vector<dim> &inputs,
                                   const unsigned int q)
 {
-  const auto cell = inputs.template get_cell<dim>();
   Tensor<2, dim> strain = gradient<dim>(inputs, q);
   if (scene.has_initial_strain())
-    strain -= scene.initial_strain_in(cell, inputs.evaluation_points[q]);
-  return HookesLaw<dim>(scene.material_of(cell)).stress(strain);
+    strain -= scene.initial_strain_in(inputs.template get_cell<dim>(), inputs.evaluation_points[q]);
+  return law.stress(strain);
 }
 
 /** The initial strain e33. */
@@ -78,9 +77,10 @@ public:
   {
     const auto cell = inputs.template get_cell<dim>();
     const Material &material = scene.material_of(cell);
+    const HookesLaw<dim> law(material);
     for (unsigned int q = 0; q < fields.size(); ++q)
     {
-      const SymmetricTensor<2, dim> sigma = stress_at(scene, inputs, q);
+      const SymmetricTensor<2, dim> sigma = stress_at(scene, law, inputs, q);
       fields[q][0] = von_mises(material, sigma, across_at(scene, inputs, q));
       for (unsigned int i = 0; i < sigma.n_independent_components; ++i)
         fields[q][1 + i] = sigma.access_raw_entry(i);
@@ -128,10 +128,11 @@ public:
                              std::vector<Vector<double>> &fields) const override
   {
     const Material &material = scene.material_of(inputs.template get_cell<dim>());
+    const HookesLaw<dim> law(material);
     for (unsigned int q = 0; q < fields.size(); ++q)
       if constexpr (dim == 2)
-        fields[q][0] =
-            material.transverse_stress(stress_at(scene, inputs, q), across_at(scene, inputs, q));
+        fields[q][0] = material.transverse_stress(stress_at(scene, law, inputs, q),
+                                                  across_at(scene, inputs, q));
   }
 
 private:

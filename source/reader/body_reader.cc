@@ -5,6 +5,7 @@
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/elasticity.h>
 #include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/numbers.h>
@@ -24,6 +25,13 @@ std::map<std::string, double> constants_of(const Material &material, const std::
   if (t)
     constants.emplace("t", *t);
   return constants;
+}
+
+std::string remark_on_constants(const Material &material)
+{
+  return material.constants().empty()
+             ? "; " + section_of_material(material.name) + " is orthotropic and has no E, nu and mu"
+             : "";
 }
 
 namespace
@@ -76,7 +84,10 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
     return;
   const bool is_stress = common_value(parameters, scene.materials, "Plane") == "stress";
   for (Material &material : scene.materials)
+  {
     material.plane = is_stress ? PlaneModel::stress : PlaneModel::strain;
+    read_elasticity(parameters, material);
+  }
   scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
 }
 

@@ -50,9 +50,13 @@ ExpressionReader<dim> reader_along(const Parameters &parameters, const Scene<dim
   for (const char *const name : {"E", "nu", "mu"})
     if (differ)
       constants.erase(name);
-  return ExpressionReader<dim>(parameters, constants,
-                               differ ? "; the materials along this boundary differ in E, nu and mu"
-                                      : "");
+  std::string remark;
+  for (const unsigned int m : materials)
+    if (remark.empty())
+      remark = remark_on_constants(scene.materials[m]);
+  if (differ && remark.empty())
+    remark = "; the materials along this boundary differ in E, nu and mu";
+  return ExpressionReader<dim>(parameters, constants, remark);
 }
 
 /** Traction, pressure and shear as one load. */

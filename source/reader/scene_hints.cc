@@ -72,9 +72,41 @@ const std::vector<std::string> words_of_friction = {
     "friction", "coefficient",     "friction law", "coulomb", "coulomb friction",
     "tresca",   "tresca friction", "mu_f",         "mu",      "coefficient of friction"};
 
+const std::vector<std::string> words_of_orthotropy = {"orthotropic",
+                                                      "orthotropy",
+                                                      "anisotropic",
+                                                      "anisotropy",
+                                                      "transversely isotropic",
+                                                      "e1",
+                                                      "e2",
+                                                      "e3",
+                                                      "ex",
+                                                      "ey",
+                                                      "ez",
+                                                      "nu12",
+                                                      "nu13",
+                                                      "nu23",
+                                                      "nu21",
+                                                      "nuxy",
+                                                      "g12",
+                                                      "g13",
+                                                      "g23",
+                                                      "gxy",
+                                                      "fibre angle",
+                                                      "fiber angle",
+                                                      "orientation",
+                                                      "material angle",
+                                                      "fibres",
+                                                      "theta",
+                                                      "material orientation"};
+
 std::vector<Hint> hints_in_plane()
 {
   return {
+      {words_of_orthotropy,
+       "set \"Material/Elasticity\" = orthotropic, \"Material/Young's moduli\" = E1, E2, E3, "
+       "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12 and "
+       "\"Material/Angle\""},
       {words_of_friction,
        "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
        "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
@@ -100,7 +132,11 @@ std::vector<Hint> hints_in_plane()
 
 std::vector<Hint> hints_in_space()
 {
-  return {{words_of_friction,
+  std::vector<std::string> orthotropic = words_of_orthotropy;
+  for (const char *const entry : {"young's moduli", "poisson's ratios", "shear moduli", "angle"})
+    orthotropic.push_back(entry);
+  return {{orthotropic, "only a body in the plane may be orthotropic; remove it"},
+          {words_of_friction,
            "friction is \"Boundary bottom/Friction bound\", Tresca's; a shear modulus follows from "
            "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},

@@ -155,6 +155,11 @@ void complete(Parameters &parameters, const std::string &name)
     parameters.set("Adaptivity", "Start degree",
                    std::to_string(own_start_degree(
                        read_choice<Method>(parameters, "Adaptivity", "Method", method_names))));
+  if (is_in_space(parameters) || parameters.text("Material", "Elasticity") == "isotropic")
+    return;
+  for (const char *const entry : {"Young's modulus", "Poisson's ratio"})
+    if (!parameters.is_named("Material", entry))
+      parameters.set("Material", entry, "");
 }
 
 /** What `automatic` is for the scene that was read, in it and for scene.prm. */
@@ -175,7 +180,8 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
   bool is_heavy = false;
   for (const Material &material : scene.materials)
   {
-    const ExpressionReader<dim> expressions(parameters, constants_of(material, t));
+    const ExpressionReader<dim> expressions(parameters, constants_of(material, t),
+                                            remark_on_constants(material));
     Load<dim> force = expressions.template read<dim>(section, "Expression", "0", points);
     const Load<dim> gravity = expressions.template read<dim>(section, "Gravity", "0", points);
     for (unsigned int c = 0; c < dim; ++c)
@@ -209,8 +215,11 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   if constexpr (dim == 2)
     read_initial_strains(*parameters, t, scene);
   if constexpr (dim == 2)
-    scene.exact_solution = read_exact_solution(
-        *parameters, ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t)), scene);
+    scene.exact_solution =
+        read_exact_solution(*parameters,
+                            ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t),
+                                                remark_on_constants(scene.materials[0])),
+                            scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
     read_boundary(*parameters, t, scene, boundary);
   scene.reference_solution = parameters->text("Error", "Reference solution");

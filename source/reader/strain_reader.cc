@@ -51,7 +51,8 @@ void read_initial_strains(const Parameters &parameters, const std::optional<doub
   bool expands = false;
   for (const Material &material : scene.materials)
   {
-    const ExpressionReader<2> expressions(parameters, constants_of(material, t));
+    const ExpressionReader<2> expressions(parameters, constants_of(material, t),
+                                          remark_on_constants(material));
     InitialStrain<2> strain;
     strain.components = read_components(parameters, expressions, material, points);
     strain.expansion = parameters.number(section_with(parameters, material, "Thermal expansion"),

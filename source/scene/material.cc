@@ -2,7 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/input/parameters.h>
-#include <hpvi/scene/material.h>
+#include <hpvi/scene/elasticity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +15,47 @@ using namespace dealii;
 
 namespace
 {
-/** Of C on symmetric tensors, the largest first [stress]. */
-std::array<double, 3> eigenvalues_of(const Orthotropy &orthotropy, const PlaneModel plane)
+/** The largest of a matrix on symmetric tensors; @p shear: what makes its third component one of length 1. */
+double largest_eigenvalue(const VoigtMatrix &matrix, const double shear)
 {
-  const VoigtMatrix C = inverse(orthotropy.compliance(plane));
-  SymmetricTensor<2, 3> matrix; // in a basis of length 1: xx, yy, sqrt(2) xy
+  SymmetricTensor<2, 3> result; // xx, yy, sqrt(2) xy
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = i; j < 3; ++j)
-      matrix[i][j] = C[i][j] * (i == 2 ? std::sqrt(2.) : 1.) * (j == 2 ? std::sqrt(2.) : 1.);
-  return eigenvalues(matrix);
+      result[i][j] = matrix[i][j] * (i == 2 ? shear : 1.) * (j == 2 ? shear : 1.);
+  // Roots of the characteristic polynomial would lose half of the digits where two are equal.
+  const double scale = result.norm();
+  return scale * eigenvectors(result / scale, SymmetricTensorEigenvectorMethod::jacobi)[0].first;
+}
+
+/** Largest and least of C on symmetric tensors [stress], each from the matrix in which it is the largest. */
+std::array<double, 2> stiffnesses_of(const Orthotropy &orthotropy, const PlaneModel plane)
+{
+  const VoigtMatrix S = orthotropy.compliance(plane);
+  return {
+      {largest_eigenvalue(inverse(S), std::sqrt(2.)), 1 / largest_eigenvalue(S, std::sqrt(0.5))}};
+}
+
+/** What a file could not say in the first place, then what no elastic material has. */
+std::optional<Material::Flaw> flaw_of(const Orthotropy &orthotropy, const PlaneModel plane)
+{
+  const auto is_modulus = [](const double value) { return value >= 1e-100 && value <= 1e100; };
+  const std::string remedy = "has no modulus here; give numbers from 1e-100 to 1e100";
+  for (unsigned int i = 0; i < (plane == PlaneModel::strain ? 3 : 2); ++i)
+    if (!is_modulus(orthotropy.young[i]))
+      return Material::Flaw{"Young's moduli", remedy, text(orthotropy.young[i])};
+  if (!is_modulus(orthotropy.shear))
+    return Material::Flaw{"Shear moduli", remedy, text(orthotropy.shear)};
+  if (!(std::abs(orthotropy.angle) <= 360))
+    return Material::Flaw{"Angle", "is no angle; give degrees from -360 to 360",
+                          text(orthotropy.angle)};
+  if (const auto problem = orthotropy.flaw(plane))
+    return Material::Flaw{"Poisson's ratios", *problem, text(orthotropy.poisson[0])};
+  return std::nullopt;
 }
 
 const std::string unnamed = "Material", plane_stress = "stress", plane_strain = "strain",
-                  number_words = "a number E > 0 (a stress) from 1e-100 to 1e100";
+                  range = "from 1e-100 to 1e100",
+                  number_words = "a number E > 0 (a stress) " + range;
 const Patterns::Double young_pattern(1e-100, 1e100);
 
 using Pattern = std::shared_ptr<const Patterns::PatternBase>;
@@ -52,10 +80,9 @@ struct Inheritance
     return is_named ? text + " Empty: as of the unnamed Material." : text;
   }
 
-  template <class Wanted>
-  Pattern pattern(const Wanted &wanted) const
+  Pattern pattern(const Patterns::PatternBase &wanted) const
   {
-    return is_named ? word_or("", wanted) : std::make_shared<Wanted>(wanted);
+    return is_named ? word_or("", wanted) : Pattern(wanted.clone());
   }
 };
 } // namespace
@@ -69,8 +96,9 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
 {
   const Inheritance inherited{!name.empty()};
   std::vector<Entry> entries;
-  const auto add = [&](const std::string &entry, const std::string &value, const auto &pattern,
-                       const std::string &words, const std::string &documentation)
+  const auto add = [&](const std::string &entry, const std::string &value,
+                       const Patterns::PatternBase &pattern, const std::string &words,
+                       const std::string &documentation)
   {
     entries.push_back({section_of_material(name), entry, inherited.value(value),
                        inherited.pattern(pattern), inherited.words(words),
@@ -83,9 +111,13 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
                        "cell of the coarse mesh; materials are tried in the order of the file, the "
                        "unnamed one is the rest. A box gets a grid line where a side of the "
                        "material has none."});
-  add("Young's modulus", "1", young_pattern, number_words,
+  // Nothing, as scene.prm has them, is for orthotropic materials alone.
+  const auto number_or_nothing = [dim](const Patterns::Double &number)
+  { return dim == 2 ? word_or("", number) : Pattern(number.clone()); };
+  add("Young's modulus", "1", *number_or_nothing(young_pattern), number_words,
       "E > 0 [stress]; constant E in expressions.");
-  add("Poisson's ratio", "0.3", Patterns::Double(), "a number nu with -1 < nu < 1/2",
+  add("Poisson's ratio", "0.3", *number_or_nothing(Patterns::Double()),
+      "a number nu with -1 < nu < 1/2",
       "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu)).");
   add("Density", "0", Patterns::Double(0), "a number >= 0",
       "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
@@ -106,6 +138,8 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
         "Thickness b of the body [length], one for the whole of it: forces, moments, works and "
         "energies are b times those of a unit, norms and bounds of the error b^(1/2) times; "
         "tractions, stresses and relative errors stay.");
+    for (const Entry &entry : elasticity_entries())
+      add(entry.name, entry.default_value, *entry.pattern, entry.wanted, entry.documentation);
   }
   return entries;
 }
@@ -133,8 +167,8 @@ std::optional<Material::Flaw> Material::flaw() const
 {
   if (orthotropy)
   {
-    if (const auto problem = orthotropy->flaw(plane))
-      return Flaw{"Poisson's ratios", *problem, text(orthotropy->poisson[0])};
+    if (auto flaw = flaw_of(*orthotropy, plane))
+      return flaw;
   }
   else if (!young_pattern.match(text(young)))
     return Flaw{"Young's modulus", "is not accepted here; give " + number_words, text(young)};
@@ -160,7 +194,7 @@ std::map<std::string, double> Material::constants() const
 double Material::coercivity(const int dim) const
 {
   if (orthotropy)
-    return eigenvalues_of(*orthotropy, plane).back();
+    return stiffnesses_of(*orthotropy, plane).back();
   return 2 * mu() + std::min(dim * lambda(dim), 0.);
 }
 
@@ -173,7 +207,7 @@ double Material::locking_ratio(const int dim) const
 {
   if (!orthotropy)
     return lambda(dim) / mu();
-  const auto values = eigenvalues_of(*orthotropy, plane);
+  const auto values = stiffnesses_of(*orthotropy, plane);
   return values.front() / values.back() - 1;
 }
 
@@ -212,7 +246,7 @@ std::string Material::locking_in_words(const int dim) const
   if (orthotropy)
   {
     words << "the material is " << locking_ratio(dim) + 1
-          << " times as stiff in one direction as in another";
+          << " times as stiff against one strain as against another";
     return words.str();
   }
   words << "Poisson's ratio " << text(poisson) << " is near 1/2 (lambda/mu = " << locking_ratio(dim)

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hpvi
@@ -91,15 +92,17 @@ std::optional<std::string> Orthotropy::flaw(const PlaneModel plane) const
 
 VoigtMatrix inverse(const VoigtMatrix &matrix)
 {
+  const double scale =
+      std::max({matrix[0][0], matrix[1][1], matrix[2][2]}); // no cube over- or underflows
   Tensor<2, 3> full;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      full[i][j] = matrix[i][j];
+      full[i][j] = matrix[i][j] / scale;
   full = invert(full);
   VoigtMatrix result;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      result[i][j] = full[i][j];
+      result[i][j] = full[i][j] / scale;
   return result;
 }
 } // namespace hpvi

@@ -125,11 +125,23 @@ void choose_method(RandomScene &scene, Dice &dice)
     scene.plane = "strain";
   }
 }
+
+/** Up to ten thousand times as stiff in one direction as in another; @p random is a copy. */
+void stiffen(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 1);
+  if (scene.fibres)
+    scene.fibres = random_fibres(1e4, own);
+  for (OtherMaterial &other : scene.materials)
+    if (other.fibres)
+      other.fibres = random_fibres(1e4, own);
+}
 } // namespace
 
 std::string rough_scene(std::mt19937 &random)
 {
   RandomScene scene(random);
+  stiffen(scene, random);
   Dice dice(random);
   stretch(scene, dice);
   choose_law(scene, dice);

@@ -160,6 +160,34 @@ invalid "Boundary bottom/Contact direction = ; -1" "empty component" -- "Boundar
 invalid "Boundary right/Displacement = 0.1; 0" "Contact = unilateral" "exceeds the gap by 0.06" -- "Boundary right/Displacement=0.1; 0" "Boundary bottom/Contact=unilateral" "Boundary bottom/Contact direction=3; -4"
 invalid "Boundary right/Displacement = 0.1; 0" "contradicts Boundary bottom/Contact = bilateral" -- "Boundary right/Displacement=0.1; 0" "Boundary bottom/Contact direction=3; -4"
 refused "Boundary bottom/Contact direction" "the primal path" "reduced" -- "$scenes/base.prm" --set "Boundary bottom/Contact direction=0; -1" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
+
+# --- orthotropic materials: base.prm names E and nu in Material
+wood=("Material wood/Where=x - 2" "Material wood/Elasticity=orthotropic" "Material wood/Young's moduli=9, 1, 1"
+  "Material wood/Poisson's ratios=0.3, 0.3, 0.4" "Material wood/Shear moduli=0.7")
+invalid "Material/Elasticity = cubic" "isotropic or orthotropic" -- "Material/Elasticity=cubic"
+invalid "Material/Young's modulus" "contradicts Elasticity = orthotropic" "remove it or set Material/Elasticity = isotropic" -- "Material/Elasticity=orthotropic"
+invalid "Material wood/Young's modulus = 3" "contradicts Elasticity = orthotropic" -- "${wood[@]}" "Material wood/Young's modulus=3"
+invalid "Material wood/Young's moduli" "contradicts Elasticity = isotropic" "Material wood/Elasticity = orthotropic" -- "${wood[@]}" "Material wood/Elasticity=isotropic"
+for entry in "Young's moduli=1, 2" "Poisson's ratios=0.3" "Shear moduli=1" "Angle=0"; do
+  invalid "Material/${entry%=*} = ${entry#*=}" "contradicts Elasticity = isotropic" -- "Material/$entry"
+done
+for lacking in "Young's moduli=9, 1:E3" "Young's moduli=:E1" "Poisson's ratios=0.3:nu13" "Poisson's ratios=0.3, 0.3:nu23" "Shear moduli=:G12"; do
+  invalid "Material wood/${lacking%%=*}" "lacks ${lacking##*:}" "plane strain" "give" -- "${wood[@]}" "Material wood/${lacking%:*}" "Material/Plane=strain"
+done
+invalid "Material wood/Poisson's ratios = " "lacks nu12" "plane stress" -- "${wood[@]}" "Material wood/Poisson's ratios=" "Material/Plane=stress"
+for wrong in "Young's moduli=9" "Young's moduli=9, 0, 1" "Young's moduli=9, nan, 1" "Young's moduli=1, 2, 3, 4" "Young's moduli=9 1" \
+  "Poisson's ratios=inf" "Poisson's ratios=0.1; 0.2" "Shear moduli=0" "Shear moduli=1, 1, -1" "Angle=400" "Angle=30 degrees"; do
+  invalid "Material wood/${wrong%=*}" "not accepted" "give" -- "${wood[@]}" "Material wood/$wrong"
+done
+invalid "Material wood/Poisson's ratios" "nu12^2 = 16" "E1/E2 = 9" -- "${wood[@]}" "Material wood/Poisson's ratios=4, 0.3, 0.4"
+invalid "Material wood/Poisson's ratios" "nu23^2" "E2/E3" -- "${wood[@]}" "Material wood/Poisson's ratios=0.3, 0.3, 1.1" "Material/Plane=strain"
+invalid "Material wood/Poisson's ratios" "not positive definite" -- "${wood[@]}" "Material wood/Poisson's ratios=2, 2, 0.8" "Material/Plane=strain"
+invalid "Boundary right/Traction" "Material wood is orthotropic" "no E, nu and mu" -- "${wood[@]}" "Boundary right/Traction=E; 0" "Boundary right/Displacement="
+invalid "Boundary top/Pressure" "Material wood is orthotropic" -- "${wood[@]}" "Boundary top/Pressure=mu"
+invalid "Body force/Expression" "Material wood is orthotropic" -- "${wood[@]}" "Body force/Expression=nu; 0"
+broken isotropic_beside_orthotropic.prm "Material soft/Young's modulus" "an isotropic material needs it" "E > 0"
+broken exact_orthotropic.prm ":3:" "Material/Elasticity = orthotropic" "contradicts Exact solution/Solution = smooth"
+refused "Material wood/Elasticity = orthotropic" "the primal path" -- "$scenes/base.prm" --set "${wood[0]}" --set "${wood[1]}" --set "${wood[2]}" --set "${wood[3]}" --set "${wood[4]}" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 invalid "Exact solution/Solution" "knows one material" -- "Exact solution/Solution=smooth" "Material soft/Where=x - 2"
 
 # --- names: the nearest known one is named, from the file with the line
@@ -193,7 +221,9 @@ unknown Constants/a "unknown subsection" "pi, E, nu and mu"
 unknown Gravity/g "unknown subsection" '"Body force/Gravity"'
 unknown Adaptivity/Steps '"Adaptivity/Maximum steps"' '"Loading/Steps"'
 unknown Contact/Gap "unknown subsection" "this is an entry" '"Boundary bottom/Contact"'
-unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Plane and Thickness"
+unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Plane, Thickness, Elasticity"
+unknown Material/E1 '"Material/Elasticity" = orthotropic'
+unknown "Material/Fibre angle" '"Material/Angle"'
 unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'
 unknown Units/Time "Loading/Steps"
 unknown Units/Mass "unknown entry; Units has Length and Stress"

@@ -53,6 +53,8 @@ check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/
 # --- what is of the plane
 invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material/Plane=stress"
 invalid "Shape = quadrilateral" "give box" -- "Geometry/Shape=quadrilateral"
+invalid "Material/Elasticity" "unknown entry" "Young's modulus" -- "Material/Elasticity=isotropic"
+invalid "Material/Angle" "only a body in the plane may be orthotropic" -- "Material/Angle=0"
 invalid "Material/Thickness" "only a body in the plane" -- "Material/Thickness=2"
 invalid "Boundary top/Spring" "springs" -- "Boundary top/Spring=1; 1"
 invalid "Material/Initial strain" "only a body in the plane" -- "Material/Initial strain=0; 0; 0"

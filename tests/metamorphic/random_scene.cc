@@ -223,6 +223,20 @@ void choose_directions(RandomScene &scene, std::mt19937 random)
           dice.happens(0.2) ? 0. : dice.number(-1, 1) * (side.coefficient.empty() ? 0.6 : 0.2);
 }
 
+/** From a copy of @p random: what else is drawn stays as it was. */
+void choose_fibres(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 1);
+  Dice dice(own);
+  if (!dice.happens(0.25))
+    return;
+  if (dice.happens(0.7) || scene.materials.empty())
+    scene.fibres = random_fibres(100, own);
+  for (OtherMaterial &other : scene.materials)
+    if (dice.happens(0.7))
+      other.fibres = random_fibres(100, own);
+}
+
 // ---------------------------------------------------------------- files
 
 /** The file, with sections and entries in an order of their own. */
@@ -291,6 +305,7 @@ RandomScene::RandomScene(std::mt19937 &random) : sides(4)
           *component = "(" + *component + ")*sin(4*t)";
   }
   choose_directions(*this, random);
+  choose_fibres(*this, random);
 }
 
 Frame RandomScene::own_frame() const
@@ -325,6 +340,12 @@ bool RandomScene::has_polynomial_data() const
   const std::string all = text(own_frame());
   return std::all_of(transcendental.begin(), transcendental.end(),
                      [&](const std::string &word) { return all.find(word) == std::string::npos; });
+}
+
+bool RandomScene::is_isotropic() const
+{
+  return !fibres && std::none_of(materials.begin(), materials.end(),
+                                 [](const OtherMaterial &other) { return bool(other.fibres); });
 }
 
 bool RandomScene::has(std::string Side::*const entry) const
@@ -412,6 +433,7 @@ void RandomScene::exchange_materials()
   std::swap(young, other.young);
   std::swap(poisson, other.poisson);
   std::swap(density, other.density);
+  std::swap(fibres, other.fibres);
   other.where = "-(" + other.where + ")";
 }
 
@@ -426,16 +448,24 @@ std::vector<Section> RandomScene::material_sections(const Frame &frame) const
     same.order = 0;
     return other.material_sections(same);
   }
-  std::vector<OtherMaterial> all = {{"", young, poisson, density}};
+  std::vector<OtherMaterial> all = {{"", young, poisson, density, fibres}};
   all.insert(all.end(), materials.begin(), materials.end());
   std::vector<Section> result;
   for (const OtherMaterial &material : all)
   {
     const std::string number = std::to_string(result.size());
-    Section section{result.empty() ? "Material" : "Material m" + number,
-                    {{"Young's modulus", text(material.young * frame.stress)},
-                     {"Poisson's ratio", text(material.poisson)},
-                     {"Density", text(material.density)}}};
+    Section section{result.empty() ? "Material" : "Material m" + number, {}};
+    if (material.fibres)
+      for (const auto &entry : entries(*material.fibres, material.young, frame))
+        section.second.push_back(entry);
+    else
+    {
+      section.second.emplace_back("Young's modulus", text(material.young * frame.stress));
+      section.second.emplace_back("Poisson's ratio", text(material.poisson));
+      if (!is_isotropic())
+        section.second.emplace_back("Elasticity", "isotropic");
+    }
+    section.second.emplace_back("Density", text(material.density));
     if (result.empty())
     {
       section.second.emplace_back("Plane", plane);

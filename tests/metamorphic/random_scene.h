@@ -2,6 +2,7 @@
 #ifndef hpvi_metamorphic_random_scene_h
 #define hpvi_metamorphic_random_scene_h
 
+#include "fibres.h"
 #include "frame.h"
 
 #include <array>
@@ -31,6 +32,7 @@ struct OtherMaterial
 {
   std::string where;
   double young = 1, poisson = 0.3, density = 0;
+  std::optional<Fibres> fibres{};
 };
 
 /** Its name, its entries with their values. */
@@ -53,6 +55,7 @@ struct RandomScene
   bool needs_axes() const; ///< is one component prescribed, and the other not?
   bool is_held() const;    ///< without its contact
   bool has_polynomial_data() const;
+  bool is_isotropic() const;
   bool has(std::string Side::*entry) const;
   bool has_direction() const; ///< of contact, which has no bound and no other path then
 
@@ -63,6 +66,7 @@ struct RandomScene
   std::array<Point<2>, 4> corners; ///< counterclockwise, side k from corner k to corner k+1
   std::array<unsigned int, 2> subdivisions{}; ///< of sides 0 and 2, of sides 1 and 3
   double young = 1, poisson = 0.3, density = 0, thickness = 1;
+  std::optional<Fibres> fibres; ///< in the place of poisson
   std::string plane;
   std::vector<OtherMaterial> materials; ///< nowhere two of them
   std::array<std::string, 2> body_force, gravity;

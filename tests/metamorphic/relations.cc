@@ -119,8 +119,8 @@ void Relations::solve_otherwise()
 void Relations::take_the_primal_path()
 {
   const std::string method = scene.settings.at("Adaptivity/Method").substr(0, 3);
-  if (scene.is_box && scene.is_held() && !scene.has(&Side::coefficient) && !has_history() &&
-      !scene.has_direction() && (method == "hup" || method == "hap") &&
+  if (scene.is_box && scene.is_isotropic() && scene.is_held() && !scene.has(&Side::coefficient) &&
+      !has_history() && !scene.has_direction() && (method == "hup" || method == "hap") &&
       scene.has_polynomial_data() && scene.settings.at("Solver/Normal contact") == "multiplier")
     vary("the primal path", {{"Solver/Path", "primal"}}, Claim::same_primal);
 }

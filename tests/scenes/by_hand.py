@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """by_hand.py HPVI: scenes whose energies and forces anybody can compute, a row each: settings and what summary.json has to say."""
 
+import math
 import re
 import unittest
 
@@ -23,6 +24,14 @@ SPACE = {"Dimension": "3", "Geometry/Upper corner": "2, 1, 1", "Geometry/Subdivi
 PLATE = {**BLOCK, "Boundary left/Displacement": "0; 0", "Boundary bottom/Displacement": None,
          "Boundary right/Rigid": "true"}
 HOT = {**BLOCK, "Material/Thermal expansion": "0.001", "Temperature/Expression": "100"}
+WOOD = {**BLOCK, "Material/Young's modulus": None, "Material/Poisson's ratio": None, "Material/Elasticity": "orthotropic",
+        "Material/Young's moduli": "10, 2", "Material/Poisson's ratios": "0.4", "Material/Shear moduli": "1.5, 7, 8",
+        "Boundary right/Traction": "3; 0"}
+FIBRES = math.radians(30)  # off-axis tension couples to shear: eps_xx, eps_yy and 2 eps_xy of sigma_xx = 1 in closed form
+C, S = math.cos(FIBRES), math.sin(FIBRES)
+ALONG = C ** 4 / 10 + S ** 4 / 2 + (1 / 1.5 - 2 * 0.4 / 10) * S * S * C * C
+ASIDE = (1 / 10 + 1 / 2 - 1 / 1.5) * S * S * C * C - 0.4 / 10 * (S ** 4 + C ** 4)
+SHEAR = (2 / 10 + 2 * 0.4 / 10 - 1 / 1.5) * S * C ** 3 - (2 / 2 + 2 * 0.4 / 10 - 1 / 1.5) * S ** 3 * C
 HISTORY = {"Loading/Steps": "2", "Adaptivity/Method": "hup2"}
 # A block whose stress is uniform, s_xy = 0.6 p + 0.8 z and s_yy = -0.8 p + 0.6 z under p along -d = (-0.6, 0.8) and z
 # along -t = -(0.8, 0.6); with E = 10, nu = 0 its bottom moves by the top's displacement less (s_xy/5, s_yy/10).
@@ -113,6 +122,26 @@ ROWS = [
     ("a spring beside a displacement", {**BLOCK, "Boundary left/Displacement": None, "Boundary left/Spring": "5; 0",
                                         "Boundary right/Displacement": "0.5; free", "Boundary right/Spring": "100; 0"},
      {"forces.left.0": -0.5 / (1 / 5 + 2 / 10), "forces.left.0+forces.right.0": 0}),
+    ("along the fibres", WOOD, {"final.energy": -0.5 * 3 * 3 / 10 * 2}),
+    ("across the fibres", {**WOOD, "Material/Angle": "90"}, {"final.energy": -0.5 * 3 * 3 / 2 * 2}),
+    ("along the fibres of a plane strain",
+     {**WOOD, "Material/Plane": "strain", "Material/Young's moduli": "10, 2, 4", "Material/Poisson's ratios": "0.4, 0.5, 0.1"},
+     {"final.energy": -0.5 * 3 * 3 * (1 / 10 - 0.5 ** 2 / 10 ** 2 * 4) * 2}),
+    ("at an angle to the fibres", {**WOOD, "Material/Angle": "30", "Boundary bottom/Displacement": None,
+                                   "Boundary left/Displacement": f"{3 * SHEAR}*y; {3 * ASIDE}*y"},
+     {"final.energy": 0.5 * 3 * 3 * ALONG * 2 - 3 * 3 * (2 * ALONG + SHEAR / 2), "forces.left.0": -3, "forces.left.1": 0,
+      "final.energy_norm": (3 * 3 * ALONG * 2) ** 0.5}),
+    ("fibres beside an isotropic material that they do not inherit from",
+     {**HALVES, "Material stiff/Young's modulus": None, "Material stiff/Where": "x - 1", "Material stiff/Elasticity": "orthotropic",
+      "Material stiff/Young's moduli": "30, 1", "Material stiff/Poisson's ratios": "0", "Material stiff/Shear moduli": "1"},
+     {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 30)}),
+    ("an isotropic material beside fibres",
+     {**WOOD, "Material/Poisson's ratios": "0", "Material soft/Where": "x - 1", "Material soft/Elasticity": "isotropic",
+      "Material soft/Young's modulus": "5", "Material soft/Poisson's ratio": "0"},
+     {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 5)}),
+    ("fibres that inherit all but their angle",
+     {**WOOD, "Material/Poisson's ratios": "0", "Material turned/Where": "x - 1", "Material turned/Angle": "-90"},
+     {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 2)}),
     ("springs of a thick body in time", {**BLOCK, **HISTORY, "Boundary left/Displacement": None,
                                          "Boundary left/Spring": "5; 0", "Boundary right/Traction": "3*t; 0",
                                          "Material/Thickness": "2"},
@@ -253,7 +282,7 @@ ROWS = [
      {"forces.bottom.1": 2.4 * 9.81 * 6, "forces.bottom.0": -9.81 * 4.5, "contact.bottom.friction_resultant": -9.81 * 4.5, "contact.bottom.normal_resultant": -2.4 * 9.81 * 6}),
     ("ballast.prm", SCENES / "ballast.prm", {"forces.bottom.1": 60, "forces.left.0+forces.bottom.0": 0}),
     ("punch-plate.prm", SCENES / "punch-plate.prm",
-     {"forces.bottom.0": -20000, "forces.bottom.1": 300000, "contact.bottom.line_of_action.0": 70 + 80 * 20 / 300,
+     {"forces.bottom.0": -20000, "forces.bottom.1": 300000, "contact.bottom.through.0": 70 + 80 * 20 / 300,
       "plates.punch.moment": 0}),
     ("key.prm", SCENES / "key.prm", {"forces.right.1": -1200, "forces.left.0+forces.right.0+forces.grip.0": 0}),
     ("bolt.prm", SCENES / "bolt.prm", {"forces.shaft.1+forces.bottom.1": -450, "forces.left.0": 0}),

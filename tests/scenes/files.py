@@ -58,6 +58,16 @@ class Uniaxial(RunTest):
                 self.assertLess(abs(u_y - lateral * y), 1e-6)
                 self.assertEqual(u_z, 0)
 
+    def test_stress_across_fibres(self):
+        """sigma_zz = E3 nu13/E1 sigma_1, or with axis 2 along the bar E3 nu23/E2 sigma_2."""
+        for angle, across in ((0, 4 * 0.5 / 10 * 3), (90, 4 * 0.2 / 2 * 3)):
+            grid = self.run_bar("Material/Young's modulus=", "Material/Poisson's ratio=", "Material/Elasticity=orthotropic",
+                                "Material/Young's moduli=10, 2, 4", "Material/Poisson's ratios=0.25, 0.5, 0.2",
+                                "Material/Shear moduli=1", f"Material/Angle={angle}", "Material/Plane=strain")
+            self.check_field(grid["sigma_xx"], 3)
+            self.check_field(grid["sigma_zz"], across)
+            self.check_field(grid["von_mises"], math.sqrt(9 - 3 * across + across ** 2))
+
     def test_shear(self):
         grid = self.run_bar("Boundary left/Displacement=0.5*y; 0.2*x",
                             "Boundary right/Displacement=0.5*y; 0.2*x", "Boundary right/Traction=",

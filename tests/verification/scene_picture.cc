@@ -94,6 +94,28 @@ TEST(ScenePicture, MaterialsHaveColoursAndAKey)
   EXPECT_EQ(count(picture, "Young's modulus 70 MPa, Poisson's ratio 0.3, plane strain<"), 1u);
 }
 
+/** A cross in each cell, whose longer line lies along axis 1; y of a page points down. */
+TEST(ScenePicture, OrthotropicMaterialsShowTheirAxes)
+{
+  Scene<2> scene;
+  scene.stress_unit = "MPa";
+  scene.geometry.subdivisions = {{2, 2}};
+  Material fibres{1., 0.3, PlaneModel::stress};
+  fibres.orthotropy = Orthotropy{{{70, 10, 1}}, {{0.2, 0, 0}}, 5, 90};
+  scene.materials = {{10., 0.2, PlaneModel::stress}, fibres};
+  scene.material_at = [](const Point<2> &x) { return x[1] > 0.5; };
+  const std::string picture = scene_picture(scene);
+  EXPECT_EQ(count(picture, "E1 = 70, E2 = 10, G12 = 5 MPa, nu12 = 0.2, axis 1 at 90 degrees, "
+                           "plane stress<"),
+            1u);
+  const std::size_t begin = picture.find("axes-of-materials");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string crosses = picture.substr(begin, picture.find("</g>", begin) - begin);
+  EXPECT_EQ(count(crosses, "stroke-width=\"1.4\""), 2u);
+  EXPECT_EQ(count(crosses, ">1<"), 1u);
+  EXPECT_EQ(count(crosses, "M120 -340L120 -380"), 1u) << crosses;
+}
+
 TEST(ScenePicture, AnyExpressionOfCode)
 {
   Scene<2> scene;

@@ -146,7 +146,8 @@ TEST_P(SupportBound, HoldsAndIsNear)
               ASSERT_TRUE(step.bound) << step.no_bound;
               EXPECT_LE(step.energies.energy - step.bound->energy_below, J + doubt) << method;
               EXPECT_GE(step.energies.energy + step.bound->energy_above, J - doubt) << method;
-              if (GetParam() == 3 || GetParam() == 10 || GetParam() == 12) // penetrates: J(u_N) is no upper bound
+              if (GetParam() == 3 || GetParam() == 10 ||
+                  GetParam() == 12) // penetrates: J(u_N) is no upper bound
                 return;
               const double error = std::sqrt(2 * std::max(0., step.energies.energy - J));
               EXPECT_GE(step.bound->total, 0.999 * error) << method;
@@ -154,7 +155,9 @@ TEST_P(SupportBound, HoldsAndIsNear)
               const double indicator = step.scaled_estimate / error;
               EXPECT_GT(indicator, 1.) << method;
               // Jumps of an oscillating pressure count as shear.
-              EXPECT_LT(indicator, GetParam() == 4 || GetParam() == 9 || GetParam() == 14 ? 60. : 12.) << method;
+              EXPECT_LT(indicator,
+                        GetParam() == 4 || GetParam() == 9 || GetParam() == 14 ? 60. : 12.)
+                  << method;
             });
 }
 

@@ -43,7 +43,7 @@ template <int dim>
 struct FaceFrame
 {
   dealii::Point<dim> x;
-  dealii::Tensor<1, dim> normal;                        ///< outer unit normal n, or `Contact direction` d
+  dealii::Tensor<1, dim> normal; ///< outer unit normal n, or `Contact direction` d
   std::array<dealii::Tensor<1, dim>, dim - 1> tangents; ///< t = (-n_y, n_x); in space two
   double measure;                                       ///< ds over that of the reference face
 

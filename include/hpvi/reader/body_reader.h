@@ -24,6 +24,9 @@ void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> 
 /** What expressions may use where the body is of @p material: E, nu, mu and pi, the time @p t in a load history. */
 std::map<std::string, double> constants_of(const Material &material, std::optional<double> t);
 
+/** Why E, nu and mu are not among them, for messages; empty: they are. */
+std::string remark_on_constants(const Material &material);
+
 /** The materials of the cells along a boundary, by index. */
 template <int dim>
 std::vector<unsigned int> materials_along(const Scene<dim> &scene,

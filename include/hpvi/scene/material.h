@@ -64,8 +64,8 @@ struct Material
   double modulus() const;
 
   /**
-   * How much stiffer against changes of volume, or along fibres, than against shear: low degrees lock where it is large. lambda/mu;
-   * half the largest by the least eigenvalue of C, less one, is the same and general.
+   * How much stiffer against changes of volume, or along fibres, than against shear: low degrees lock where it is large.
+   * lambda/mu, or what is the same and general: the largest by the least eigenvalue of C, less one.
    */
   double locking_ratio(int dim) const;
 

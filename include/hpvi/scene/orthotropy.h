@@ -27,7 +27,10 @@ struct Orthotropy
   /** The compliance of the plane in x and y: `(eps_xx, eps_yy, 2 eps_xy) = S (s_xx, s_yy, s_xy)` [1/stress]. */
   VoigtMatrix compliance(PlaneModel plane) const;
 
-  /** By what of a strain and a stress in the plane the stress across it is less in plane strain: `s_zz = a . s - E_3 e_33`. */
+  /**
+   * The factors a of `s_zz = a . s - E_3 e_33` in plane strain, with s = (s_xx, s_yy, s_xy) and an initial strain e_33 across
+   * the plane.
+   */
   std::array<double, 3> transverse() const;
 
   /** Why there is no such material: a Poisson's ratio too large, in words. */
