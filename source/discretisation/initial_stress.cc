@@ -12,17 +12,6 @@ using namespace dealii;
 
 namespace
 {
-/** grad u in a cell at the points of @p table, in x and y; @p coefficients as in Field. */
-Tensor<2, 2> gradient_at(const ShapeTable<2> &table, const unsigned int q,
-                         const std::vector<double> &derivatives, const Tensor<2, 2> &inverse)
-{
-  Tensor<2, 2> reference;
-  for (unsigned int c = 0; c < 2; ++c)
-    for (unsigned int r = 0; r < 2; ++r)
-      reference[c][r] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + r];
-  return reference * inverse;
-}
-
 /** Calls f(cell, map, table, q, C eps_0, weight) for all points at which there is an initial strain. */
 template <class F>
 void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
@@ -159,10 +148,10 @@ double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
           derivatives = evaluate(table.derivatives, local);
           known = index;
         }
-        sum +=
-            weight * scalar_product(stress, 0.5 * strain -
-                                                gradient_at(table, q, derivatives,
-                                                            invert(map.jacobian(table.points[q]))));
+        const Tensor<2, 2> gradient =
+            physical_gradient<2>(derivatives, q * table.rows_per_point, table.derivatives.m(),
+                                 invert(map.jacobian(table.points[q])));
+        sum += weight * scalar_product(stress, 0.5 * strain - gradient);
       });
   return sum;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/equilibration/initial_modes.h>
 #include <hpvi/equilibration/parallelogram_stresses.h>
-#include <hpvi/stresses/legendre.h>
 
 #include <algorithm>
 #include <cmath>
@@ -128,78 +127,21 @@ void ParallelogramStresses::set_stress(const unsigned int index, const Solution<
     subtract_initial_stress(index);
 }
 
-/**
- * sigma -= C eps_0 in the frame of the cell, as far as the element has its modes whole. The polynomial through its values at the
- * points of the discrete equations is what these know; what of that is left out is orthogonal to the strains of hat functions
- * times rigid motions.
- */
+/** sigma -= C eps_0, as far as the element has its modes whole. */
 void ParallelogramStresses::subtract_initial_stress(const unsigned int index)
 {
   Cell &cell = cells[index];
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const HookesLaw<2> law(solution.scene.material_of(iterator));
-  const unsigned int n = initial_strain_points(
-      solution.scene, iterator, solution.displacement_space.degrees()[index], solution.tables);
-  const QGauss<1> &gauss = solution.tables.gauss(n);
-  const Tensor<2, 2> inverse = invert(cell.B);
-  std::array<FullMatrix<double>, 3> values;
-  values.fill(FullMatrix<double>(n, n));
-  for (unsigned int a = 0; a < n; ++a)
-    for (unsigned int b = 0; b < n; ++b)
-    {
-      const Point<2> x = map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0]));
-      const Tensor<2, 2> stress(law.stress(solution.scene.initial_strain_in(iterator, x))),
-          s = inverse * stress * transpose(inverse);
-      for (unsigned int k = 0; k < 3; ++k)
-        values[k](a, b) = s[k == 1][k != 0];
-    }
-  const FullMatrix<double> &project = cache.legendre.projection(n, n);
-  FullMatrix<double> half(n, n), modes(n, n);
-  const unsigned int n_whole = std::min(n, cell.element->m - 1);
-  cell.initial = Modes<3>(cell.sigma.n);
-  for (unsigned int k = 0; k < 3; ++k)
-  {
-    project.mmult(half, values[k]);
-    half.mTmult(modes, project);
-    for (unsigned int i = 0; i < n_whole; ++i)
-      for (unsigned int j = 0; j < n_whole; ++j)
-      {
-        cell.initial(k, i, j) = modes(i, j);
-        cell.sigma(k, i, j) -= modes(i, j);
-      }
-  }
+  cell.initial = initial_modes(solution, patches.cells()[index].iterator, cell.B,
+                               cell.element->m - 1, cell.sigma.n, cache.legendre);
+  for (unsigned int k = 0; k < cell.initial.coefficients.size(); ++k)
+    cell.sigma.coefficients[k] -= cell.initial.coefficients[k];
 }
 
-/** By quadrature at the points of the discrete equations, which is exact for the polynomial that these know. */
 double ParallelogramStresses::missed_initial_stress(const unsigned int index) const
 {
   const Cell &cell = cells[index];
-  if (cell.initial.n == 0)
-    return 0.;
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const HookesLaw<2> law(solution.scene.material_of(iterator));
-  const unsigned int p = solution.displacement_space.degrees()[index], m = cell.element->m;
-  const QGauss<2> rule(initial_strain_points(solution.scene, iterator, p, solution.tables));
-  double sum = 0;
-  for (unsigned int q = 0; q < rule.size(); ++q)
-  {
-    const auto L_x = legendre::values(m, 2 * rule.point(q)[0] - 1),
-               L_y = legendre::values(m, 2 * rule.point(q)[1] - 1);
-    Tensor<2, 2> known;
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int i = 0; i + 1 < m; ++i)
-        for (unsigned int j = 0; j + 1 < m; ++j)
-          known[k == 1][k != 0] += cell.initial(k, i, j) * L_x[i] * L_y[j];
-    known[1][0] = known[0][1];
-    const Tensor<2, 2> missed =
-        Tensor<2, 2>(
-            law.stress(solution.scene.initial_strain_in(iterator, map.point(rule.point(q))))) -
-        cell.B * known * transpose(cell.B);
-    sum += rule.weight(q) * law.complementary_product(missed, missed);
-  }
-  return std::sqrt(std::max(0., sum)) * 2 * cell.h;
+  return missed_initial_modes(solution, patches.cells()[index].iterator, cell.B,
+                              cell.element->m - 1, cell.initial);
 }
 
 /**
@@ -266,13 +208,14 @@ void ParallelogramStresses::set_force(const unsigned int index, const Quadrature
 Modes<3> ParallelogramStresses::stable_stress(const unsigned int index) const
 {
   const Cell &cell = cells[index];
+  const std::size_t n = cell.initial.coefficients.size();
   Modes<3> whole = cell.sigma;
-  for (unsigned int k = 0; k < cell.initial.coefficients.size(); ++k)
+  for (unsigned int k = 0; k < n; ++k)
     whole.coefficients[k] += cell.initial.coefficients[k];
   whole = without_oscillating_pressure(std::move(whole),
                                        solution.displacement_space.degrees()[index], cell.B,
                                        solution.scene.material_of(patches.cells()[index].iterator));
-  for (unsigned int k = 0; k < cell.initial.coefficients.size(); ++k)
+  for (unsigned int k = 0; k < n; ++k)
     whole.coefficients[k] -= cell.initial.coefficients[k];
   return whole;
 }

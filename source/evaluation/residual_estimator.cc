@@ -16,6 +16,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/body/load_quadrature.h>
+#include <hpvi/body/second_derivatives.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/residual_estimator.h>
 
 #include <algorithm>
@@ -44,9 +46,6 @@ private:
   void add_volume(const Cell &cell);
   bool sees_jump(const Cell &cell, unsigned int face) const;
   void add_jump(const Cell &cell, unsigned int face);
-  void subtract_initial_slopes(const Cell &cell, const CellMap<dim> &map,
-                               const Point<dim> &reference, const Tensor<2, dim> &inverse,
-                               Tensor<3, dim> &second) const;
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const FieldFace<dim> &face);
   double penetration(const FieldFace<dim> &face) const;
@@ -111,33 +110,7 @@ double Residuals<dim>::weight(const unsigned int cell) const
 // $r_K = -\mathrm{div}\,\sigma(u_N) - F$ (4.44) needs second derivatives of $u_N$. On a
 // parallelogram they are those on the reference cell, transformed twice; on other quadrilaterals
 // the second derivatives of the map come in.
-/** From D^2 u what the slopes of the initial strain take away, by differences: points are inside the cell. */
-template <int dim>
-void Residuals<dim>::subtract_initial_slopes(const Cell &cell, const CellMap<dim> &map,
-                                             const Point<dim> &reference,
-                                             const Tensor<2, dim> &inverse,
-                                             Tensor<3, dim> &second) const
-{
-  constexpr double step = 1e-4;
-  for (unsigned int r = 0; r < dim; ++r)
-  {
-    Point<dim> before(reference), behind(reference);
-    before[r] -= step;
-    behind[r] += step;
-    const Tensor<2, dim> slope = (scene.initial_strain_in(cell, map.point(behind)) -
-                                  scene.initial_strain_in(cell, map.point(before))) /
-                                 (2 * step);
-    for (unsigned int k = 0; k < dim; ++k)
-      for (unsigned int l = 0; l < dim; ++l)
-        for (unsigned int d = 0; d < dim; ++d)
-          second[k][l][d] -= slope[k][l] * inverse[r][d];
-  }
-}
-
-/**
- * -div sigma(u) - F at a point; second derivatives by the chain rule
- * `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`.
- */
+/** -div sigma(u) - F at points. */
 template <int dim>
 void Residuals<dim>::add_volume(const Cell &cell)
 {
@@ -159,21 +132,9 @@ void Residuals<dim>::add_volume(const Cell &cell)
     }
     const unsigned int row = q * table.rows_per_point;
     const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, row, n_rows, inverse);
-    Tensor<3, dim> second;
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      Tensor<2, dim> reference;
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int b = 0; b < dim; ++b)
-        {
-          reference[a][b] = derivatives[c * n_rows + row + dim + a * dim + b];
-          for (unsigned int k = 0; k < dim; ++k)
-            reference[a][b] -= gradient[c][k] * H[k][a][b];
-        }
-      second[c] = transpose(inverse) * reference * inverse;
-    }
+    Tensor<3, dim> second = second_derivatives<dim>(derivatives, row, n_rows, gradient, H, inverse);
     if (scene.has_initial_strain())
-      subtract_initial_slopes(cell, maps[index], table.points[q], inverse, second);
+      second -= initial_strain_slopes(scene, cell, maps[index], table.points[q]);
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
     if (scene.has_body_force())
       residual -= load_at<dim>(scene.body_force_in(cell), maps[index].point(table.points[q]));

@@ -351,11 +351,8 @@ std::string balance_json(const Equilibrium<dim> &equilibrium)
 
 std::string loads_in_words(const Scene<2> &scene)
 {
-  if (scene.has_load_history())
-  {
-    const double t = scene.loading.time(1);
+  if (const double t = scene.has_load_history() ? scene.loading.time(1) : 0.; t > 0)
     return "with t = " + text(t, digits) + ", " + loads_in_words(scene.loading.at(t));
-  }
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>())

@@ -3,6 +3,7 @@
 #define hpvi_initial_stress_h
 
 #include <deal.II/lac/vector.h>
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/shape_tables.h>
 
@@ -21,6 +22,34 @@ double initial_strain_across(const Scene<dim> &scene, const Cell &cell, const de
 {
   return scene.initial_strains.empty() ? 0.
                                        : scene.initial_strains[cell->material_id()].value(x)[3];
+}
+
+/**
+ * `d_d (eps_0)_kl` at a point inside @p cell, by differences: what a second derivative of a displacement would be
+ * [1/length].
+ */
+template <int dim, class Cell>
+dealii::Tensor<3, dim> initial_strain_slopes(const Scene<dim> &scene, const Cell &cell,
+                                             const CellMap<dim> &map,
+                                             const dealii::Point<dim> &reference)
+{
+  constexpr double step = 1e-4;
+  const dealii::Tensor<2, dim> inverse = dealii::invert(map.jacobian(reference));
+  dealii::Tensor<3, dim> result;
+  for (unsigned int r = 0; r < dim; ++r)
+  {
+    dealii::Point<dim> before(reference), behind(reference);
+    before[r] -= step;
+    behind[r] += step;
+    const dealii::Tensor<2, dim> slope = (scene.initial_strain_in(cell, map.point(behind)) -
+                                          scene.initial_strain_in(cell, map.point(before))) /
+                                         (2 * step);
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[k][l][d] += slope[k][l] * inverse[r][d];
+  }
+  return result;
 }
 
 /**

@@ -47,7 +47,7 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
-  /** The norm in complementary energy of what sigma lacks of C eps_0 on the cell. */
+  /** The norm in complementary energy of what sigma lacks of C eps_0 on the cell, where a scene has initial strains. */
   double missed_initial_stress(unsigned int cell) const;
 
 private:
