@@ -52,6 +52,8 @@ void Scene<dim>::check(const SceneUse use) const
   check_exact_solution(*this);
   check_reference(*this);
   check_method(*this, use);
+  if (solver.path == SolutionPath::primal && use == SceneUse::solve)
+    check_primal_path(*this);
 }
 
 template void Scene<2>::check(SceneUse) const;

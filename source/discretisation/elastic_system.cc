@@ -27,7 +27,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   const Condensation<dim> &condensation,
                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
                                   CondensedElements<dim> &elements)
-    : f(unknowns.n()), load(load_vector(scene, space, tables, rules))
+    : f(unknowns.n()), load(load_vector(scene, space, tables, rules, elements.volume()))
 {
   Vector<double> boundary_load(load);
   if (has_interior_loads(scene))
@@ -211,13 +211,14 @@ ShapeTable<dim> on_face(const unsigned int face, const unsigned int degree,
 
 template <int dim>
 Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                           const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
+                           const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                           const Volume volume)
 {
   Vector<double> load = applied_loads(scene, space, tables, rules);
   if (scene.has_plates())
     load += plate_loads(scene, space, tables);
   if (scene.has_initial_strain())
-    load += initial_strain_loads(scene, space, tables);
+    load += initial_strain_loads(scene, space, tables, volume);
   return load;
 }
 
@@ -295,7 +296,7 @@ const Vector<double> &ElasticSystem<dim>::loads() const
 
 template class ElasticSystem<2>;
 template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
-                                    const ShapeTables<2> &, const LoadRules<2> &);
+                                    const ShapeTables<2> &, const LoadRules<2> &, Volume);
 template Vector<double> applied_loads(const Scene<2> &, const DisplacementSpace<2> &,
                                       const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> plate_loads(const Scene<2> &, const DisplacementSpace<2> &,

@@ -12,10 +12,33 @@ using namespace dealii;
 
 namespace
 {
-/** Calls f(cell, map, table, q, C eps_0, weight) for all points at which there is an initial strain. */
+/** C eps_0 at all points of @p table; @p strains: eps_0. */
+std::vector<Tensor<2, 2>> stresses_of(const std::vector<Tensor<2, 2>> &strains,
+                                      const Material &material, const ShapeTable<2> &table,
+                                      const unsigned int degree, const Volume volume)
+{
+  const HookesLaw<2> law(material);
+  std::vector<Tensor<2, 2>> result;
+  for (const Tensor<2, 2> &strain : strains)
+    result.emplace_back(law.stress(strain));
+  if (volume == Volume::full || !material.is_nearly_incompressible(2))
+    return result;
+  const FullMatrix<double> modes = oscillating_modes(table, degree);
+  Vector<double> weighted(strains.size()), oscillating(strains.size()), amplitudes(modes.m());
+  for (unsigned int q = 0; q < strains.size(); ++q)
+    weighted[q] = table.weights[q] * trace(strains[q]);
+  modes.vmult(amplitudes, weighted);
+  modes.Tvmult(oscillating, amplitudes);
+  for (unsigned int q = 0; q < strains.size(); ++q)
+    for (unsigned int d = 0; d < 2; ++d)
+      result[q][d][d] -= law.volume_modulus() * oscillating[q];
+  return result;
+}
+
+/** Calls f(cell, map, table, q, eps_0, C eps_0, weight) for all points at which there is an initial strain. */
 template <class F>
 void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                    const ShapeTables<2> &tables, const F &f)
+                    const ShapeTables<2> &tables, const Volume volume, const F &f)
 {
   for (const auto &cell : space.dof_handler().active_cell_iterators())
   {
@@ -23,14 +46,15 @@ void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
       continue;
     const unsigned int p = space.degrees()[cell->active_cell_index()];
     const CellMap<2> map = map_of<2>(cell);
-    const HookesLaw<2> law(scene.material_of(cell));
     const ShapeTable<2> &table = tables.gradients(p, initial_strain_points(scene, cell, p, tables));
-    for (unsigned int q = 0; q < table.points.size(); ++q)
-    {
-      const Tensor<2, 2> strain = scene.initial_strain_in(cell, map.point(table.points[q]));
-      f(cell, map, table, q, strain, Tensor<2, 2>(law.stress(strain)),
+    std::vector<Tensor<2, 2>> strains;
+    for (const Point<2> &point : table.points)
+      strains.push_back(scene.initial_strain_in(cell, map.point(point)));
+    const std::vector<Tensor<2, 2>> stresses =
+        stresses_of(strains, scene.material_of(cell), table, p, volume);
+    for (unsigned int q = 0; q < strains.size(); ++q)
+      f(cell, map, table, q, strains[q], stresses[q],
         table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))));
-    }
   }
 }
 } // namespace
@@ -104,11 +128,11 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
 }
 
 Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                                    const ShapeTables<2> &tables)
+                                    const ShapeTables<2> &tables, const Volume volume)
 {
   Vector<double> load(space.n_dofs());
   for_each_point(
-      scene, space, tables,
+      scene, space, tables, volume,
       [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
           const Tensor<2, 2> &, const Tensor<2, 2> &stress, const double weight)
       {
@@ -133,7 +157,7 @@ double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
   unsigned int known = numbers::invalid_unsigned_int;
   std::vector<double> derivatives;
   for_each_point(
-      scene, space, tables,
+      scene, space, tables, Volume::full,
       [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
           const Tensor<2, 2> &strain, const Tensor<2, 2> &stress, const double weight)
       {

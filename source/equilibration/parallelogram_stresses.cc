@@ -204,22 +204,6 @@ void ParallelogramStresses::set_force(const unsigned int index, const Quadrature
   }
 }
 
-/** Of u_N alone: the discrete equations know all of an initial strain. */
-Modes<3> ParallelogramStresses::stable_stress(const unsigned int index) const
-{
-  const Cell &cell = cells[index];
-  const std::size_t n = cell.initial.coefficients.size();
-  Modes<3> whole = cell.sigma;
-  for (unsigned int k = 0; k < n; ++k)
-    whole.coefficients[k] += cell.initial.coefficients[k];
-  whole = without_oscillating_pressure(std::move(whole),
-                                       solution.displacement_space.degrees()[index], cell.B,
-                                       solution.scene.material_of(patches.cells()[index].iterator));
-  for (unsigned int k = 0; k < n; ++k)
-    whole.coefficients[k] -= cell.initial.coefficients[k];
-  return whole;
-}
-
 /**
  * Columns of data of one cell: of `psi sigma` with divergence `sigma grad psi - psi F` for the bilinear
  * functions psi.
@@ -231,7 +215,8 @@ void ParallelogramStresses::set_data(const unsigned int index, double *const r) 
   Modes<3> stable;
   const bool is_projected = volume == Volume::projected && material.is_nearly_incompressible(2);
   if (is_projected)
-    stable = stable_stress(index);
+    stable = without_oscillating_pressure(
+        cells[index].sigma, solution.displacement_space.degrees()[index], cells[index].B, material);
   const Modes<3> &sigma = is_projected ? stable : cells[index].sigma;
   const Modes<3> times_xi = times(0, sigma), times_eta = times(1, sigma);
   const Modes<2> &force = cells[index].force, force_xi = times(0, force);

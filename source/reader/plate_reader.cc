@@ -44,7 +44,8 @@ void read_plate(const Parameters &parameters, const ExpressionReader<2> &express
     for (const char *const entry : {"Force", "Rotation", "Moment"})
       if (!parameters.text(section, entry).empty())
         parameters.reject(section, entry,
-                          "is that of a rigid plate; set Rigid = true or remove it");
+                          "is that of a rigid plate; set Rigid = true, or remove it and give "
+                          "Traction, a force per area");
     return;
   }
   if (points.empty())

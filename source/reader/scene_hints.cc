@@ -117,8 +117,7 @@ std::vector<Hint> hints_in_plane()
         "prestrain", "shrinkage"},
        "strains without load are \"Material/Initial strain\" = e1; e2; e12, or "
        "\"Material/Thermal expansion\" with \"Temperature/Expression\""},
-      {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force",
-        "point load"},
+      {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
        "\"Boundary top/Force\" = Fx; Fy"},
       {{"normal", "contact normal", "normal direction", "direction"},
@@ -145,8 +144,7 @@ std::vector<Hint> hints_in_space()
            "only a body in the plane has springs; remove it"},
           {{"temperature", "initial strain", "thermal expansion"},
            "only a body in the plane has initial strains; remove it"},
-          {{"rigid", "force", "rotation", "moment"},
-           "only a body in the plane has rigid plates; remove it"},
+          {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
           {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},
           {{"corners"}, "space has no shape but the box; remove it"},
           {{"exact solution"}, "space offers no closed form; remove it"},

@@ -120,12 +120,12 @@ invalid "Boundary top/Spring" "is negative at" -- "Boundary top/Spring=1 - x; 0"
 invalid "Boundary top/Spring" "1 component(s)" -- "Boundary top/Spring=1"
 invalid "Boundary top/Spring" "uses t" -- "Boundary top/Spring=t; 0" "Loading/Steps=2"
 refused "Boundary top/Spring" "the primal path" -- "$scenes/base.prm" --set "Boundary top/Spring=1; 0" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
-invalid "Boundary top/Rigid = true" "contradicts Boundary top/Traction" -- "Boundary top/Rigid=true"
+invalid "Boundary left/Rigid = true" "contradicts Boundary left/Traction" -- "Boundary left/Rigid=true"
 invalid "Boundary bottom/Rigid = true" "contradicts Boundary bottom/Contact" -- "Boundary bottom/Rigid=true"
 invalid "Boundary top/Rigid = true" "contradicts Boundary top/Spring" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Spring=1; 1"
 invalid "Boundary top/Rigid = true" "contradicts Boundary top/Symmetry" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Symmetry=true"
 invalid "Boundary top/Rigid = true" "contradicts Boundary top/Pressure" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Pressure=1"
-invalid "Boundary top/Force = 1; 2" "set Rigid = true" -- "Boundary top/Force=1; 2"
+invalid "Boundary top/Force = 1; 2" "set Rigid = true" "Traction" -- "Boundary top/Force=1; 2"
 invalid "Boundary top/Moment = 1" "set Rigid = true" -- "Boundary top/Moment=1"
 invalid "Boundary top/Rotation = 1" "set Rigid = true" -- "Boundary top/Rotation=1"
 invalid "Boundary top/Force = x; 1" "uses x or y" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Force=x; 1"
@@ -135,7 +135,7 @@ invalid "Boundary top/Force = 1" "1 component(s)" -- "Boundary top/Traction=" "B
 invalid "Boundary top/Moment = 1e200" "1e100" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Moment=1e200"
 invalid "Boundary top/Rigid = true" "free to move against Boundary right/Displacement" -- "Boundary top/Traction=" "Boundary top/Rigid=true"
 invalid "Boundary top/Displacement" "contradicts Boundary right/Displacement" "by 1" -- "Boundary top/Traction=" "Boundary top/Rigid=true" "Boundary top/Displacement=1; 0" "Boundary top/Rotation=0"
-invalid "free to move against Boundary left/Rigid" -- "Boundary top/Traction=" "Boundary right/Displacement=" "Boundary top/Rigid=true" "Boundary left/Traction=" "Boundary left/Rigid=true" "Boundary bottom/Contact=unilateral"
+invalid "Boundary left/Rigid = true" "free to move against Boundary top/Rigid" -- "Boundary top/Traction=" "Boundary right/Displacement=" "Boundary top/Rigid=true" "Boundary left/Traction=" "Boundary left/Rigid=true" "Boundary bottom/Contact=unilateral"
 refused "Boundary top/Rigid = true" "the primal path" -- "$scenes/base.prm" --set "Boundary right/Displacement=" --set "Boundary top/Traction=" --set "Boundary top/Rigid=true" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 invalid "Material/Initial strain = 0.1; 0" "2 component(s)" -- "Material/Initial strain=0.1; 0"
 invalid "Material/Initial strain = 0; 0; 0; 0.1" "plane stress" "give e1; e2; e12" -- "Material/Initial strain=0; 0; 0; 0.1"
@@ -143,9 +143,10 @@ invalid "Material/Initial strain" "not an expression" -- "Material/Initial strai
 invalid "Material/Thermal expansion = hot" "a number" -- "Material/Thermal expansion=hot"
 invalid "Temperature/Expression = 20" "give Material/Thermal expansion" -- "Temperature/Expression=20"
 invalid "Temperature/Expression" "is not finite" -- "Material/Thermal expansion=1e-5" "Temperature/Expression=1/(x - 2)"
-invalid "Temperature/Expression" "not an expression" -- "Material/Thermal expansion=1e-5" "Temperature/Expression=t"
+invalid "Temperature/Expression = t" "the time of a load history" -- "Material/Thermal expansion=1e-5" "Temperature/Expression=t"
 invalid "Exact solution/Solution" "no initial strain" -- "Exact solution/Solution=smooth" "Material/Initial strain=0.1; 0; 0"
 refused "Initial strain" "the primal path" -- "$scenes/base.prm" --set "Material/Initial strain=0.1; 0; 0" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
+invalid "Boundary top/Spring" "the primal path" -- "Boundary top/Spring=1; 0" "Solver/Path=primal" "Adaptivity/Method=hap2"
 invalid "Boundary left/On" "unknown entry" -- "Boundary left/On=top"
 invalid "Boundary top/Contact direction = 0; 1" "needs contact" "or remove it" -- "Boundary top/Contact direction=0; 1"
 invalid "Boundary bottom/Contact direction = 0; 0" "has no direction" "0; -1" -- "Boundary bottom/Contact direction=0; 0"
@@ -211,7 +212,7 @@ unknown Material/nu "\"Material/Poisson's ratio\""
 unknown "Boundary bottom/mu" '"Boundary bottom/Friction coefficient"' "Poisson's ratio"
 unknown "Boundary bottom/Friction" '"Boundary bottom/Friction bound"'
 unknown "Boundary bottom/Coefficient" '"Boundary bottom/Friction coefficient"'
-unknown "Boundary top/Force" '"Boundary top/Traction"'
+unknown "Boundary top/Forces" '"Boundary top/Traction"'
 unknown "Boundary top/PRESSURE" '"Boundary top/Pressure"'
 unknown "Boundary left/Fixed" '"Boundary left/Displacement"'
 unknown 3D '"Dimension"'
@@ -221,7 +222,7 @@ unknown Constants/a "unknown subsection" "pi, E, nu and mu"
 unknown Gravity/g "unknown subsection" '"Body force/Gravity"'
 unknown Adaptivity/Steps '"Adaptivity/Maximum steps"' '"Loading/Steps"'
 unknown Contact/Gap "unknown subsection" "this is an entry" '"Boundary bottom/Contact"'
-unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Plane, Thickness, Elasticity"
+unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Initial strain, Thermal expansion, Plane, Thickness, Elasticity"
 unknown Material/E1 '"Material/Elasticity" = orthotropic'
 unknown "Material/Fibre angle" '"Material/Angle"'
 unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'

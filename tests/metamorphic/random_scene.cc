@@ -237,6 +237,53 @@ void choose_fibres(RandomScene &scene, std::mt19937 random)
       other.fibres = random_fibres(100, own);
 }
 
+/** A free side between sides that hold nothing is glued to a plate now and then. */
+void choose_plates(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 2);
+  Dice dice(own);
+  const auto is_free = [](const Side &side)
+  { return side.displacement[0].empty() && side.displacement[1].empty(); };
+  for (unsigned int k = 0; k < 4 && scene.is_held(); ++k)
+  {
+    Side &side = scene.sides[k];
+    const bool is_whole = std::none_of(scene.sides.begin() + 4, scene.sides.end(),
+                                       [&](const Side &part) { return part.on == k; });
+    const bool stands_alone = std::all_of(
+        scene.sides.begin(), scene.sides.end(),
+        [&](const Side &other)
+        {
+          return &other == &side || other.on == (k + 2) % 4 ||
+                 (is_free(other) && other.contact != "bilateral" && other.moment.empty());
+        });
+    if (!is_free(side) || !side.contact.empty() || !is_whole || !stands_alone || !dice.happens(0.3))
+      continue;
+    const double size = 0.01 * scene.young;
+    const std::string in_time = scene.settings.count("Loading/Steps") ? "*sin(4*t)" : "";
+    side.traction = {};
+    side.pressure = side.shear = "";
+    for (std::string &component : side.force)
+      component = text(size * dice.number(-1, 1)) + in_time;
+    side.moment = text(0.1 * size * dice.number(-1, 1)) + in_time;
+  }
+}
+
+void choose_initial_strain(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 3);
+  Dice dice(own);
+  if (!dice.happens(0.2))
+    return;
+  if (dice.happens(0.6))
+  {
+    scene.expansion = 0.01;
+    scene.temperature = dice.function(1.);
+  }
+  else
+    for (double &component : scene.initial_strain)
+      component = 0.01 * dice.number(-1, 1);
+}
+
 // ---------------------------------------------------------------- files
 
 /** The file, with sections and entries in an order of their own. */
@@ -306,6 +353,8 @@ RandomScene::RandomScene(std::mt19937 &random) : sides(4)
   }
   choose_directions(*this, random);
   choose_fibres(*this, random);
+  choose_plates(*this, random);
+  choose_initial_strain(*this, random);
 }
 
 Frame RandomScene::own_frame() const
@@ -352,6 +401,16 @@ bool RandomScene::has(std::string Side::*const entry) const
 {
   return std::any_of(sides.begin(), sides.end(),
                      [&](const Side &side) { return !(side.*entry).empty(); });
+}
+
+bool RandomScene::has_plates() const
+{
+  return has(&Side::moment);
+}
+
+bool RandomScene::has_initial_strain() const
+{
+  return !temperature.empty() || initial_strain != std::array<double, 3>{};
 }
 
 bool RandomScene::has_direction() const
@@ -415,6 +474,14 @@ Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
     add("Traction", vector_text(side.traction, frame, traction, "0"));
   add("Pressure", frame.function(side.pressure, traction));
   add("Shear", frame.function(side.shear, frame.is_mirrored() ? -traction : traction));
+  if (!side.moment.empty())
+  {
+    const double force = traction * frame.length * frame.thickness;
+    add("Rigid", "true");
+    add("Force", vector_text(side.force, frame, force, "free"));
+    add("Moment", frame.function(side.moment, frame.is_mirrored() ? -force * frame.length
+                                                                  : force * frame.length));
+  }
   add("Contact", side.contact);
   add("Gap", frame.function(side.gap, u));
   if (side.turn)
@@ -435,6 +502,21 @@ void RandomScene::exchange_materials()
   std::swap(density, other.density);
   std::swap(fibres, other.fibres);
   other.where = "-(" + other.where + ")";
+}
+
+void RandomScene::add_initial_strain(const Frame &frame, Section &material) const
+{
+  using metamorphic::text;
+  if (!temperature.empty())
+    material.second.emplace_back("Thermal expansion", text(expansion));
+  else if (has_initial_strain())
+  {
+    const auto &e = initial_strain;
+    const Tensor<2, 2> turned =
+        frame.amplitude * frame.Q * Tensor<2, 2>({{e[0], e[2]}, {e[2], e[1]}}) * transpose(frame.Q);
+    material.second.emplace_back("Initial strain", text(turned[0][0]) + "; " + text(turned[1][1]) +
+                                                       "; " + text(turned[0][1]));
+  }
 }
 
 std::vector<Section> RandomScene::material_sections(const Frame &frame) const
@@ -468,6 +550,7 @@ std::vector<Section> RandomScene::material_sections(const Frame &frame) const
     section.second.emplace_back("Density", text(material.density));
     if (result.empty())
     {
+      add_initial_strain(frame, section);
       section.second.emplace_back("Plane", plane);
       section.second.emplace_back("Thickness", text(thickness * frame.thickness));
     }
@@ -494,6 +577,9 @@ std::string RandomScene::text(const Frame &frame) const
   add_force("Expression", body_force);
   add_force("Gravity", gravity);
   sections.push_back(forces);
+  if (!temperature.empty())
+    sections.push_back(
+        {"Temperature", {{"Expression", frame.function(temperature, frame.amplitude)}}});
   for (unsigned int k = 0; k < sides.size(); ++k)
     sections.push_back(boundary(k, frame));
   for (const auto &[path, value] : settings)

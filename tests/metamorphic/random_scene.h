@@ -23,8 +23,10 @@ struct Side
   std::string contact, gap, bound, coefficient;
   std::optional<double>
       turn; ///< of the direction of contact from the normal, counterclockwise; nothing: is not said
-  unsigned int on = 0; ///< the side
-  std::string where;   ///< the part; empty: what parts leave
+  std::array<std::string, 2> force{}; ///< on a rigid plate, in the axes of the body
+  std::string moment;                 ///< likewise; empty: there is no plate
+  unsigned int on = 0;                ///< the side
+  std::string where;                  ///< the part; empty: what parts leave
 };
 
 /** One beside the first; what another has is not its. */
@@ -57,6 +59,8 @@ struct RandomScene
   bool has_polynomial_data() const;
   bool is_isotropic() const;
   bool has(std::string Side::*entry) const;
+  bool has_plates() const;
+  bool has_initial_strain() const;
   bool has_direction() const; ///< of contact, which has no bound and no other path then
 
   /** Along which @p side has contact, in the axes of the body. */
@@ -68,13 +72,17 @@ struct RandomScene
   double young = 1, poisson = 0.3, density = 0, thickness = 1;
   std::optional<Fibres> fibres; ///< in the place of poisson
   std::string plane;
-  std::vector<OtherMaterial> materials; ///< nowhere two of them
+  std::string temperature;                ///< times the expansion of all materials
+  double expansion = 0;                   ///< of the unnamed material, which others inherit
+  std::array<double, 3> initial_strain{}; ///< e11, e22, e12 in the axes of the body, likewise
+  std::vector<OtherMaterial> materials;   ///< nowhere two of them
   std::array<std::string, 2> body_force, gravity;
   std::vector<Side> sides;                     ///< all four, then parts
   std::map<std::string, std::string> settings; ///< entries "Section/Name" that no frame changes
 
 private:
   Section geometry(const Frame &frame) const;
+  void add_initial_strain(const Frame &frame, Section &material) const;
   Section boundary(unsigned int k, const Frame &frame) const; ///< side k as the frame counts them
   std::vector<Section> material_sections(const Frame &frame) const;
 };

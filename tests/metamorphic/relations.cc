@@ -120,7 +120,8 @@ void Relations::take_the_primal_path()
 {
   const std::string method = scene.settings.at("Adaptivity/Method").substr(0, 3);
   if (scene.is_box && scene.is_isotropic() && scene.is_held() && !scene.has(&Side::coefficient) &&
-      !has_history() && !scene.has_direction() && (method == "hup" || method == "hap") &&
+      !has_history() && !scene.has_direction() && !scene.has_plates() &&
+      !scene.has_initial_strain() && (method == "hup" || method == "hap") &&
       scene.has_polynomial_data() && scene.settings.at("Solver/Normal contact") == "multiplier")
     vary("the primal path", {{"Solver/Path", "primal"}}, Claim::same_primal);
 }
@@ -128,6 +129,8 @@ void Relations::take_the_primal_path()
 /** A bound of zero, and an obstacle that nothing reaches. */
 void Relations::say_what_says_nothing()
 {
+  if (scene.has_plates()) // nothing may hold what they are free to move
+    return;
   RandomScene other = scene;
   bool is_said = false;
   for (Side &side : other.sides)
@@ -168,7 +171,7 @@ RandomScene Relations::without_friction() const
 void Relations::hold_without_friction()
 {
   RandomScene one = without_friction();
-  if (!one.is_box || one.sides[0].contact.empty())
+  if (scene.has_plates() || !one.is_box || one.sides[0].contact.empty())
     return;
   one.sides[0].contact = "bilateral";
   one.sides[0].gap = "";

@@ -58,7 +58,8 @@ private:
 /** L(v_i) of all that acts in @p scene, for every displacement unknown, constrained or not: the sum of what follows. */
 template <int dim>
 dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
+                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                                   Volume volume = Volume::full);
 
 /** Tractions and body forces. */
 template <int dim>

@@ -5,6 +5,7 @@
 #include <deal.II/lac/vector.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/displacement_space.h>
+#include <hpvi/body/element_matrices.h>
 #include <hpvi/body/shape_tables.h>
 
 namespace hpvi
@@ -66,10 +67,14 @@ double initial_stress_error(const Scene<2> &scene,
                             const dealii::Triangulation<2>::cell_iterator &cell,
                             unsigned int degree, const ShapeTables<2> &tables);
 
-/** `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length]. */
+/**
+ * `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length]. Where div v counts projected only, that of eps_0 is
+ * projected likewise: the pressure is that of both.
+ */
 dealii::Vector<double> initial_strain_loads(const Scene<2> &scene,
                                             const DisplacementSpace<2> &space,
-                                            const ShapeTables<2> &tables);
+                                            const ShapeTables<2> &tables,
+                                            Volume volume = Volume::full);
 
 /**
  * `1/2 int C eps_0 : eps_0 - int C eps_0 : eps(u)`, by what the elastic energy `1/2 int C (eps(u) - eps_0) : (eps(u) - eps_0)`

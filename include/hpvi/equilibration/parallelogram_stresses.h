@@ -79,7 +79,6 @@ private:
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);
   void subtract_initial_stress(unsigned int cell);
-  Modes<3> stable_stress(unsigned int cell) const;
   void set_own_data(unsigned int cell);
   void set_force(unsigned int cell);
   void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
