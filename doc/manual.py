@@ -26,6 +26,10 @@ MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 EXAMPLES = {
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Boundary NAME", "Contact direction"): "0.1; -1",
+    ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
+    ("Material", "Elasticity"): "orthotropic", ("Material", "Young's moduli"): "11000, 500, 700",
+    ("Material", "Poisson's ratios"): "0.4, 0.35, 0.4", ("Material", "Shear moduli"): "700",
+    ("Material", "Angle"): "30",
     ("Adaptivity", "hap threshold"): "0.7", ("Adaptivity", "hpa1 bisected fraction"): "0.05",
     ("Adaptivity", "hpa1 raised fraction"): "0.2", ("Adaptivity", "Maximum seconds"): "60",
     ("Solver", "Path"): "reduced", ("Solver", "Linear"): "direct",
@@ -39,6 +43,8 @@ EXAMPLES = {
     ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
+
+ORTHOTROPIC = ("Elasticity", "Young's moduli", "Poisson's ratios", "Shear moduli", "Angle")
 
 
 def run(*command, **options):
@@ -172,7 +178,17 @@ def scene_examples():
 def check_example(program, key, value):
     if key == ("Error", "Reference solution"):
         return  # names a file of another run
-    run(program, "--validate", "--set", f"{key[0].replace('NAME', 'bottom')}/{key[1]}={value}", ROOT / "prm/han-6-12.prm")
+    wood = [entry for entry in EXAMPLES if entry[0] == "Material" and entry[1] in ORTHOTROPIC]
+    beside = {}
+    if key in wood:  # one stands with the others
+        beside = {"Material/Young's modulus": "", "Material/Poisson's ratio": "",
+                  **{"/".join(entry): EXAMPLES[entry] for entry in wood}}
+    elif key[1] == "Moment":
+        beside = {"Boundary bottom/Contact": "none", "Boundary bottom/Friction bound": "", "Boundary right/Displacement": "",
+                  "Boundary left/Traction": "", "Boundary top/Displacement": "0; 0", "Boundary bottom/Rigid": "true"}
+    beside[f"{key[0].replace('NAME', 'bottom')}/{key[1]}"] = value
+    run(program, "--validate", *(word for path, text in beside.items() for word in ("--set", f"{path}={text}")),
+        ROOT / "prm/han-6-12.prm")
 
 
 def escaped(text):
