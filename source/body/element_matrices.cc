@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace hpvi
 {
@@ -13,8 +14,8 @@ namespace
 {
 /** Matrices P_ab = int d_a phi_i d_b phi_j over the cell, for all pairs of directions. */
 template <int dim>
-std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const CellMap<dim> &map,
-                                                                       const ShapeTable<dim> &table)
+std::array<std::array<FullMatrix<double>, dim>, dim>
+gradient_products(const Scene<dim> &scene, const CellMap<dim> &map, const ShapeTable<dim> &table)
 {
   const unsigned int n_points = table.points.size(), n = table.n_shapes;
   std::array<FullMatrix<double>, dim> G;
@@ -24,7 +25,8 @@ std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const Cel
   {
     const Tensor<2, dim> J = map.jacobian(table.points[q]);
     const Tensor<2, dim> inverse = invert(J);
-    const double weight = std::sqrt(table.weights[q] * std::abs(determinant(J)));
+    const double weight = std::sqrt(table.weights[q] * std::abs(determinant(J)) *
+                                    scene.turn(map.point(table.points[q])));
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int r = 0; r < dim; ++r)
@@ -38,6 +40,47 @@ std::array<std::array<FullMatrix<double>, dim>, dim> gradient_products(const Cel
       G[a].Tmmult(P[a][b], G[b]);
     }
   return P;
+}
+
+/** What strains around the axis add; products with them are one more direction of gradient_products(). */
+template <int dim>
+void add_hoop_stiffness(const CellMap<dim> &map, const HookesLaw<dim> &law,
+                        const ShapeTable<dim> &table, const LocalNumbering &numbering,
+                        FullMatrix<double> &K)
+{
+  const unsigned int n_points = table.points.size(), n = table.n_shapes;
+  std::array<FullMatrix<double>, dim> G, Q;
+  FullMatrix<double> H(n_points, n), M(n, n);
+  for (unsigned int a = 0; a < dim; ++a)
+  {
+    G[a].reinit(n_points, n);
+    Q[a].reinit(n, n);
+  }
+  for (unsigned int q = 0; q < n_points; ++q)
+  {
+    const Tensor<2, dim> J = map.jacobian(table.points[q]), inverse = invert(J);
+    const Point<dim> x = map.point(table.points[q]);
+    const double weight = std::sqrt(table.weights[q] * std::abs(determinant(J)) * full_turn(x));
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      H(q, i) = weight * table.values(q, i) / x[0];
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int r = 0; r < dim; ++r)
+          G[a](q, i) += weight * inverse[r][a] * table.derivatives(q * table.rows_per_point + r, i);
+    }
+  }
+  H.Tmmult(M, H);
+  for (unsigned int a = 0; a < dim; ++a)
+    G[a].Tmmult(Q[a], H);
+  for (unsigned int row = 0; row < K.m(); ++row)
+    for (unsigned int column = 0; column < K.m(); ++column)
+    {
+      const unsigned int i = numbering.shape[row], j = numbering.shape[column];
+      K(row, column) +=
+          law.hoop_stiffness([&](const unsigned int a) { return Q[a](i, j); },
+                             [&](const unsigned int a) { return Q[a](j, i); }, M(i, j),
+                             numbering.component[row], numbering.component[column]);
+    }
 }
 
 /** lambda times the products of what the projection takes away from div v, on a parallelogram. */
@@ -76,6 +119,19 @@ FullMatrix<double> oscillating_modes(const ShapeTable<dim> &table, const unsigne
   return result;
 }
 
+namespace
+{
+/** For a pole where a linear function vanishes, whose values at the ends of an interval have this @p quotient. */
+unsigned int further_points(const double quotient)
+{
+  constexpr double tolerance = 1e-14;
+  constexpr unsigned int most = 40; // beyond a quotient of 30 corners are all but flat
+  const double root = std::sqrt(quotient),
+               extra = -std::log(tolerance) / (2 * std::log((root + 1) / (root - 1)));
+  return static_cast<unsigned int>(std::ceil(std::min<double>(extra, most)));
+}
+} // namespace
+
 template <int dim>
 unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree)
 {
@@ -90,11 +146,23 @@ unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree
                        map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v ^ (1u << d))));
       quotient = std::max(quotient, here / there);
     }
-  constexpr double tolerance = 1e-14;
-  constexpr unsigned int most = 40; // beyond a quotient of 30 corners are all but flat
-  const double root = std::sqrt(quotient),
-               extra = -std::log(tolerance) / (2 * std::log((root + 1) / (root - 1)));
-  return degree + 1 + static_cast<unsigned int>(std::ceil(std::min<double>(extra, most)));
+  return degree + 1 + further_points(quotient);
+}
+
+template <int dim>
+unsigned int stiffness_points(const Scene<dim> &scene, const CellMap<dim> &map,
+                              const unsigned int degree)
+{
+  const unsigned int n = stiffness_points(map, degree);
+  if (!scene.is_axisymmetric())
+    return n;
+  double least = std::numeric_limits<double>::max(), largest = 0;
+  for (const Point<dim> &v : map.vertices())
+    largest = std::max(largest, v[0]);
+  for (const Point<dim> &v : map.vertices())
+    if (v[0] > 1e-12 * largest) // what vanishes on the axis is divided by x without a pole there
+      least = std::min(least, v[0]);
+  return std::max(n, degree + 1 + further_points(largest / least));
 }
 
 template <int dim>
@@ -125,6 +193,11 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
   for (const Point<dim> &v : vertices)
     for (unsigned int d = 0; d < dim; ++d)
       *entry++ = std::lround((v[d] - vertices[0][d]) / size * 1e11);
+  if (scene.is_axisymmetric())
+  {
+    key[2] = std::lround(std::min(vertices[0][0] / size, 1e7) * 1e11);
+    key[3] = std::lround(std::log(size) * 1e11);
+  }
   return key;
 }
 
@@ -133,7 +206,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
                                                    const unsigned int degree,
                                                    const types::material_id material) const
 {
-  const auto P = gradient_products(map, tables.gradients(degree, stiffness_points(map, degree)));
+  const ShapeTable<dim> &table = tables.gradients(degree, stiffness_points(scene, map, degree));
+  const auto P = gradient_products(scene, map, table);
   const LocalNumbering &numbering = tables.numbering(degree);
   const Material &hooke = scene.materials[material];
   const HookesLaw<dim> law(hooke);
@@ -149,6 +223,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
     }
   if (volume == Volume::projected && hooke.is_nearly_incompressible(dim))
     subtract_oscillations(map, degree, law.volume_modulus(), tables, K);
+  if (scene.is_axisymmetric())
+    add_hoop_stiffness(map, law, table, numbering, K);
   return K;
 }
 
@@ -159,6 +235,7 @@ unsigned int ElementMatrices<dim>::n_boundary(const unsigned int degree) const
 }
 
 template unsigned int stiffness_points(const CellMap<2> &, unsigned int);
+template unsigned int stiffness_points(const Scene<2> &, const CellMap<2> &, unsigned int);
 template FullMatrix<double> oscillating_modes(const ShapeTable<2> &, unsigned int);
 template class ElementMatrices<2>;
 } // namespace hpvi

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hpvi
 {
@@ -60,6 +61,9 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
           add(cell, face);
       }
   }
+  // Around an axis what is radial balances itself, and turns nothing.
+  if (scene.is_axisymmetric())
+    total.force[0] = total.moment = std::numeric_limits<double>::quiet_NaN();
 }
 
 /** The load on a coarse edge or cell, to the sum. */
@@ -70,7 +74,7 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
   const CellMap<dim> map = map_of<dim>(cell);
   const auto add_point = [&](const Load<dim> &load, const Point<dim> &x, const double weight)
   {
-    const Tensor<1, dim> force = weight * load_at<dim>(load, x);
+    const Tensor<1, dim> force = weight * scene.turn(x) * load_at<dim>(load, x);
     const Tensor<1, dim> arm = x - total.centre;
     total.force += force;
     total.moment += arm[0] * force[1] - arm[1] * force[0];

@@ -338,9 +338,10 @@ const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigne
 }
 
 template <int dim>
-const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned int degree) const
+const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned int degree,
+                                                               const double slope) const
 {
-  FullMatrix<double> &N = moment_nodes[degree];
+  FullMatrix<double> &N = moment_nodes[{degree, slope}];
   if (N.m() == 0)
   {
     const unsigned int n = degree - 1;
@@ -353,7 +354,8 @@ const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned in
     for (unsigned int q = 0; q < degree; ++q)
       for (unsigned int i = 0; i < n; ++i)
       {
-        const double psi = gauss(degree).weight(q) * table.multipliers(q, i);
+        const double psi = gauss(degree).weight(q) * table.multipliers(q, i) *
+                           (1 + slope * (2 * gauss(degree).point(q)[0] - 1));
         weights[i] += psi;
         for (unsigned int j = 0; j < n; ++j)
           inner(i, j) += psi * table.shapes(q, j + 1);

@@ -157,6 +157,10 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
       if (boundary.plate)
         add_plate(scene, boundary, centre, length, rows.held);
+  if constexpr (dim == 2)
+    if (scene.is_axisymmetric()) // strains around the axis: the way along it alone is rigid
+      for (const RigidMotion<dim> &motion : {RigidMotion<dim>{{1, 0, 0}}, {{0, 0, 1}}})
+        rows.held.push_back(motion);
   rows.resisted.insert(rows.resisted.end(), rows.held.begin(), rows.held.end());
   return rows;
 }

@@ -166,6 +166,9 @@ void check_primal_path(const Scene<dim> &scene)
                       ? "; give Young's modulus and Poisson's ratio"
                       : "; run the reduced path on one process, or give an isotropic material"),
              "orthotropic");
+  if (scene.is_axisymmetric())
+    reject(scene, "Material", "Plane",
+           "is not offered by " + why + "; run the reduced path on one process", "axisymmetric");
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.spring)
       reject(scene, section_of(boundary), "Spring",

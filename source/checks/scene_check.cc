@@ -46,6 +46,7 @@ void Scene<dim>::check(const SceneUse use) const
     check_load_history(*this, use);
   check_body();
   check_material_places(*this);
+  check_axisymmetry(*this);
   check_boundaries(*this);
   check_supports(*this);
   free_motions();

@@ -85,6 +85,14 @@ bool takes_moments(const ContactFace<dim> &face, const unsigned int n_multiplier
 {
   return n_multipliers + 1 == face.degree && !face.condition->has_displacement();
 }
+
+/** Of the measure along it, linear in s, beside its mean. */
+template <int dim>
+double slope(const ContactFace<dim> &face)
+{
+  const double begin = face.point(0.)[0], end = face.point(1.)[0];
+  return face.is_turned ? (end - begin) / (end + begin) : 0.;
+}
 } // namespace
 
 // @sect3{All rows}
@@ -97,8 +105,9 @@ ContactOperator<dim>::ContactOperator(const DisplacementSpace<dim> &displacement
                                       const ShapeTables<dim> &tables)
     : space(displacement_space), multipliers(contact_space)
 {
-  const auto moments = [&](const ContactFace<dim> &face, const unsigned int n)
-  { return takes_moments(face, n) ? &tables.nodes_from_moments(face.degree) : nullptr; };
+  const auto moments = [&](const ContactFace<dim> &face, const unsigned int n) {
+    return takes_moments(face, n) ? &tables.nodes_from_moments(face.degree, slope(face)) : nullptr;
+  };
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     std::vector<types::global_dof_index> dofs;

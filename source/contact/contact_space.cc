@@ -23,19 +23,9 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
                            const unsigned int face_no, const unsigned int degree,
                            const int multiplier_offset, const BoundaryCondition<dim> &condition)
 {
-  const int n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
-  ContactFace<dim> face{cell,
-                        face_no,
-                        degree,
-                        &condition,
-                        map_of<dim>(cell),
-                        0,
-                        static_cast<unsigned int>(n_points),
-                        0,
-                        0,
-                        {},
-                        {},
-                        {}};
+  ContactFace<dim> face{cell, face_no, degree, &condition, map_of<dim>(cell), 0, 0, 0,
+                        0,    {},      {},     {}};
+  face.n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
   face.length = face.frame(0.5).measure;
   return face;
 }
@@ -45,8 +35,11 @@ template <int dim>
 std::vector<PointLimit> limits_of(const ContactFace<dim> &face, const QGauss<1> &gauss)
 {
   std::vector<PointLimit> result;
-  const auto add = [&](const double s, const double weight) {
-    result.push_back({s, weight, face.condition->friction.at(face.point(s))});
+  const auto add = [&](const double s, const double weight)
+  {
+    const Point<dim> x = face.point(s);
+    result.push_back(
+        {s, face.is_turned ? weight * full_turn(x) : weight, face.condition->friction.at(x)});
   };
   const FrictionRule &one = face.friction.vanishes() ? face.coefficient : face.friction;
   if (face.friction.vanishes() || face.coefficient.vanishes())
@@ -152,6 +145,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                    });
   for (ContactFace<dim> &face : contact_faces)
   {
+    face.is_turned = scene.is_axisymmetric();
     if (const auto found = past.find(face.condition->id); found != past.end())
       face.past = found->second;
     number_friction(face, tables);

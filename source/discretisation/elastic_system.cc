@@ -239,7 +239,7 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
       {
         const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
         {
-          return std::abs(determinant(map.jacobian(reference))) *
+          return std::abs(determinant(map.jacobian(reference))) * scene.turn(x) *
                  load_at<dim>(scene.body_force_in(cell), x);
         };
         const LoadRule<dim> rule = rules.body_force(cell, degree);
@@ -256,8 +256,10 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
           const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
           if (!condition.has_traction())
             continue;
-          const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
-          { return map.face_measure(face, reference) * load_at<dim>(condition.traction, x); };
+          const auto force = [&](const Point<dim> &reference, const Point<dim> &x) {
+            return map.face_measure(face, reference) * scene.turn(x) *
+                   load_at<dim>(condition.traction, x);
+          };
           const LoadRule<dim - 1> rule = rules.traction(cell, face, degree);
           if (rule.n_gauss > 0)
             integrate_load(tables.face(degree, face, rule.n_gauss), numbering, map, force, local);

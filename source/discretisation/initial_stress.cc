@@ -12,6 +12,12 @@ using namespace dealii;
 
 namespace
 {
+/** Initial strain and its stress around the axis of an axisymmetric body, and one over the radius. */
+struct Hoop
+{
+  double strain, stress, curvature;
+};
+
 /** C eps_0 at all points of @p table; @p strains: eps_0. */
 std::vector<Tensor<2, 2>> stresses_of(const std::vector<Tensor<2, 2>> &strains,
                                       const Material &material, const ShapeTable<2> &table,
@@ -35,7 +41,10 @@ std::vector<Tensor<2, 2>> stresses_of(const std::vector<Tensor<2, 2>> &strains,
   return result;
 }
 
-/** Calls f(cell, map, table, q, eps_0, C eps_0, weight) for all points at which there is an initial strain. */
+/**
+ * Calls f(cell, map, table, q, eps_0, C eps_0, hoop, weight), hoop what these are around an axis, for all points at which
+ * there is an initial strain.
+ */
 template <class F>
 void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
                     const ShapeTables<2> &tables, const Volume volume, const F &f)
@@ -50,11 +59,24 @@ void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
     std::vector<Tensor<2, 2>> strains;
     for (const Point<2> &point : table.points)
       strains.push_back(scene.initial_strain_in(cell, map.point(point)));
-    const std::vector<Tensor<2, 2>> stresses =
+    std::vector<Tensor<2, 2>> stresses =
         stresses_of(strains, scene.material_of(cell), table, p, volume);
     for (unsigned int q = 0; q < strains.size(); ++q)
-      f(cell, map, table, q, strains[q], stresses[q],
-        table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))));
+    {
+      const Point<2> x = map.point(table.points[q]);
+      const double weight =
+          table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) * scene.turn(x);
+      Hoop hoop{0., 0., 0.};
+      if (scene.is_axisymmetric())
+      {
+        hoop.curvature = 1 / x[0];
+        const HookesLaw<2> law(scene.material_of(cell));
+        hoop.strain = initial_strain_across<2>(scene, cell, x);
+        hoop.stress = law.hoop_stress(strains[q], hoop.strain);
+        stresses[q] = Tensor<2, 2>(law.stress(strains[q], hoop.strain));
+      }
+      f(cell, map, table, q, strains[q], stresses[q], hoop, weight);
+    }
   }
 }
 } // namespace
@@ -134,7 +156,7 @@ Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpa
   for_each_point(
       scene, space, tables, volume,
       [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
-          const Tensor<2, 2> &, const Tensor<2, 2> &stress, const double weight)
+          const Tensor<2, 2> &, const Tensor<2, 2> &stress, const Hoop &hoop, const double weight)
       {
         // C eps_0 : grad v = (C eps_0 J^-T) : reference gradient of v
         const Tensor<2, 2> pulled =
@@ -143,9 +165,14 @@ Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpa
         const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
         const auto dofs = space.cell_dofs(index);
         for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
           for (unsigned int r = 0; r < 2; ++r)
             load[dofs[i]] += pulled[numbering.component[i]][r] *
                              table.derivatives(q * table.rows_per_point + r, numbering.shape[i]);
+          if (hoop.stress != 0 && numbering.component[i] == 0)
+            load[dofs[i]] +=
+                weight * hoop.stress * hoop.curvature * table.values(q, numbering.shape[i]);
+        }
       });
   return load;
 }
@@ -155,28 +182,32 @@ double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
 {
   double sum = 0;
   unsigned int known = numbers::invalid_unsigned_int;
-  std::vector<double> derivatives;
-  for_each_point(
-      scene, space, tables, Volume::full,
-      [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
-          const Tensor<2, 2> &strain, const Tensor<2, 2> &stress, const double weight)
-      {
-        const unsigned int index = cell->active_cell_index();
-        if (index != known)
-        {
-          const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
-          const auto dofs = space.cell_dofs(index);
-          std::vector<double> local(dofs.size());
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            local[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = u[dofs[i]];
-          derivatives = evaluate(table.derivatives, local);
-          known = index;
-        }
-        const Tensor<2, 2> gradient =
-            physical_gradient<2>(derivatives, q * table.rows_per_point, table.derivatives.m(),
-                                 invert(map.jacobian(table.points[q])));
-        sum += weight * scalar_product(stress, 0.5 * strain - gradient);
-      });
+  std::vector<double> derivatives, values;
+  for_each_point(scene, space, tables, Volume::full,
+                 [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table,
+                     const unsigned int q, const Tensor<2, 2> &strain, const Tensor<2, 2> &stress,
+                     const Hoop &hoop, const double weight)
+                 {
+                   const unsigned int index = cell->active_cell_index();
+                   if (index != known)
+                   {
+                     const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
+                     const auto dofs = space.cell_dofs(index);
+                     std::vector<double> local(dofs.size());
+                     for (unsigned int i = 0; i < dofs.size(); ++i)
+                       local[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] =
+                           u[dofs[i]];
+                     derivatives = evaluate(table.derivatives, local);
+                     values = evaluate(table.values, local);
+                     known = index;
+                   }
+                   const Tensor<2, 2> gradient = physical_gradient<2>(
+                       derivatives, q * table.rows_per_point, table.derivatives.m(),
+                       invert(map.jacobian(table.points[q])));
+                   sum += weight * scalar_product(stress, 0.5 * strain - gradient);
+                   if (hoop.stress != 0)
+                     sum += weight * hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature);
+                 });
   return sum;
 }
 } // namespace hpvi

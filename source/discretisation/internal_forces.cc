@@ -141,6 +141,49 @@ private:
 };
 } // namespace
 
+namespace
+{
+/** The same of one cell of an axisymmetric body, whose displacement strains it around the axis, too. */
+template <int dim>
+void add_turned_cell(const Scene<dim> &scene, const typename DoFHandler<dim>::cell_iterator &cell,
+                     const ArrayView<const types::global_dof_index> dofs,
+                     const LocalNumbering &numbering, const ShapeTable<dim> &table,
+                     const Vector<double> &u, InternalForces &sum)
+{
+  const CellMap<dim> map = map_of<dim>(cell);
+  const HookesLaw<dim> law(scene.material_of(cell));
+  const unsigned int n = table.n_shapes, n_points = table.points.size();
+  std::vector<double> coefficients(dim * n);
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    coefficients[numbering.component[i] * n + numbering.shape[i]] = u[dofs[i]];
+  const std::vector<double> values = evaluate(table.values, coefficients),
+                            derivatives = evaluate(table.derivatives, coefficients);
+  std::vector<double> forces(dim * n);
+  for (unsigned int q = 0; q < n_points; ++q)
+  {
+    const Tensor<2, dim> J = map.jacobian(table.points[q]), inverse = invert(J);
+    const double radius = map.point(table.points[q])[0], hoop = values[q] / radius,
+                 weight = table.weights[q] * std::abs(determinant(J)) *
+                          full_turn(map.point(table.points[q]));
+    const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, q * table.rows_per_point,
+                                                           table.derivatives.m(), inverse);
+    const Tensor<2, dim> sigma = weight * Tensor<2, dim>(law.stress(gradient, hoop));
+    const double around = weight * law.hoop_stress(gradient, hoop);
+    sum.energy_product += scalar_product(sigma, gradient) + around * hoop;
+    const Tensor<2, dim> pulled = sigma * transpose(inverse);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int r = 0; r < dim; ++r)
+          forces[c * n + i] += pulled[c][r] * table.derivatives(q * table.rows_per_point + r, i);
+      forces[i] += around / radius * table.values(q, i);
+    }
+  }
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    sum.forces[dofs[i]] += forces[numbering.component[i] * n + numbering.shape[i]];
+}
+} // namespace
+
 template <int dim>
 InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                const ShapeTables<dim> &tables, const Vector<double> &u,
@@ -154,7 +197,14 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
     {
       const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
       const CellMap<dim> map = map_of<dim>(cell);
-      const unsigned int n_gauss = stiffness_points(map, p);
+      const unsigned int n_gauss = stiffness_points(scene, map, p);
+      if (scene.is_axisymmetric())
+      {
+        const auto dofs = space.cell_dofs(index);
+        add_turned_cell<dim>(scene, cell, {dofs.data(), dofs.size()}, tables.numbering(p),
+                             tables.gradients(p, n_gauss), u, result);
+        continue;
+      }
       const auto batch =
           batches
               .try_emplace({{cell->material_id(), p, n_gauss}}, scene.material_of(cell), space,

@@ -16,9 +16,10 @@ const QGauss<1> &spring_rule(const BoundaryCondition<2> &boundary, const unsigne
 
 namespace
 {
-FullMatrix<double> matrix_of(const BoundaryCondition<2> &boundary, const CellMap<2> &map,
-                             const unsigned int face, const unsigned int degree,
-                             const ShapeTables<2> &tables, const std::vector<unsigned int> &shapes)
+FullMatrix<double> matrix_of(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
+                             const CellMap<2> &map, const unsigned int face,
+                             const unsigned int degree, const ShapeTables<2> &tables,
+                             const std::vector<unsigned int> &shapes)
 {
   const QGauss<1> &rule = spring_rule(boundary, degree, tables);
   const ShapeTable<2> &table = tables.face(degree, face, rule.size());
@@ -28,7 +29,8 @@ FullMatrix<double> matrix_of(const BoundaryCondition<2> &boundary, const CellMap
   {
     const Tensor<1, 2> normal = map.normal(face, table.points[q]);
     const Tensor<2, 2> k = boundary.spring.stiffness(map.point(table.points[q]), normal);
-    const double ds = table.weights[q] * map.face_measure(face, table.points[q]);
+    const double ds = table.weights[q] * map.face_measure(face, table.points[q]) *
+                      scene.turn(map.point(table.points[q]));
     for (unsigned int i = 0; i < 2 * n; ++i)
       for (unsigned int j = 0; j < 2 * n; ++j)
         result(i, j) +=
@@ -60,8 +62,8 @@ std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const Displacement
           face.dofs.push_back(dofs[i]);
           shapes.push_back(numbering.shape[i]);
         }
-        face.matrix =
-            matrix_of(scene.boundaries[face.boundary], map_of<dim>(cell), f, p, tables, shapes);
+        face.matrix = matrix_of(scene, scene.boundaries[face.boundary], map_of<dim>(cell), f, p,
+                                tables, shapes);
         result.push_back(std::move(face));
       }
   return result;

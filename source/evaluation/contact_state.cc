@@ -267,7 +267,11 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
         state.begin = end(backwards ? 1. : 0.);
       state.end = end(backwards ? 0. : 1.);
     }
-    state.area += face.area();
+    Point<dim - 1> middle;
+    for (unsigned int s = 0; s < dim - 1; ++s)
+      middle[s] = 0.5;
+    state.area +=
+        face.area() * field.scene.turn(face.map.point(point_on_face<dim>(face.face_no, middle)));
     add_points(face, state);
     add_normal_traction(face, state);
   }

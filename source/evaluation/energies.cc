@@ -67,8 +67,9 @@ double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
-      sum += width * gauss.weight(q) *
-             field.bound(face, point_on_face<2>(face.face_no, Point<1>(s))) * std::abs(u_t(s));
+      const Point<2> reference = point_on_face<2>(face.face_no, Point<1>(s));
+      sum += width * gauss.weight(q) * field.scene.turn(face.map.point(reference)) *
+             field.bound(face, reference) * std::abs(u_t(s));
     }
   return face.area() * sum;
 }

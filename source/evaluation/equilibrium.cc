@@ -11,6 +11,7 @@
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -46,19 +47,26 @@ template <int dim>
 struct Resultants
 {
   const Point<dim> centre;
+  const bool is_axisymmetric; ///< what is radial balances itself, and turns nothing
   BoundaryForce<dim> loads{"loads", {}, {}};
   std::vector<BoundaryForce<dim>> reactions; ///< by boundary id
   double absolute_force = 0, absolute_moment = 0;
 
-  explicit Resultants(const Scene<dim> &scene) : centre(scene.geometry.centre())
+  explicit Resultants(const Scene<dim> &scene)
+      : centre(scene.geometry.centre()), is_axisymmetric(scene.is_axisymmetric())
   {
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
       reactions.push_back({boundary.name, {}, {}});
   }
 
-  void add(BoundaryForce<dim> &sum, const Tensor<1, dim> &force, const Point<dim> &x)
+  void add(BoundaryForce<dim> &sum, Tensor<1, dim> force, const Point<dim> &x)
   {
-    const Tensor<1, dim> arm = x - centre;
+    Tensor<1, dim> arm = x - centre;
+    if (is_axisymmetric)
+    {
+      force[0] = 0;
+      arm = 0;
+    }
     sum.force += force;
     sum.moment += moment_of(arm, force);
     absolute_force += force.norm();
@@ -106,6 +114,15 @@ Equilibrium<dim> balance_of(const Resultants<dim> &sums, const Scene<dim> &scene
 }
 } // namespace
 
+namespace
+{
+/** What an axisymmetric body has not is no zero. */
+void forget_radial(BoundaryForce<2> &force)
+{
+  force.force[0] = force.moment = std::numeric_limits<double>::quiet_NaN();
+}
+} // namespace
+
 template <int dim>
 Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &forces,
                              MPI_Comm communicator)
@@ -128,6 +145,15 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
     {
       const BoundaryForce<dim> &reaction = sums.reactions[plate.boundary];
       plate.moment = reaction.moment - moment_of(plate.centre - sums.centre, reaction.force);
+    }
+  if constexpr (dim == 2)
+    if (scene.is_axisymmetric())
+    {
+      forget_radial(result.loads);
+      for (BoundaryForce<dim> &reaction : result.reactions)
+        forget_radial(reaction);
+      for (PlateState<dim> &plate : result.plates)
+        plate.moment = result.loads.moment;
     }
   return result;
 }

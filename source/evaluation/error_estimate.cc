@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 #include <hpvi/evaluation/error_estimate.h>
+#include <hpvi/evaluation/residual_estimator.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -56,4 +58,25 @@ EstimateNorms norms(const ErrorEstimate &estimate, MPI_Comm communicator)
   result.total = root(all);
   return result;
 }
+
+// Second derivatives amplify the last bits of $u_N$ by $(p^2/h)^2$. On deep meshes the indicator is
+// some day that of round-off, and stops falling whatever is refined. How large that is, is measured
+// and not estimated: by the indicator of a random displacement as large as the last bits are.
+template <int dim>
+double round_off_of_estimate(const Field<dim> &field)
+{
+  Scene<dim> unloaded = field.scene;
+  unloaded.body_force = {};
+  unloaded.body_force_of_material.clear();
+  for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
+  {
+    boundary.traction = {};
+    if (boundary.is_unilateral()) // too far away to touch
+      boundary.gap = expression<dim>(std::numeric_limits<double>::max());
+  }
+  return norms(estimate_error(*field.last_bits(unloaded)), field.communicator()).total;
+}
+
+template double round_off_of_estimate(const Field<2> &);
+template double round_off_of_estimate(const Field<3> &);
 } // namespace hpvi

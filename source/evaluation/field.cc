@@ -57,7 +57,7 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
   FaceFrame<dim> result;
   result.x = map.point(reference);
   result.normal = condition->held_direction(map.normal(face_no, reference));
-  result.measure = map.face_measure(face_no, reference);
+  result.measure = map.face_measure(face_no, reference) * (is_turned ? full_turn(result.x) : 1.);
   if constexpr (dim == 2)
     result.tangents = {{-cross_product_2d(result.normal)}};
   else
@@ -100,7 +100,7 @@ void Field<dim>::add_face(const Cell &cell, const unsigned int face_no)
 {
   const unsigned int number = contact_faces.size();
   contact_faces.push_back({cell, face_no, &scene.boundaries[cell->face(face_no)->boundary_id()],
-                           map_of<dim>(cell), number});
+                           map_of<dim>(cell), number, scene.is_axisymmetric()});
 }
 
 template <int dim>
@@ -147,9 +147,12 @@ PointValue<dim> value_at(const Field<dim> &field, const typename Field<dim>::Cel
       gradient[c][j] = derivatives[c * dim + j];
   }
   const CellMap<dim> map = map_of<dim>(cell);
-  result.stress = HookesLaw<dim>(field.scene.material_of(cell))
-                      .stress(gradient * invert(map.jacobian(reference)) -
-                              field.scene.initial_strain_in(cell, map.point(reference)));
+  const Point<dim> x = map.point(reference);
+  gradient = gradient * invert(map.jacobian(reference));
+  result.stress =
+      HookesLaw<dim>(field.scene.material_of(cell))
+          .stress(gradient - field.scene.initial_strain_in(cell, x),
+                  field.scene.hoop_strain(cell->material_id(), result.displacement, gradient, x));
   return result;
 }
 } // namespace

@@ -17,12 +17,11 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/body/load_quadrature.h>
 #include <hpvi/body/second_derivatives.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/evaluation/turned_divergence.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hpvi
 {
@@ -59,6 +58,12 @@ private:
   FacePoints face_points(const Cell &cell, unsigned int face, const ShapeTable<dim> &table) const;
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
                                         const std::vector<Tensor<1, dim>> &normals) const;
+  /** Of u_N in an axisymmetric body, where they strain, else none. */
+  std::vector<double> values(const unsigned int cell, const ShapeTable<dim> &table) const
+  {
+    return scene.is_axisymmetric() ? evaluate(table.values, coefficients[cell])
+                                   : std::vector<double>();
+  }
   double weight(unsigned int cell) const; ///< h_K/p_K c_0/c_K
 
   const Field<dim> &field;
@@ -117,6 +122,7 @@ void Residuals<dim>::add_volume(const Cell &cell)
   const unsigned int index = cell->active_cell_index(), p = degrees[index];
   const HookesLaw<dim> law(scene.material_of(cell));
   const ShapeTable<dim> &table = tables.cell(p, p + 1);
+  const std::vector<double> u = values(index, table);
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   const unsigned int n_rows = table.derivatives.m();
   Tensor<2, dim> J, inverse;
@@ -136,9 +142,13 @@ void Residuals<dim>::add_volume(const Cell &cell)
     if (scene.has_initial_strain())
       second -= initial_strain_slopes(scene, cell, maps[index], table.points[q]);
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
+    const Point<dim> x = maps[index].point(table.points[q]);
+    if (scene.is_axisymmetric())
+      residual -= turned_divergence(scene, cell, maps[index], table.points[q],
+                                    vector_at<dim>(u, table.points.size(), q), gradient);
     if (scene.has_body_force())
-      residual -= load_at<dim>(scene.body_force_in(cell), maps[index].point(table.points[q]));
-    sum += table.weights[q] * std::abs(determinant(J)) * residual.norm_square();
+      residual -= load_at<dim>(scene.body_force_in(cell), x);
+    sum += table.weights[q] * std::abs(determinant(J)) * scene.turn(x) * residual.norm_square();
   }
   result.volume[index] = sizes[index] / degrees[index] * weight(index) * sum;
 }
@@ -158,6 +168,8 @@ typename Residuals<dim>::FacePoints Residuals<dim>::face_points(const Cell &cell
     result.normals.push_back(is_known ? result.normals[0] : map.normal(face, table.points[q]));
     result.weights.push_back(table.weights[q] * measure);
   }
+  for (unsigned int q = 0; q < result.weights.size() && scene.is_axisymmetric(); ++q)
+    result.weights[q] *= full_turn(map.point(table.points[q]));
   return result;
 }
 
@@ -174,6 +186,7 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
   const HookesLaw<dim> law(scene.material_of(cell));
   const std::vector<double> derivatives = evaluate(table.derivatives, coefficients[index]);
   std::vector<Tensor<1, dim>> result(table.points.size());
+  const std::vector<double> u = values(index, table);
   Tensor<2, dim> inverse;
   for (unsigned int q = 0; q < result.size(); ++q)
   {
@@ -181,9 +194,13 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
       inverse = invert(maps[index].jacobian(table.points[q]));
     Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, q * table.rows_per_point,
                                                      table.derivatives.m(), inverse);
+    const double hoop =
+        u.empty() ? 0.
+                  : scene.hoop_strain(cell->material_id(), vector_at<dim>(u, result.size(), q),
+                                      gradient, maps[index].point(table.points[q]));
     if (scene.has_initial_strain())
       gradient -= scene.initial_strain_in(cell, maps[index].point(table.points[q]));
-    result[q] = law.traction(gradient, normals[q]);
+    result[q] = law.traction(gradient, normals[q], hoop);
   }
   return result;
 }
@@ -366,28 +383,6 @@ ErrorEstimate estimate_error(const Field<dim> &field)
   return result;
 }
 
-// @sect3{What round-off makes of it}
-//
-// Second derivatives amplify the last bits of $u_N$ by $(p^2/h)^2$. On deep meshes the indicator is
-// some day that of round-off, and stops falling whatever is refined. How large that is, is measured
-// and not estimated: by the indicator of a random displacement as large as the last bits are.
-template <int dim>
-double round_off_of_estimate(const Field<dim> &field)
-{
-  Scene<dim> unloaded = field.scene;
-  unloaded.body_force = {};
-  unloaded.body_force_of_material.clear();
-  for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
-  {
-    boundary.traction = {};
-    if (boundary.is_unilateral()) // too far away to touch
-      boundary.gap = expression<dim>(std::numeric_limits<double>::max());
-  }
-  return norms(estimate_error(*field.last_bits(unloaded)), field.communicator()).total;
-}
-
 template ErrorEstimate estimate_error(const Field<2> &);
 template ErrorEstimate estimate_error(const Field<3> &);
-template double round_off_of_estimate(const Field<2> &);
-template double round_off_of_estimate(const Field<3> &);
 } // namespace hpvi

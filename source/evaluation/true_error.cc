@@ -60,13 +60,19 @@ private:
     const LocalField<dim> truth{reference.degree(j), reference.coefficients(j), map_of<dim>(b)};
     // One point more than affine cells need, for those that are not.
     const QGauss<dim> gauss(std::max(own.degree, truth.degree) + 2);
-    const auto field_values = own.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
+    auto field_values = own.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
     const double share = in_a.volume();
     const HookesLaw<dim> law(field.scene.material_of(a));
     for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const Point<dim> s = in_a.unit_to_real(gauss.point(q)), x = own.map.point(s);
+      if (field.scene.is_axisymmetric())
+        for (FieldValues<dim> *const values : {&field_values[q], &truth_values[q]})
+          values->hoop = values->u[0] / x[0];
       sums.add(law, field_values[q], truth_values[q],
-               gauss.weight(q) * share *
-                   std::abs(determinant(own.map.jacobian(in_a.unit_to_real(gauss.point(q))))));
+               gauss.weight(q) * share * std::abs(determinant(own.map.jacobian(s))) *
+                   field.scene.turn(x));
+    }
   }
 
   const Field<dim> &field;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/boundary_words.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,16 @@ void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
 }
 } // namespace
 
+namespace
+{
+/** Around which the body turns. */
+template <int dim>
+bool is_axis(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  return scene.is_axisymmetric() && lies_on_axis(sides_of(scene)[boundary.id]);
+}
+} // namespace
+
 template <int dim>
 std::vector<std::string> support_phrases(const Scene<dim> &scene,
                                          const BoundaryCondition<dim> &boundary,
@@ -118,7 +129,7 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
 {
   std::vector<std::string> phrases;
   if (boundary.symmetry)
-    phrases.push_back("symmetry");
+    phrases.push_back(is_axis(scene, boundary) ? "axis" : "symmetry");
   const std::string stiffness = unit_name(scene.stress_unit) + "/" + unit_name(scene.length_unit);
   for (const auto &[k, name] :
        {std::pair{boundary.spring.normal, "k_n"}, {boundary.spring.tangential, "k_t"}})
@@ -156,6 +167,7 @@ std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary
       std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
                    [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
   const std::string kind = found->plate                                  ? "plate "
+                           : is_axis(scene, *found)                      ? "axis "
                            : found->symmetry                             ? "symmetry "
                            : found->spring && !found->has_displacement() ? "spring "
                                                                          : "support ";

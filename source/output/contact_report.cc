@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/output/axial_force.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/plate_report.h>
@@ -39,16 +40,6 @@ const BoundaryForce<dim> &force_of(const Equilibrium<dim> &equilibrium, const st
 {
   return *std::find_if(equilibrium.reactions.begin(), equilibrium.reactions.end(),
                        [&](const BoundaryForce<dim> &force) { return force.boundary == boundary; });
-}
-
-/** Forces below a part of this are round-off. */
-template <int dim>
-double largest_force(const Equilibrium<dim> &equilibrium)
-{
-  double largest = equilibrium.loads.force.norm();
-  for (const BoundaryForce<dim> &force : equilibrium.reactions)
-    largest = std::max(largest, force.force.norm());
-  return largest;
 }
 
 std::string moment_text(const double moment)
@@ -110,6 +101,8 @@ std::string in_words(const std::string &name, const Scene<dim> &scene,
 std::string acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
                    const ContactState<2> &state, const double scale)
 {
+  if (is_axial(force.force))
+    return axial_force_in_words(force.force, scale);
   if (const auto line = line_of_action(force, equilibrium.centre, state, scale))
     return "force " + point_text(clean(force.force, scale)) + " through " +
            point_text<2>(clean<2>(*line, state.area));
@@ -289,9 +282,10 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
     if (std::none_of(contact.begin(), contact.end(),
                      [&](const ContactState<dim> &state)
                      { return scene.boundaries[state.boundary].name == reaction.boundary; }))
-      words += std::exchange(separator, "") + kind_of_support(scene, reaction.boundary) +
-               ": force " + point_text(clean(reaction.force, scale)) + ", " +
-               moment_text(reaction, equilibrium) +
+      words += std::exchange(separator, "") + kind_of_support(scene, reaction.boundary) + ": " +
+               (is_axial(reaction.force) ? axial_force_in_words(reaction.force, scale)
+                                         : "force " + point_text(clean(reaction.force, scale)) +
+                                               ", " + moment_text(reaction, equilibrium)) +
                plate_in_words(scene, reaction.boundary, equilibrium) + "\n";
   for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
     words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
@@ -359,6 +353,8 @@ std::string loads_in_words(const Scene<2> &scene)
                           .sum()
                           .times(scene.thickness);
   const double size = scene.geometry.diameter();
+  if (is_axial(sum.force))
+    return "loads: " + axial_force_in_words(sum.force, sum.absolute) + '\n';
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
          text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +
          " about " + point_text<2>(sum.centre) +

@@ -109,7 +109,9 @@ std::string material_in_words(const Scene<dim> &scene, const Material &material)
 {
   std::string words = elasticity_in_words(material, unit_name(scene.stress_unit));
   if (dim == 2)
-    words += material.plane == PlaneModel::stress ? ", plane stress" : ", plane strain";
+    words += scene.is_axisymmetric()                ? ", axisymmetric, forces of the full turn"
+             : material.plane == PlaneModel::stress ? ", plane stress"
+                                                    : ", plane strain";
   if (material.density > 0)
     words += ", density " + text(material.density, 6);
   const std::size_t number = &material - scene.materials.data();

@@ -232,7 +232,7 @@ Record loading_record(const StepReport<dim> &step)
   forces.insert(forces.begin(), step.equilibrium.loads);
   for (const BoundaryForce<dim> &force : forces)
     for (unsigned int d = 0; d < dim; ++d)
-      record.emplace_back("force_" + force.boundary + "_" + "xyz"[d], text(force.force[d]));
+      record.emplace_back("force_" + force.boundary + "_" + "xyz"[d], known(force.force[d]));
   for (const ContactState<dim> &state : step.contact)
     for (const ContactMode mode : {ContactMode::open, ContactMode::slip, ContactMode::stick})
       record.emplace_back(mode_name(mode) + "_" + step.scene.boundaries[state.boundary].name,

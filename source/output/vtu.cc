@@ -38,8 +38,22 @@ Tensor<2, dim> gradient(const DataPostprocessorInputs::Vector<dim> &inputs, cons
 template <int dim>
 UpdateFlags flags_for(const Scene<dim> &scene)
 {
+  if (scene.is_axisymmetric())
+    return update_values | update_gradients | update_quadrature_points;
   return scene.has_initial_strain() ? update_gradients | update_quadrature_points
                                     : update_gradients;
+}
+
+/** The elastic strain around the axis. */
+template <int dim>
+double hoop_at(const Scene<dim> &scene, const DataPostprocessorInputs::Vector<dim> &inputs,
+               const unsigned int q)
+{
+  Tensor<1, dim> u;
+  for (unsigned int c = 0; c < dim; ++c)
+    u[c] = inputs.solution_values[q][c];
+  return scene.hoop_strain(inputs.template get_cell<dim>()->material_id(), u,
+                           gradient<dim>(inputs, q), inputs.evaluation_points[q]);
 }
 
 template <int dim>
@@ -48,16 +62,19 @@ SymmetricTensor<2, dim> stress_at(const Scene<dim> &scene, const HookesLaw<dim> 
                                   const unsigned int q)
 {
   Tensor<2, dim> strain = gradient<dim>(inputs, q);
+  const double hoop = scene.is_axisymmetric() ? hoop_at(scene, inputs, q) : 0.;
   if (scene.has_initial_strain())
     strain -= scene.initial_strain_in(inputs.template get_cell<dim>(), inputs.evaluation_points[q]);
-  return law.stress(strain);
+  return law.stress(strain, hoop);
 }
 
-/** The initial strain e33. */
+/** The initial strain e33, of an axisymmetric body without the hoop strain. */
 template <int dim>
 double across_at(const Scene<dim> &scene, const DataPostprocessorInputs::Vector<dim> &inputs,
                  const unsigned int q)
 {
+  if (scene.is_axisymmetric())
+    return -hoop_at(scene, inputs, q);
   return scene.has_initial_strain() ? initial_strain_across(scene, inputs.template get_cell<dim>(),
                                                             inputs.evaluation_points[q])
                                     : 0.;

@@ -32,7 +32,11 @@ StressSample<dim> largest_von_mises(const typename Field<dim>::Cell &cell, const
   const HookesLaw<dim> law(material);
   const CellMap<dim> map = map_of<dim>(cell);
   const ShapeTable<dim> &table = field.tables.gradients(degree, degree / 2 + 2);
-  const std::vector<double> derivatives = evaluate(table.derivatives, field.coefficients(cell));
+  const std::vector<double> coefficients = field.coefficients(cell),
+                            derivatives = evaluate(table.derivatives, coefficients),
+                            values = field.scene.is_axisymmetric()
+                                         ? evaluate(table.values, coefficients)
+                                         : std::vector<double>();
   StressSample<dim> largest{numbers::invalid_boundary_id, -1., {}, map.longest_edge()};
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
@@ -41,11 +45,14 @@ StressSample<dim> largest_von_mises(const typename Field<dim>::Cell &cell, const
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
     const Point<dim> x = map.point(table.points[q]);
-    const double value =
-        von_mises<dim>(material,
-                       law.stress(reference * invert(map.jacobian(table.points[q])) -
-                                  field.scene.initial_strain_in(cell, x)),
-                       initial_strain_across(field.scene, cell, x));
+    const Tensor<2, dim> gradient = reference * invert(map.jacobian(table.points[q]));
+    Tensor<1, dim> u;
+    for (unsigned int c = 0; c < dim && !values.empty(); ++c)
+      u[c] = values[c * table.points.size() + q];
+    const double hoop = field.scene.hoop_strain(cell->material_id(), u, gradient, x);
+    const double value = von_mises<dim>(
+        material, law.stress(gradient - field.scene.initial_strain_in(cell, x), hoop),
+        values.empty() ? initial_strain_across(field.scene, cell, x) : -hoop);
     if (value > largest.value)
     {
       largest.value = value;

@@ -82,10 +82,10 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
     scene.materials.push_back(read_material(parameters, dim, name));
   if (dim == 3)
     return;
-  const bool is_stress = common_value(parameters, scene.materials, "Plane") == "stress";
+  const PlaneModel plane = plane_model(common_value(parameters, scene.materials, "Plane"));
   for (Material &material : scene.materials)
   {
-    material.plane = is_stress ? PlaneModel::stress : PlaneModel::strain;
+    material.plane = plane;
     read_elasticity(parameters, material);
   }
   scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));

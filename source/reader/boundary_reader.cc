@@ -122,6 +122,17 @@ void read_direction(const Parameters &parameters, const ExpressionReader<2> &exp
   direction /= largest; // squares of the numbers may be none
   boundary.contact_direction = direction / direction.norm();
 }
+
+/** u_x = 0, and nothing else can act there. */
+void read_axis(const Parameters &parameters, const std::string &section)
+{
+  for (const char *const entry :
+       {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Contact"})
+    if (parameters.is_named(section, entry) && !parameters.text(section, entry).empty())
+      parameters.reject(section, entry,
+                        "is on the axis x = 0 of an axisymmetric body, where u_x = 0 by itself and "
+                        "nothing else acts; remove it");
+}
 } // namespace
 
 template <int dim>
@@ -135,6 +146,12 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
       exact_displacement_and_traction(scene, boundary.side);
 
   const std::string section = "Boundary " + boundary.name;
+  if (scene.is_axisymmetric() && lies_on_axis(side))
+  {
+    read_axis(parameters, section);
+    boundary.symmetry = true;
+    return;
+  }
   boundary.displacement =
       expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
   read_loads<dim>(expressions, section, side, exact_traction, boundary);
@@ -142,7 +159,8 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   if constexpr (dim == 2)
   {
     read_spring(parameters, expressions, section, points, boundary);
-    read_plate(parameters, expressions, section, points, scene.thickness, boundary);
+    read_plate(parameters, expressions, section, points, scene.thickness, scene.is_axisymmetric(),
+               boundary);
   }
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   if constexpr (dim == 2)

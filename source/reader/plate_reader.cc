@@ -37,7 +37,7 @@ void check_one(const Parameters &parameters, const std::string &section, const b
 
 void read_plate(const Parameters &parameters, const ExpressionReader<2> &expressions,
                 const std::string &section, const std::vector<Point<2>> &points,
-                const double thickness, BoundaryCondition<2> &boundary)
+                const double thickness, const bool is_axisymmetric, BoundaryCondition<2> &boundary)
 {
   if (!parameters.boolean(section, "Rigid"))
   {
@@ -73,6 +73,20 @@ void read_plate(const Parameters &parameters, const ExpressionReader<2> &express
     plate.displacement[rotation] = value(angle);
   if (moment)
     plate.force[rotation] = value(moment) / thickness;
+  if (is_axisymmetric)
+  {
+    for (const bool is_named : {bool(displacement[0]), bool(force[0])})
+      if (is_named)
+        parameters.reject(
+            section, force[0] ? "Force" : "Displacement",
+            "is radial in x, and a plate of an axisymmetric body moves along the axis "
+            "alone; write free in x");
+    if (angle || moment)
+      parameters.reject(section, angle ? "Rotation" : "Moment",
+                        "turns a plate of an axisymmetric body, which moves along the axis alone; "
+                        "remove it");
+    plate.displacement[0] = plate.displacement[rotation] = 0.;
+  }
   boundary.plate = plate;
   boundary.displacement = {};
 }

@@ -124,7 +124,8 @@ std::vector<Hint> hints_in_plane()
        "contact is along the normal of the body, or along \"Boundary bottom/Contact direction\" = "
        "dx; dy"},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
-      {{"plane strain", "plane stress"}, "set \"Material/Plane\" to stress or strain"},
+      {{"plane strain", "plane stress", "axisymmetric", "axisymmetry", "axial symmetry"},
+       "set \"Material/Plane\" to stress, strain or axisymmetric"},
       {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
        "a load history has \"Loading/Steps\", in which t runs from 0 to 1"}};
 }

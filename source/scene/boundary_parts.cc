@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/boundary_parts.h>
 
+#include <algorithm>
+
 #include <array>
 
 namespace hpvi
@@ -77,8 +79,18 @@ std::vector<Side<dim>> sides_of(const Scene<dim> &scene)
   return result;
 }
 
+template <int dim>
+bool lies_on_axis(const Side<dim> &side)
+{
+  const std::vector<Point<dim>> points = side.sample();
+  return !points.empty() &&
+         std::all_of(points.begin(), points.end(), [](const Point<dim> &x) { return x[0] == 0; });
+}
+
 template types::boundary_id boundary_at(const Scene<2> &, unsigned int, const Point<2> &);
 template types::boundary_id boundary_at(const Scene<3> &, unsigned int, const Point<3> &);
+template bool lies_on_axis(const Side<2> &);
+template bool lies_on_axis(const Side<3> &);
 template std::vector<CoarseFace<2>> coarse_faces(const Geometry<2> &, unsigned int);
 template std::vector<CoarseFace<3>> coarse_faces(const Geometry<3> &, unsigned int);
 template std::vector<Side<2>> sides_of(const Scene<2> &);

@@ -54,7 +54,7 @@ std::optional<Material::Flaw> flaw_of(const Orthotropy &orthotropy, const PlaneM
 }
 
 const std::string unnamed = "Material", plane_stress = "stress", plane_strain = "strain",
-                  range = "from 1e-100 to 1e100",
+                  axisymmetric = "axisymmetric", range = "from 1e-100 to 1e100",
                   number_words = "a number E > 0 (a stress) " + range;
 const Patterns::Double young_pattern(1e-100, 1e100);
 
@@ -131,9 +131,12 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
         "Coefficient of expansion alpha, in all three directions: Temperature/Expression times it "
         "is added to "
         "eps_0 [1/temperature].");
-    add("Plane", plane_strain, Patterns::Selection(plane_stress + '|' + plane_strain),
-        plane_stress + " or " + plane_strain,
-        "Plane stress or plane strain (thesis, Section 2.1.3), one for the whole body.");
+    add("Plane", plane_strain,
+        Patterns::Selection(plane_stress + '|' + plane_strain + '|' + axisymmetric),
+        plane_stress + ", " + plane_strain + " or " + axisymmetric,
+        "Plane stress or plane strain (thesis, Section 2.1.3), or a body of revolution: x >= 0 is "
+        "the radius, y the axis, forces and energies are those of the full turn. One for the whole "
+        "body.");
     add("Thickness", "1", Patterns::Double(1e-100, 1e100), "a number > 0 from 1e-100 to 1e100",
         "Thickness b of the body [length], one for the whole of it: forces, moments, works and "
         "energies are b times those of a unit, norms and bounds of the error b^(1/2) times; "
@@ -158,9 +161,16 @@ Material read_material(const Parameters &parameters, const int dim, const std::s
   material.young = number("Young's modulus");
   material.poisson = number("Poisson's ratio");
   material.density = number("Density");
-  if (dim == 2 && parameters.text(section_with("Plane"), "Plane") == plane_stress)
-    material.plane = PlaneModel::stress;
+  if (dim == 2)
+    material.plane = plane_model(parameters.text(section_with("Plane"), "Plane"));
   return material;
+}
+
+PlaneModel plane_model(const std::string &word)
+{
+  return word == plane_stress   ? PlaneModel::stress
+         : word == axisymmetric ? PlaneModel::axisymmetric
+                                : PlaneModel::strain;
 }
 
 std::optional<Material::Flaw> Material::flaw() const
@@ -229,7 +239,7 @@ SymmetricTensor<2, 2> Material::in_plane(const PlaneStrain &initial) const
   result[0][0] = initial[0];
   result[1][1] = initial[1];
   result[0][1] = initial[2];
-  if (plane == PlaneModel::stress)
+  if (plane != PlaneModel::strain) // around an axis nothing holds the body
     return result;
   const std::array<double, 3> widening =
       orthotropy ? orthotropy->transverse() : std::array<double, 3>{{poisson, poisson, 0.}};

@@ -216,6 +216,17 @@ Tensor<2, dim> Scene<dim>::initial_strain(const types::material_id material,
 }
 
 template <int dim>
+double Scene<dim>::hoop_strain(const types::material_id material, const Tensor<1, dim> &u,
+                               const Tensor<2, dim> &gradient, const Point<dim> &x) const
+{
+  if (!is_axisymmetric())
+    return 0.;
+  // Round-off of a point on the axis is no radius.
+  const double total = x[0] > 1e-12 * geometry.diameter() ? u[0] / x[0] : gradient[0][0];
+  return initial_strains.empty() ? total : total - initial_strains.at(material).value(x)[3];
+}
+
+template <int dim>
 bool Scene<dim>::has_parts() const
 {
   return boundaries.size() > GeometryInfo<dim>::faces_per_cell;
@@ -283,6 +294,8 @@ std::string Scene<dim>::no_error_bound() const
   if (const BoundaryCondition<dim> *const oblique = oblique_contact(*this))
     return "contact of " + printable(oblique->name) +
            " acts along its Contact direction, which is not the normal";
+  if (is_axisymmetric())
+    return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (!geometry.has_affine_cells() && !bound_on_distorted_cells)
@@ -317,7 +330,9 @@ NormalContact Scene<dim>::normal_contact() const
 {
   if (solver.normal_contact != NormalContact::automatic)
     return solver.normal_contact;
-  const bool has_nodes = dim == 2 && solver.path != SolutionPath::primal && !has_coulomb_friction();
+  // Nodes on the axis would have no weight.
+  const bool has_nodes = dim == 2 && !is_axisymmetric() && solver.path != SolutionPath::primal &&
+                         !has_coulomb_friction();
   return has_nodes ? NormalContact::nodes : NormalContact::multiplier;
 }
 

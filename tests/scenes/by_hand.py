@@ -24,6 +24,9 @@ SPACE = {"Dimension": "3", "Geometry/Upper corner": "2, 1, 1", "Geometry/Subdivi
 PLATE = {**BLOCK, "Boundary left/Displacement": "0; 0", "Boundary bottom/Displacement": None,
          "Boundary right/Rigid": "true"}
 HOT = {**BLOCK, "Material/Thermal expansion": "0.001", "Temperature/Expression": "100"}
+TURNED = {"Material/Plane": "axisymmetric", "Material/Young's modulus": "10", "Material/Poisson's ratio": "0",
+          "Boundary bottom/Displacement": "free; 0", "Boundary top/Pressure": "3", "Adaptivity/Method": "hup2",
+          "Adaptivity/Maximum steps": "1"}
 WOOD = {**BLOCK, "Material/Young's modulus": None, "Material/Poisson's ratio": None, "Material/Elasticity": "orthotropic",
         "Material/Young's moduli": "10, 2", "Material/Poisson's ratios": "0.4", "Material/Shear moduli": "1.5, 7, 8",
         "Boundary right/Traction": "3; 0"}
@@ -202,6 +205,17 @@ ROWS = [
       "Material steel/Initial strain": "0.002; 0; 0"},
      {"plates.right.rotation": 2 * timoshenko(0.01 - 0.002, 0.25, 10, 0.75, 30), "plates.right.moment": 0,
       "forces.left.0": 0}),
+    ("a cylinder under pressure", TURNED, {"final.energy": -0.5 * math.pi * 9 / 10, "forces.bottom.1": 3 * math.pi}),
+    ("a cylinder pressed from all sides, whose hoop stress is that pressure", {
+        **TURNED, "Boundary top/Pressure": None, "Boundary right/Pressure": "3", "Material/Poisson's ratio": "0.3"},
+     {"final.energy": -0.5 * 2 * math.pi * 3 * 3 * 0.7 / 10, "von_mises.largest": 3, "forces.bottom.1": 0}),
+    ("a shrunk ring", {**TURNED, "Geometry/Lower corner": "1, 0", "Geometry/Upper corner": "2, 1", "Boundary top/Pressure": None,
+                       "Material/Initial strain": "0.01; 0; 0; 0.01"}, {"von_mises.largest": 0}),
+    ("a cylinder under a plate", {**TURNED, "Boundary top/Pressure": None, "Boundary top/Rigid": "true",
+                                  "Boundary top/Force": "free; -3"},
+     {"plates.top.displacement.1": -3 / (10 * math.pi), "forces.bottom.1": 3, "von_mises.largest": 3 / math.pi}),
+    ("a heavy pipe", {**TURNED, "Geometry/Lower corner": "1, 0", "Geometry/Upper corner": "2, 1", "Boundary top/Pressure": None,
+                      "Material/Density": "2", "Body force/Gravity": "0; -5"}, {"forces.bottom.1": 30 * math.pi}),
     ("heat in time", {**HOT, **HISTORY, "Temperature/Expression": "100*t"},
      {"loading.stored_energy": 0, "loading.work": 0, "von_mises.largest": 0}),
     ("heat between two walls in time",
@@ -285,6 +299,9 @@ ROWS = [
      {"forces.bottom.0": -20000, "forces.bottom.1": 300000, "contact.bottom.through.0": 70 + 80 * 20 / 300,
       "plates.punch.moment": 0}),
     ("key.prm", SCENES / "key.prm", {"forces.right.1": -1200, "forces.left.0+forces.right.0+forces.grip.0": 0}),
+    ("sleeve.prm", SCENES / "sleeve.prm",
+     {"forces.right.1": -2 * math.pi * 0.1076923076923077, "forces.left.1": 2 * math.pi * 0.1076923076923077,
+      "contact.right.normal_resultant": -4 * math.pi * 0.1794871794871795}),
     ("bolt.prm", SCENES / "bolt.prm", {"forces.shaft.1+forces.bottom.1": -450, "forces.left.0": 0}),
     ("thermal-joint.prm", SCENES / "thermal-joint.prm", {"forces.left.0": 800, "forces.bottom.0": -800, "forces.bottom.1": 4000}),
     ("footing.prm", SCENES / "footing.prm", {"forces.bottom.1": 200 + 9.81 * 8 * (1.8 * 2.5 + 2.1 * 1.5)}),

@@ -22,6 +22,14 @@ template <int dim>
 unsigned int stiffness_points(const CellMap<dim> &map, unsigned int degree);
 
 /**
+ * The same in the body of @p scene. An axisymmetric one has 1/x under the integral, with its pole on the axis; of boxes that
+ * touch the axis u_x/x is a polynomial.
+ */
+template <int dim>
+unsigned int stiffness_points(const Scene<dim> &scene, const CellMap<dim> &map,
+                              unsigned int degree);
+
+/**
  * How a(.,.) counts changes of volume in nearly incompressible materials: div v itself, or its projection onto P_{p-1} of
  * each cell, in reference coordinates. Then u is that of the stable mixed pair Q_p, P_{p-1}, the pressure
  * eliminated (Bernardi and Maday, M3AS 9, 1999); for parallelograms only.
@@ -60,7 +68,8 @@ public:
   /**
    * Elements of one class have the same matrix: in two dimensions a(.,.) does not change when a
    * cell is moved or scaled, so an adaptive mesh has a handful of classes
-   * for each material.
+   * for each material. In an axisymmetric body it does not change along the axis alone: the class holds the radius
+   * and the size, where it has nothing else to say of vertex 0.
    */
   using Class = std::array<long, 2 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
   Class congruence_class(const CellMap<dim> &map, unsigned int degree,

@@ -112,9 +112,11 @@ public:
   /**
    * N, (p-1) x (p+1): a polynomial of degree p >= 2 on an edge has at its p-1 interior nodes the values
    * `N (m, v(0), v(1))`, where `m_i = int psi_i v / int psi_i` are its moments with the Lagrange basis
-   * psi at p-1 Gauss points. N has condition 1.0 (p = 2) to 1.8 (p = 14).
+   * psi at p-1 Gauss points. N has condition 1.0 (p = 2) to 1.8 (p = 14). Integrals may have the weight
+   * `1 + slope (2s - 1)`, slope in [-1, 1]: then the condition is 9 at most.
    */
-  const dealii::FullMatrix<double> &nodes_from_moments(unsigned int degree) const;
+  const dealii::FullMatrix<double> &nodes_from_moments(unsigned int degree,
+                                                       double slope = 0.) const;
 
 private:
   const ShapeTable<dim> &in_cell(unsigned int degree, unsigned int n_gauss,
@@ -129,7 +131,7 @@ private:
   mutable std::map<unsigned int, std::vector<dealii::Polynomials::Polynomial<double>>>
       lagrange_bases;
   mutable std::map<std::array<unsigned int, 3>, EdgeTable> edge_tables;
-  mutable std::map<unsigned int, dealii::FullMatrix<double>> moment_nodes;
+  mutable std::map<std::pair<unsigned int, double>, dealii::FullMatrix<double>> moment_nodes;
 };
 
 /**

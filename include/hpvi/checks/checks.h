@@ -31,6 +31,10 @@ void check_exact_solution(const Scene<dim> &scene);
 template <int dim>
 void check_load_history(const Scene<dim> &scene, SceneUse use);
 
+/** An axisymmetric body lies at x >= 0, its axis has u_x = 0 alone, and it asks for nothing that only the plane offers. */
+template <int dim>
+void check_axisymmetry(const Scene<dim> &scene);
+
 /** Numbers are those that a file may say, and the method, its degrees and its multipliers fit. */
 template <int dim>
 void check_method(const Scene<dim> &scene, SceneUse use);

@@ -55,9 +55,11 @@ struct ContactFace
       {};                         ///< a rule for the limit of the law, cut where its functions are
   Expression<dim> past = nullptr; ///< of PastSlip
   bool at_nodes = false;          ///< are the normal points Gauss-Lobatto points?
+  bool is_turned = false; ///< around the axis: measures hold 2 pi x, and so do weights of limits
 
   /** At reference coordinate s in [0,1] of the face. */
-  ContactFrame<dim> frame(double s) const;
+  ContactFrame<dim>
+  frame(double s) const; ///< its measure is that of the full turn, if there is one
   dealii::Point<dim> point(double s) const; ///< x there
 
   double friction_bound(const dealii::Point<dim> &x) const;       ///< FrictionLaw::bound_at()

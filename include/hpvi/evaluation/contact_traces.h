@@ -42,9 +42,11 @@ public:
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
     dealii::Tensor<2, dim> strain = reference * dealii::invert(map.jacobian(table.points[q]));
+    const dealii::Point<dim> x = map.point(table.points[q]);
+    const double hoop = scene.hoop_strain(material, displacement(q), strain, x);
     if (!scene.initial_strains.empty())
-      strain -= scene.initial_strain(material, map.point(table.points[q]));
-    return law.stress(strain);
+      strain -= scene.initial_strain(material, x);
+    return law.stress(strain, hoop);
   }
 
   /** sigma n - G: what the plane exerts, without an applied traction G. */

@@ -21,9 +21,10 @@ using Moment = std::conditional_t<dim == 2, double, dealii::Tensor<1, dim>>;
 template <int dim>
 struct BoundaryForce
 {
-  std::string boundary;         ///< its name
-  dealii::Tensor<1, dim> force; ///< [stress length^(dim-1)]
-  Moment<dim> moment{};         ///< about Equilibrium::centre
+  std::string boundary; ///< its name
+  dealii::Tensor<1, dim>
+      force;            ///< [stress length^(dim-1)]; of an axisymmetric body x and moment are NaN
+  Moment<dim> moment{}; ///< about Equilibrium::centre
 };
 
 /** What became of a rigid plate. */

@@ -45,7 +45,7 @@ struct FaceFrame
   dealii::Point<dim> x;
   dealii::Tensor<1, dim> normal; ///< outer unit normal n, or `Contact direction` d
   std::array<dealii::Tensor<1, dim>, dim - 1> tangents; ///< t = (-n_y, n_x); in space two
-  double measure;                                       ///< ds over that of the reference face
+  double measure; ///< ds over that of the reference face; of axisymmetric bodies times 2 pi x
 
   /** Of components along the tangents. */
   Tangential<dim> tangential(const dealii::Tensor<1, dim - 1> &components) const;
@@ -60,8 +60,9 @@ struct FieldFace
   typename dealii::DoFHandler<dim>::active_cell_iterator cell;
   unsigned int face_no;
   const BoundaryCondition<dim> *condition;
-  CellMap<dim> map;    ///< of the cell
-  unsigned int number; ///< of this in Field::faces()
+  CellMap<dim> map;       ///< of the cell
+  unsigned int number;    ///< of this in Field::faces()
+  bool is_turned = false; ///< is it one of an axisymmetric body?
 
   unsigned int degree() const; ///< p_K of the cell
 
@@ -102,7 +103,7 @@ template <int dim>
 struct PointValue
 {
   dealii::Tensor<1, dim> displacement;    ///< [length]
-  dealii::SymmetricTensor<2, dim> stress; ///< [stress]
+  dealii::SymmetricTensor<2, dim> stress; ///< [stress]; that around the axis is not in it
 };
 
 /**

@@ -17,6 +17,7 @@ struct FieldValues
 {
   dealii::Tensor<1, dim> u;
   dealii::Tensor<2, dim> gradient; ///< d u_i / d x_j
+  double hoop = 0;                 ///< u_x/x in an axisymmetric body
 };
 
 /** A polynomial on one cell of a mesh. */
@@ -46,9 +47,9 @@ struct DifferenceSquares
   void add(const HookesLaw<dim> &law, const FieldValues<dim> &field, const FieldValues<dim> &truth,
            const double weight)
   {
-    energy += weight * law.energy_product(truth.gradient - field.gradient);
+    energy += weight * law.energy_product(truth.gradient - field.gradient, truth.hoop - field.hoop);
     l2 += weight * (truth.u - field.u).norm_square();
-    norm += weight * law.energy_product(truth.gradient);
+    norm += weight * law.energy_product(truth.gradient, truth.hoop);
   }
 
   DifferenceSquares &operator+=(const DifferenceSquares &other);

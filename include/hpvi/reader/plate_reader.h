@@ -15,7 +15,7 @@ namespace hpvi
  */
 void read_plate(const Parameters &parameters, const ExpressionReader<2> &expressions,
                 const std::string &section, const std::vector<dealii::Point<2>> &points,
-                double thickness, BoundaryCondition<2> &boundary);
+                double thickness, bool is_axisymmetric, BoundaryCondition<2> &boundary);
 } // namespace hpvi
 
 #endif

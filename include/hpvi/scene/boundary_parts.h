@@ -30,6 +30,10 @@ std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, unsigne
  */
 template <int dim>
 std::vector<Side<dim>> sides_of(const Scene<dim> &scene);
+
+/** Does it lie on x = 0, all of it? */
+template <int dim>
+bool lies_on_axis(const Side<dim> &side);
 } // namespace hpvi
 
 #endif

@@ -21,7 +21,8 @@ class Parameters;
 enum class PlaneModel
 {
   stress,
-  strain
+  strain,
+  axisymmetric ///< no plane: a body of revolution, x the radius, y the axis
 };
 
 /**
@@ -75,7 +76,8 @@ struct Material
   /** For messages: "Young's modulus 210000". */
   std::string stiffness_in_words() const;
 
-  /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress] and the initial strain e33 across it. */
+  /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress] and the initial strain e33 across it: in an
+   * axisymmetric body less its hoop strain. */
   double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma, double e33 = 0) const;
 
   /** What an initial strain is in the plane: there `sigma = C : (eps - result)`; in plane strain e33 presses, too. */
@@ -113,6 +115,9 @@ struct Material
 /** `Material` where @p name is empty, else `Material NAME`. */
 std::string section_of_material(const std::string &name);
 
+/** Of the entry `Plane`. */
+PlaneModel plane_model(const std::string &word);
+
 /** That section of a body in so many dimensions, and what it says: a named one inherits what it leaves out. */
 std::vector<Entry> material_entries(int dim, const std::string &name);
 Material read_material(const Parameters &parameters, int dim, const std::string &name);
@@ -136,12 +141,13 @@ public:
     }
   }
 
-  /** sigma of a displacement gradient [stress]. */
-  dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient) const
+  /** sigma of a displacement gradient [stress], in axisymmetric bodies with the strain @p hoop around the axis. */
+  dealii::SymmetricTensor<2, dim> stress(const dealii::Tensor<2, dim> &gradient,
+                                         const double hoop = 0.) const
   {
     if (!is_isotropic)
       return general_stress(gradient);
-    const double pressure = lambda * dealii::trace(gradient);
+    const double pressure = lambda * (dealii::trace(gradient) + hoop);
     dealii::SymmetricTensor<2, dim> sigma;
     for (unsigned int i = 0; i < dim; ++i)
     {
@@ -152,11 +158,18 @@ public:
     return sigma;
   }
 
+  /** The stress around the axis, `lambda (tr eps + hoop) + 2 mu hoop` [stress]. */
+  double hoop_stress(const dealii::Tensor<2, dim> &gradient, const double hoop) const
+  {
+    return lambda * (dealii::trace(gradient) + hoop) + 2 * mu * hoop;
+  }
+
   /** `sigma n` [stress]. */
   dealii::Tensor<1, dim> traction(const dealii::Tensor<2, dim> &gradient,
-                                  const dealii::Tensor<1, dim> &normal) const
+                                  const dealii::Tensor<1, dim> &normal,
+                                  const double hoop = 0.) const
   {
-    return stress(gradient) * normal;
+    return stress(gradient, hoop) * normal;
   }
 
   /** `div sigma` [stress/length] of second derivatives: @p second[i][j][k] is d_j d_k u_i. */
@@ -178,14 +191,15 @@ public:
     return result;
   }
 
-  /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy. */
-  double energy_product(const dealii::Tensor<2, dim> &gradient) const
+  /** `sigma : eps = lambda (tr eps)^2 + 2 mu eps : eps` [stress], twice the density of energy; @p hoop is one of its strains. */
+  double energy_product(const dealii::Tensor<2, dim> &gradient, const double hoop = 0.) const
   {
     if (!is_isotropic)
       return dealii::scalar_product(dealii::Tensor<2, dim>(general_stress(gradient)), gradient);
     const dealii::Tensor<2, dim> strain = 0.5 * (gradient + dealii::transpose(gradient));
-    const double divergence = dealii::trace(strain);
-    return lambda * divergence * divergence + 2 * mu * dealii::scalar_product(strain, strain);
+    const double divergence = dealii::trace(strain) + hoop;
+    return lambda * divergence * divergence +
+           2 * mu * (dealii::scalar_product(strain, strain) + hoop * hoop);
   }
 
   /** `s : C^-1 t` [stress] of two stresses, twice the density of complementary energy where they are one. */
@@ -237,6 +251,18 @@ public:
     for (unsigned int a = 0; c == d && a < dim; ++a)
       sum += mu * P(a, a);
     return sum;
+  }
+
+  /**
+   * What the hoop strains h = phi/x of phi e_0 and psi e_0 add to stiffness(), from the integrals @p Q(a) of `d_a phi psi/x`,
+   * @p R(a) of `phi/x d_a psi`, and @p hoop of `phi psi/x^2`.
+   */
+  template <class One, class Other>
+  double hoop_stiffness(const One &Q, const Other &R, const double hoop, const unsigned int c,
+                        const unsigned int d) const
+  {
+    return (d == 0 ? lambda * Q(c) : 0.) + (c == 0 ? lambda * R(d) : 0.) +
+           (c == 0 && d == 0 ? (lambda + 2 * mu) * hoop : 0.);
   }
 
 private:

@@ -121,6 +121,13 @@ enum class QpSolver
   active_set ///< ActiveSet
 };
 
+/** `2 pi x`, the way around the axis [length]. */
+template <int dim>
+double full_turn(const dealii::Point<dim> &x)
+{
+  return 2 * dealii::numbers::PI * x[0];
+}
+
 /** What is known of the error, cell by cell and in all. */
 enum class Indicator
 {
@@ -335,6 +342,25 @@ struct Scene
   }
   dealii::Tensor<2, dim> initial_strain(dealii::types::material_id material,
                                         const dealii::Point<dim> &x) const;
+
+  /** Is it a body of revolution, x the radius and y the axis? Materials agree on that. */
+  bool is_axisymmetric() const
+  {
+    return dim == 2 && materials.front().plane == PlaneModel::axisymmetric;
+  }
+
+  /** What a measure in the plane becomes at @p x: `2 pi x` of an axisymmetric body [length], else 1. */
+  double turn(const dealii::Point<dim> &x) const
+  {
+    return is_axisymmetric() ? full_turn(x) : 1.;
+  }
+
+  /**
+   * The elastic strain around the axis of an axisymmetric body at @p x: `u_x/x`, on the axis its limit `d_x u_x`, without the
+   * initial strain e33; else 0.
+   */
+  double hoop_strain(dealii::types::material_id material, const dealii::Tensor<1, dim> &u,
+                     const dealii::Tensor<2, dim> &gradient, const dealii::Point<dim> &x) const;
 
   bool has_parts() const; ///< is any boundary a part of a side?
   bool has_springs() const;

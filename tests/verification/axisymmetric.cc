@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies of revolution against closed forms: tubes, shafts, and a sleeve that rubs in a ring.
+#include "discretisation.h"
+
+#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/evaluation/residual_estimator.h>
+
+#include <complex>
+
+using namespace verification;
+
+namespace
+{
+constexpr double pi = numbers::PI, young = 10, poisson = 0.3, mu = young / 2.6,
+                 lambda = young * 0.3 / (1.3 * 0.4);
+
+Overrides operator+(Overrides entries, const Overrides &more)
+{
+  entries.insert(entries.end(), more.begin(), more.end());
+  return entries;
+}
+
+const Overrides turned = {{"Material/Young's modulus", "10"},
+                          {"Material/Poisson's ratio", "0.3"},
+                          {"Material/Plane", "axisymmetric"},
+                          {"Geometry/Subdivisions", "2, 2"}};
+const Overrides ring =
+    turned + Overrides{{"Geometry/Lower corner", "1, 0"}, {"Geometry/Upper corner", "2, 1"}};
+const Overrides flat_ends = {{"Boundary bottom/Displacement", "free; 0"},
+                             {"Boundary top/Displacement", "free; 0"}};
+
+struct Step
+{
+  double J, elastic, indicator, slip = 0, normal_resultant = 0;
+  Equilibrium<2> forces;
+};
+
+/** With one degree after the other on the coarse mesh. */
+std::vector<Step> steps_of(const Overrides &entries, const unsigned int degree,
+                           const unsigned int n_steps)
+{
+  std::vector<Step> result;
+  AdaptiveSolver<2>(
+      scene_of(entries + Overrides{{"Adaptivity/Method", "pu"},
+                                   {"Adaptivity/Start degree", std::to_string(degree)},
+                                   {"Adaptivity/Maximum steps", std::to_string(n_steps)}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            result.push_back({step.energies.energy, 0.5 * std::pow(step.energies.norm, 2),
+                              step.norms.total, 0, 0, step.equilibrium});
+            if (!step.contact.empty())
+            {
+              result.back().slip = step.contact[0].points[0].slip;
+              result.back().normal_resultant = step.contact[0].normal_resultant;
+            }
+            EXPECT_LT(step.equilibrium.force_imbalance, 1e-10);
+          });
+  return result;
+}
+
+/** u = A r + B/r under the pressure 1 inside. */
+TEST(Axisymmetric, TubeUnderPressureConvergesExponentially)
+{
+  const double B = 1 / (1.5 * mu), A = mu * B / (4 * (lambda + mu)), J = -pi * (A + B);
+  const std::vector<Step> steps =
+      steps_of(ring + flat_ends + Overrides{{"Boundary left/Pressure", "1"}}, 2, 8);
+  for (unsigned int k = 0; k < steps.size(); ++k)
+  {
+    const double square = steps[k].J - J; // half of that of the error
+    EXPECT_GT(square, -1e-12);
+    EXPECT_LT(square, 2e-2 * std::pow(0.05, k) * std::abs(J) + 1e-13) << k;
+    if (square > 1e-7 * std::abs(J))
+    {
+      EXPECT_GT(steps[k].indicator, std::sqrt(2 * square));
+      EXPECT_LT(steps[k].indicator, 20 * std::sqrt(2 * square));
+    }
+  }
+  EXPECT_NEAR(steps.back().J, J, 1e-13);
+  EXPECT_TRUE(std::isnan(steps.back().forces.loads.force[0]));
+}
+
+/** F = (x, 0): u = C r - r^3/(8 (lambda + 2 mu)), in the space from p = 3 on, the axis included. */
+TEST(Axisymmetric, RotatingShaftIsExact)
+{
+  const double D = 1 / (8 * (lambda + 2 * mu)),
+               C = (3 * (lambda + 2 * mu) + lambda) * D / (2 * (lambda + mu)),
+               J = -pi * (C / 4 - D / 6);
+  const std::vector<Step> steps =
+      steps_of(turned + flat_ends + Overrides{{"Body force/Expression", "x; 0"}}, 2, 4);
+  EXPECT_GT(steps[0].J, J * (1 - 1e-4));
+  for (unsigned int k = 1; k < steps.size(); ++k)
+  {
+    EXPECT_NEAR(steps[k].J, J, 1e-14);
+    EXPECT_LT(steps[k].indicator, 1e-11);
+  }
+}
+
+/** u = (a x, b y) has a uniform stress: exact on skew cells with hanging nodes and any degrees. */
+TEST(Axisymmetric, UniformStressOnAnyMesh)
+{
+  const Overrides skew = {{"Material/Young's modulus", "10"},
+                          {"Material/Poisson's ratio", "0.3"},
+                          {"Material/Plane", "axisymmetric"},
+                          {"Geometry/Shape", "quadrilateral"},
+                          {"Geometry/Subdivisions", "3, 2"}};
+  for (const char *const corners : {"0, 0; 2, 0; 1.6, 1; 0, 1.2", "0.5, 0; 2, 0.3; 1.6, 1.5; 1, 1"})
+  {
+    Scene<2> scene = scene_of(skew + Overrides{{"Geometry/Corners", corners},
+                                               {"Boundary top/Displacement", "0.02*x; -0.01*y"},
+                                               {"Boundary bottom/Displacement", "0.02*x; -0.01*y"},
+                                               {"Boundary right/Displacement", "0.02*x; -0.01*y"}});
+    if (!scene.boundary("left").symmetry)
+      for (unsigned int c = 0; c < 2; ++c)
+        scene.boundary("left").displacement[c] =
+            expression<2>([c](const Point<2> &x) { return c == 0 ? 0.02 * x[0] : -0.01 * x[1]; });
+    const RandomMesh mesh(scene, 5, 2, 1, 6);
+    const Laboratory discrete(scene, mesh);
+    const Solution<2> solution = discrete.solve();
+    for (const auto &cell : discrete.displacement_space.dof_handler().active_cell_iterators())
+    {
+      const auto dofs = discrete.displacement_space.cell_dofs(cell->active_cell_index());
+      const CellMap<2> map = map_of<2>(cell);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const Point<2> x = map.point(cell->get_fe().get_unit_support_points()[i]);
+        const unsigned int c = cell->get_fe().system_to_component_index(i).first;
+        EXPECT_NEAR(solution.u[dofs[i]], c == 0 ? 0.02 * x[0] : -0.01 * x[1], 1e-14);
+      }
+    }
+    for (const double eta : estimate_error(SolutionField<2>(solution)).volume)
+      EXPECT_LT(eta, 1e-20);
+  }
+}
+
+/** Element matrices of one class are the same: along the axis cells may move, away from it they may not. */
+TEST(Axisymmetric, ClassesOfCells)
+{
+  const Scene<2> scene = scene_of(ring + flat_ends);
+  const ShapeTables<2> tables;
+  const ElementMatrices<2> elements(scene, tables);
+  const auto square = [](const double x, const double y, const double h) {
+    return CellMap<2>({{{x, y}, {x + h, y}, {x, y + h}, {x + h, y + h}}});
+  };
+  const auto of = [&](const CellMap<2> &map) { return elements.congruence_class(map, 3, 0); };
+  EXPECT_EQ(of(square(1, 0, 0.5)), of(square(1, 3, 0.5)));
+  EXPECT_NE(of(square(1, 0, 0.5)), of(square(1.5, 0, 0.5)));
+  EXPECT_NE(of(square(1, 0, 0.5)), of(square(2, 0, 1)));
+}
+
+/** Pulled at r = 1 by W, held at r = 2 by a ring: u_z = W + K/mu ln r. */
+struct Sleeve
+{
+  std::string friction;
+  double u_i, W, K, slip, elastic;
+};
+
+TEST(Axisymmetric, SleeveInARing)
+{
+  for (const Sleeve &sleeve :
+       {Sleeve{"bound", .01, .02, -.1109765416, 0, .012208849513},
+        Sleeve{"coefficient", .02, .06, -.1076923077, .0405918789, .027510210619}})
+  {
+    const bool sticks = sleeve.slip == 0;
+    const double K = sticks ? -mu * sleeve.W / std::log(2.) : sleeve.K,
+                 s = -2 * lambda * sleeve.u_i / 3;
+    const auto traction = [&](const double sign)
+    { return text(sign * K) + "/x; " + text(sign * s); };
+    const std::vector<Step> steps = steps_of(
+        ring + Overrides{{"Boundary left/Displacement", text(sleeve.u_i) + "; " + text(sleeve.W)},
+                         {"Boundary right/Contact", "bilateral"},
+                         {"Boundary right/Friction " + sleeve.friction, sticks ? "0.2" : "0.3"},
+                         {"Boundary top/Traction", traction(1)},
+                         {"Boundary bottom/Traction", traction(-1)}},
+        2, 9);
+    EXPECT_NEAR(steps.back().elastic, sleeve.elastic, 2e-8);
+    EXPECT_NEAR(steps.back().slip, sleeve.slip, 1e-8);
+    EXPECT_NEAR(steps.back().forces.reactions.back().force[1], 2 * pi * K, 1e-7);
+    // T_n = s_rr(2) = 2 (lambda + mu) A - 2 mu B/4 with A = -u_i/3, B = -4A
+    const double A = -sleeve.u_i / 3;
+    EXPECT_NEAR(steps.back().normal_resultant, 2 * pi * 2 * (2 * (lambda + mu) * A + 2 * mu * A),
+                1e-6);
+  }
+}
+
+/** A cylinder under a plate: the force is that of the full turn, and contact carries it. */
+TEST(Axisymmetric, PlateOnACylinder)
+{
+  const Overrides block = {{"Boundary top/Rigid", "true"},
+                           {"Boundary top/Force", "free; -3"},
+                           {"Boundary bottom/Contact", "unilateral"},
+                           {"Material/Poisson's ratio", "0"}};
+  const std::vector<Step> steps = steps_of(turned + block, 3, 1);
+  const PlateState<2> &plate = steps[0].forces.plates[0];
+  EXPECT_NEAR(plate.displacement[1], -3 / (pi * young), 1e-12);
+  EXPECT_NEAR(plate.displacement[0], 0, 1e-14);
+  EXPECT_NEAR(steps[0].normal_resultant, -3, 1e-10);
+  EXPECT_NEAR(steps[0].elastic, 0.5 * 9 / (pi * young), 1e-10);
+}
+
+/** Heat in all directions: free it strains without stress, held it presses everywhere alike. */
+TEST(Axisymmetric, Heat)
+{
+  const Overrides hot = {{"Material/Thermal expansion", "0.001"}, {"Temperature/Expression", "10"}};
+  for (const Overrides &body : {turned, ring})
+  {
+    const std::vector<Step> free =
+        steps_of(body + hot + Overrides{{"Boundary bottom/Displacement", "free; 0"}}, 2, 1);
+    const double volume = body == turned ? pi : 3 * pi, C = 0.5 * 3 * young / (1 - 2 * poisson);
+    EXPECT_NEAR(free[0].J, -C * 1e-4 * volume, 1e-12);
+    const std::string left =
+        body == turned ? "Boundary bottom/Displacement" : "Boundary left/Displacement";
+    const std::vector<Step> held =
+        steps_of(body + hot + flat_ends +
+                     Overrides{{"Boundary right/Displacement", "0; free"},
+                               {left, body == turned ? "free; 0" : "0; free"}},
+                 2, 1);
+    EXPECT_NEAR(held[0].elastic, 0, 1e-14); // a(u,u)/2 of u = 0
+  }
+}
+
+using Complex = std::complex<double>;
+
+/** What a potential of the half space z > 0 is made of, at zeta = z + i a. */
+struct Potentials
+{
+  Complex L, I1, I2, dL, dI1, dI2, dI3;
+  Complex inverse_R;
+
+  Potentials(const double r, const double z, const double a)
+  {
+    const Complex zeta(z, a), R = std::sqrt(r * r + zeta * zeta), S = R + zeta, q = r / S;
+    L = std::log(S);
+    I1 = zeta * L - R;
+    I2 = (zeta * zeta / 2. - r * r / 4) * L - 0.75 * zeta * R + r * r / 4;
+    dL = r / (R * S);
+    dI1 = -q;
+    dI2 = -r * L / 2. - zeta * q / 2. + r / 4;
+    dI3 = -q * (R * R + R * zeta + zeta * zeta) / 6. - r * I1 / 2. + r * zeta / 4.;
+    inverse_R = 1. / R;
+  }
+};
+
+/** Of F_r, F_rz, F_z and F_zz. */
+Tensor<1, 2> displacement_of(const std::array<double, 4> &F, const double z, const double shear)
+{
+  return Tensor<1, 2>({-(1 - 2 * poisson) * F[0] - z * F[1], 2 * (1 - poisson) * F[2] - z * F[3]}) /
+         (2 * shear);
+}
+
+/** Exact displacements above and outside, contact with what the sphere or the punch is below. */
+Step pressed(const std::function<Tensor<1, 2>(const Point<2> &)> &u, const Expression<2> &gap,
+             const Overrides &entries)
+{
+  Scene<2> scene = scene_of(turned + entries +
+                            Overrides{{"Material/Young's modulus", "200"},
+                                      {"Geometry/Upper corner", "2, 2"},
+                                      {"Boundary top/Displacement", "0; 0"},
+                                      {"Boundary right/Displacement", "0; 0"},
+                                      {"Adaptivity/Method", "hpa3"},
+                                      {"Adaptivity/Indicator", "residual"},
+                                      {"Adaptivity/Maximum steps", "24"},
+                                      {"Adaptivity/Maximum unknowns", "8000"}});
+  for (const char *const name : {"top", "right"})
+    for (unsigned int c = 0; c < 2; ++c)
+      scene.boundary(name).displacement[c] =
+          expression<2>([u, c](const Point<2> &x) { return u(x)[c]; });
+  for (BoundaryCondition<2> &boundary : scene.boundaries)
+    if (boundary.is_unilateral())
+      boundary.gap = gap;
+  Step result;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        result = {step.energies.energy,
+                  0.5 * std::pow(step.energies.norm, 2),
+                  step.norms.total,
+                  0,
+                  step.contact[0].normal_resultant,
+                  step.equilibrium};
+      });
+  return result;
+}
+
+/** Hertz's sphere below a half space. */
+TEST(Axisymmetric, SphereBelowACylinder)
+{
+  const double a = 0.7, p0 = 7, curvature = pi * p0 * (1 - 0.09) / (2 * a * 200);
+  const auto u = [=](const Point<2> &x)
+  {
+    const Potentials f(x[0], x[1], a);
+    const auto part = [&](const Complex &one, const Complex &other)
+    { return -p0 / a * (a * one.real() - other.imag()); };
+    return displacement_of(
+        {{part(f.dI2, f.dI3), part(f.dI1, f.dI2), part(f.I1, f.I2), part(f.L, f.I1)}}, x[1],
+        200 / 2.6);
+  };
+  const Step last = pressed(
+      u, expression<2>([=](const Point<2> &x) { return curvature * (x[0] * x[0] / 2 - a * a); }),
+      {{"Boundary bottom/Contact", "unilateral"}});
+  EXPECT_NEAR(last.normal_resultant, -7.183775201209, 1e-5);
+  EXPECT_NEAR(last.elastic, .07618164369, 1e-8);
+}
+
+/** A flat punch, whose pressure grows without bound towards its edge. */
+TEST(Axisymmetric, PunchBelowACylinder)
+{
+  const double a = 0.7, P = 5, depth = P * (1 - 0.09) / (2 * a * 200);
+  const auto u = [=](const Point<2> &x)
+  {
+    const Potentials f(x[0], x[1], a);
+    const double factor = P / (2 * pi * a);
+    return displacement_of({{factor * f.dI1.imag(), factor * f.dL.imag(), factor * f.L.imag(),
+                             factor * f.inverse_R.imag()}},
+                           x[1], 200 / 2.6);
+  };
+  const Step last = pressed(u, expression<2>([=](const Point<2> &) { return -depth; }),
+                            {{"Boundary punch/On", "bottom"},
+                             {"Boundary punch/Where", "0.7 - x"},
+                             {"Boundary punch/Contact", "unilateral"}});
+  EXPECT_NEAR(last.normal_resultant, -P, 1e-3 * P);
+  EXPECT_NEAR(last.elastic, .0289823, 2e-6);
+}
+} // namespace
