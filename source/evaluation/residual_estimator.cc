@@ -138,10 +138,11 @@ void Residuals<dim>::add_volume(const Cell &cell)
     }
     const unsigned int row = q * table.rows_per_point;
     const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, row, n_rows, inverse);
-    Tensor<3, dim> second = second_derivatives<dim>(derivatives, row, n_rows, gradient, H, inverse);
-    if (scene.has_initial_strain())
-      second -= initial_strain_slopes(scene, cell, maps[index], table.points[q]);
+    const Tensor<3, dim> second =
+        second_derivatives<dim>(derivatives, row, n_rows, gradient, H, inverse);
     Tensor<1, dim> residual = -law.divergence_of_stress(second);
+    if (scene.has_initial_strain())
+      residual += initial_stress_divergence(scene, cell, maps[index], table.points[q]);
     const Point<dim> x = maps[index].point(table.points[q]);
     if (scene.is_axisymmetric())
       residual -= turned_divergence(scene, cell, maps[index], table.points[q],

@@ -129,13 +129,10 @@ double largest_indicator(const unsigned int number)
   {
   case 4:
   case 9:
-    return 60.; // jumps of an oscillating pressure count as shear
-  case 13:
-    return 25.; // cells that are no parallelograms
   case 14:
-    return 1000.; // of a pressure that is the difference of what div u and heat ask for
+    return 40.; // jumps of an oscillating pressure count as shear
   default:
-    return 12.;
+    return 6.;
   }
 }
 

@@ -26,29 +26,27 @@ double initial_strain_across(const Scene<dim> &scene, const Cell &cell, const de
 }
 
 /**
- * `d_d (eps_0)_kl` at a point inside @p cell, by differences: what a second derivative of a displacement would be
- * [1/length].
+ * `div C eps_0` at a point inside @p cell, by differences [stress/length]. Strains that belong to no displacement have slopes without
+ * the symmetry of second derivatives: HookesLaw::divergence_of_stress() is not for them.
  */
 template <int dim, class Cell>
-dealii::Tensor<3, dim> initial_strain_slopes(const Scene<dim> &scene, const Cell &cell,
-                                             const CellMap<dim> &map,
-                                             const dealii::Point<dim> &reference)
+dealii::Tensor<1, dim> initial_stress_divergence(const Scene<dim> &scene, const Cell &cell,
+                                                 const CellMap<dim> &map,
+                                                 const dealii::Point<dim> &reference)
 {
   constexpr double step = 1e-4;
+  const HookesLaw<dim> law(scene.material_of(cell));
   const dealii::Tensor<2, dim> inverse = dealii::invert(map.jacobian(reference));
-  dealii::Tensor<3, dim> result;
+  dealii::Tensor<1, dim> result;
   for (unsigned int r = 0; r < dim; ++r)
   {
     dealii::Point<dim> before(reference), behind(reference);
     before[r] -= step;
     behind[r] += step;
-    const dealii::Tensor<2, dim> slope = (scene.initial_strain_in(cell, map.point(behind)) -
-                                          scene.initial_strain_in(cell, map.point(before))) /
-                                         (2 * step);
-    for (unsigned int k = 0; k < dim; ++k)
-      for (unsigned int l = 0; l < dim; ++l)
-        for (unsigned int d = 0; d < dim; ++d)
-          result[k][l][d] += slope[k][l] * inverse[r][d];
+    result += law.stress((scene.initial_strain_in(cell, map.point(behind)) -
+                          scene.initial_strain_in(cell, map.point(before))) /
+                         (2 * step)) *
+              inverse[r];
   }
   return result;
 }

@@ -37,7 +37,7 @@ turned_divergence(const Scene<dim> &scene, const Cell &cell, const CellMap<dim> 
   const dealii::SymmetricTensor<2, dim> sigma = law.stress(strain, hoop);
   dealii::Tensor<1, dim> slope = gradient[0] / x[0]; // of u_x/x
   slope[0] -= u[0] / (x[0] * x[0]);
-  constexpr double step = 1e-4; // as in initial_strain_slopes()
+  constexpr double step = 1e-4; // as in initial_stress_divergence()
   const dealii::Tensor<2, dim> inverse = dealii::invert(map.jacobian(reference));
   for (unsigned int r = 0; r < dim && scene.has_initial_strain(); ++r)
   {
