@@ -206,6 +206,8 @@ ROWS = [
      {"plates.right.rotation": 2 * timoshenko(0.01 - 0.002, 0.25, 10, 0.75, 30), "plates.right.moment": 0,
       "forces.left.0": 0}),
     ("a cylinder under pressure", TURNED, {"final.energy": -0.5 * math.pi * 9 / 10, "forces.bottom.1": 3 * math.pi}),
+    ("a cylinder on springs", {**TURNED, "Boundary bottom/Displacement": None, "Boundary bottom/Spring": "5; 0"},
+     {"final.energy": -0.5 * math.pi * 3 * (3 / 10 + 3 / 5), "forces.bottom.1": 3 * math.pi}),
     ("a cylinder pressed from all sides, whose hoop stress is that pressure", {
         **TURNED, "Boundary top/Pressure": None, "Boundary right/Pressure": "3", "Material/Poisson's ratio": "0.3"},
      {"final.energy": -0.5 * 2 * math.pi * 3 * 3 * 0.7 / 10, "von_mises.largest": 3, "forces.bottom.1": 0}),

@@ -198,6 +198,110 @@ TEST(Axisymmetric, PlateOnACylinder)
   EXPECT_NEAR(steps[0].elastic, 0.5 * 9 / (pi * young), 1e-10);
 }
 
+/** All that is weighed by 2 pi x, of one step. */
+std::vector<double> amounts(const StepReport<2> &step)
+{
+  const ContactState<2> &contact = step.contact.at(0);
+  const EstimateNorms &norms = step.norms;
+  std::vector<double> result{
+      step.energies.energy,     step.energies.lagrangian,       std::pow(step.energies.norm, 2),
+      contact.normal_resultant, contact.friction_resultant,     contact.area,
+      contact.slipping_area,    step.equilibrium.loads.force[1]};
+  for (const double part : {norms.volume, norms.jumps, norms.neumann, norms.contact, norms.normal})
+    result.push_back(part * part);
+  for (const BoundaryForce<2> &reaction : step.equilibrium.reactions)
+    result.push_back(reaction.force[1]);
+  return result;
+}
+
+/**
+ * A hundred thousand times as far from the axis as it is wide a body is as in plane strain, 2 pi x times over: energies, forces, the
+ * measure of contact, and each part of the indicator.
+ */
+TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
+{
+  constexpr double radius = 2e5;
+  const auto steps = [&](const std::string &plane, const std::string &friction)
+  {
+    const std::string x = "(x - " + text(radius) + ")";
+    std::vector<std::vector<double>> result;
+    AdaptiveSolver<2>(scene_of({{"Material/Young's modulus", "10"},
+                                {"Material/Poisson's ratio", "0.3"},
+                                {"Material/Plane", plane},
+                                {"Material/Density", "0.1"},
+                                {"Material/Initial strain", "0; 0; 0.02*" + x + "^2; 0.01*y"},
+                                {"Body force/Gravity", "0; -1"},
+                                {"Geometry/Lower corner", text(radius) + ", 0"},
+                                {"Geometry/Upper corner", text(radius + 2) + ", 1"},
+                                {"Geometry/Subdivisions", "4, 2"},
+                                {"Boundary left/Displacement", "0; free"},
+                                {"Boundary right/Spring", "2; 1"},
+                                {"Boundary top/Pressure", "1 + " + x + "^2"},
+                                {"Boundary bottom/Contact", "unilateral"},
+                                {"Boundary bottom/Gap", "0.05*" + x},
+                                {"Boundary bottom/" + friction, "0.1*(1 + " + x + ")"},
+                                {"Solver/Normal contact", "multiplier"},
+                                {"Adaptivity/Method", "hup3"},
+                                {"Adaptivity/Maximum steps", "2"}}))
+        .run([&](const StepReport<2> &step) { result.push_back(amounts(step)); });
+    return result;
+  };
+  for (const char *const friction : {"Friction bound", "Friction coefficient"})
+  {
+    const auto round = steps("axisymmetric", friction), flat = steps("strain", friction);
+    ASSERT_EQ(round.size(), flat.size());
+    for (unsigned int k = 0; k < flat.size(); ++k)
+    {
+      ASSERT_EQ(round[k].size(), flat[k].size());
+      for (unsigned int i = 0; i < flat[k].size(); ++i)
+        EXPECT_NEAR(round[k][i] / (2 * pi * radius), flat[k][i], 1e-4 * std::abs(flat[k][i]))
+            << friction << ' ' << k << ' ' << i;
+    }
+  }
+}
+
+/** Longer by a thousand, or its ends changed about: the same body. */
+TEST(Axisymmetric, ScaledAndMirrored)
+{
+  const auto energies = [](const double length, const double up)
+  {
+    const std::string x = "(x/" + text(length) + ")", y = "(y/" + text(up * length) + ")";
+    const std::string base = up > 0 ? "bottom" : "top", roof = up > 0 ? "top" : "bottom";
+    std::vector<double> result;
+    AdaptiveSolver<2>(
+        scene_of({{"Material/Young's modulus", "10"},
+                  {"Material/Poisson's ratio", "0.3"},
+                  {"Material/Plane", "axisymmetric"},
+                  {"Material/Thermal expansion", "0.01"},
+                  {"Temperature/Expression", x + "^2 + " + y},
+                  {"Geometry/Lower corner", "0, " + text(up > 0 ? 0. : -length)},
+                  {"Geometry/Upper corner", text(2 * length) + ", " + text(up > 0 ? length : 0.)},
+                  {"Geometry/Subdivisions", "4, 2"},
+                  {"Boundary right/Spring", text(2 / length) + "; " + text(1 / length)},
+                  {"Boundary " + roof + "/Pressure", "1 + " + x + "^2"},
+                  {"Boundary " + base + "/Contact", "unilateral"},
+                  {"Boundary " + base + "/Friction coefficient", "0.1"},
+                  {"Adaptivity/Method", "hpa3"},
+                  {"Adaptivity/Maximum steps", "3"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              result.push_back(step.energies.energy / std::pow(length, 3));
+              result.push_back(std::pow(step.norms.total, 2) / std::pow(length, 3));
+            });
+    return result;
+  };
+  const std::vector<double> here = energies(1, 1);
+  for (const auto &[length, up] : {std::pair{1., -1.}, {1000., 1.}, {0.01, -1.}})
+  {
+    const std::vector<double> there = energies(length, up);
+    ASSERT_EQ(there.size(), here.size());
+    for (unsigned int i = 0; i < here.size(); ++i)
+      EXPECT_NEAR(there[i] / here[i], 1, i % 2 == 0 ? 1e-10 : 1e-8)
+          << length << ' ' << up << ' ' << i;
+  }
+}
+
 /** Heat in all directions: free it strains without stress, held it presses everywhere alike. */
 TEST(Axisymmetric, Heat)
 {
