@@ -35,7 +35,7 @@ struct Plated
   double farthest = 0; ///< of a node on the plate from where the plate takes it
 };
 
-Plated solve(const Scene<2> &scene, const RandomMesh &mesh)
+Plated solve(const Scene<2> &scene, const RandomMesh &mesh, const std::string &name = "right")
 {
   const Laboratory laboratory(scene, mesh);
   const Solution<2> solution = laboratory.solve();
@@ -61,7 +61,7 @@ Plated solve(const Scene<2> &scene, const RandomMesh &mesh)
   EXPECT_LT(balance.moment_imbalance, 1e-11);
   result.state = balance.plates.front();
   for (const BoundaryForce<2> &reaction : balance.reactions)
-    if (reaction.boundary == "right")
+    if (reaction.boundary == name)
       result.force = reaction.force;
   return result;
 }
@@ -78,6 +78,45 @@ TEST(Plates, MoveAsOne)
     EXPECT_NEAR(plated.force[0], 3, 1e-10);
     EXPECT_NEAR(plated.force[1], -1, 1e-10);
     EXPECT_NEAR(plated.state.moment, 2, 1e-10);
+  }
+}
+
+/**
+ * Pieces of a quarter and a half of a side with a gap between them: their mean point is not halfway between their ends, and
+ * what turns about it and what pushes there is.
+ */
+TEST(Plates, OfUnequalPiecesActAtTheirMeanPoint)
+{
+  const Overrides jaw = {
+      {"Geometry/Shape", "quadrilateral"},    {"Geometry/Corners", "0, 0; 4, 1; 3.2, 3; -0.5, 2"},
+      {"Geometry/Subdivisions", "3, 4"},      {"Material/Young's modulus", "10"},
+      {"Boundary left/Displacement", "0; 0"}, {"Boundary top/Pressure", "0.1*x"},
+      {"Boundary jaw/On", "right"},           {"Boundary jaw/Where", "(y - 1.5)*(y - 2)"},
+      {"Boundary jaw/Rigid", "true"}};
+  const auto with = [&](const Overrides &plate)
+  {
+    Overrides entries = jaw;
+    entries.insert(entries.end(), plate.begin(), plate.end());
+    return scene_of(entries);
+  };
+  const Scene<2> pushed = with({{"Boundary jaw/Force", "3; -1"}, {"Boundary jaw/Moment", "2"}});
+  const double mean = (0.25 * 0.125 + 0.5 * 0.75) / 0.75; // of the way up
+  for (const unsigned int seed : {1U, 2U})
+  {
+    const RandomMesh mesh(pushed, seed, 2);
+    const Plated free = solve(pushed, mesh, "jaw");
+    EXPECT_LT(free.state.centre.distance(Point<2>(4 - 0.8 * mean, 1 + 2 * mean)), 1e-12);
+    EXPECT_GT(std::abs(free.q[2]), 0.1);
+    EXPECT_LT(free.farthest, 1e-12);
+    EXPECT_NEAR(free.force[0], 3, 1e-10);
+    EXPECT_NEAR(free.force[1], -1, 1e-10);
+    EXPECT_NEAR(free.state.moment, 2, 1e-10);
+    const Plated held =
+        solve(with({{"Boundary jaw/Displacement", text(free.q[0]) + "; " + text(free.q[1])},
+                    {"Boundary jaw/Rotation", text(free.q[2])}}),
+              mesh, "jaw");
+    EXPECT_NEAR(held.force[0], 3, 1e-9);
+    EXPECT_NEAR(held.state.moment, 2, 1e-9);
   }
 }
 
