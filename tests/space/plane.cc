@@ -117,6 +117,29 @@ TEST(Plane, SlabIsPlaneStrain)
   }
 }
 
+/** Layers a thousand times as stiff as each other: residuals in space weigh as those of plane strain do, which are charted. */
+TEST(Plane, SlabOfLayersHasTheIndicatorOfPlaneStrain)
+{
+  const Overrides layers{{"Material stiff/Where", "y - 2"},
+                         {"Material stiff/Young's modulus", "15000"},
+                         {"Adaptivity/Method", "hup2"},
+                         {"Adaptivity/Maximum steps", "2"}};
+  Overrides flat{{"Material/Plane", "strain"}},
+      thick{{"Geometry/Subdivisions", "4, 4, 1"},
+            {"Geometry/Upper corner", "4, 4, 0.75"},
+            {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
+            {"Boundary front/Displacement", "free; free; 0"},
+            {"Boundary back/Displacement", "free; free; 0"}};
+  flat.insert(flat.end(), layers.begin(), layers.end());
+  thick.insert(thick.end(), layers.begin(), layers.end());
+  const auto in_space = steps_of<3>(slab(thick)),
+             in_plane = reduced_steps(example("han-6-12", flat));
+  // cells of the first mesh are as long in z as in x and y or shorter: sizes are those of the plane
+  for (unsigned int k = 0; k < in_plane.size(); ++k)
+    EXPECT_NEAR(in_space[k].estimate / std::sqrt(0.75), in_plane[k].estimate,
+                1e-6 * in_plane[k].estimate);
+}
+
 /**
  * Example 5.2 as a slab of plane strain, cubes refined in all directions: no conforming u_N is below the limit per
  * thickness, which prm/han-6-12.prm with Plane = strain reaches to 1e-7.
