@@ -89,6 +89,19 @@ std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::b
 
 namespace
 {
+/** "N" where stresses are in N/mm^2 and lengths in mm, else as in "MPa mm^2"; of a moment with another length. Empty where one of both has no name. */
+template <int dim>
+std::string force_unit(const Scene<dim> &scene, const bool is_moment)
+{
+  const std::string stress = unit_name(scene.stress_unit), length = unit_name(scene.length_unit),
+                    area = "/" + length + "^2";
+  if (stress.empty() || length.empty())
+    return {};
+  if (stress.size() > area.size() && stress.substr(stress.size() - area.size()) == area)
+    return stress.substr(0, stress.size() - area.size()) + (is_moment ? " " + length : "");
+  return stress + " " + length + (is_moment ? "^3" : "^2");
+}
+
 /** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free". */
 template <int dim>
 void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
@@ -106,7 +119,8 @@ void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
       phrases.push_back(names(m)[0] + " = " +
                         with_unit(*plate.displacement[m], m < dim ? scene.length_unit : "rad"));
     else if (plate.force[m] != 0)
-      phrases.push_back(names(m)[1] + " = " + text(scene.thickness * plate.force[m], 4));
+      phrases.push_back(names(m)[1] + " = " +
+                        with_unit(scene.thickness * plate.force[m], force_unit(scene, m == dim)));
     else
       phrases.push_back(names(m)[0] + " free");
 }

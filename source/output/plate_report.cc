@@ -19,7 +19,8 @@ std::string plate_in_words(const Scene<dim> &scene, const std::string &boundary,
     {
       const std::string unit = unit_name(scene.length_unit);
       return ", moves by " + to_string(Point<dim>(plate.displacement)) +
-             (unit.empty() ? "" : " " + unit) + " and turns by " + text(plate.rotation, 6) +
+             (unit.empty() ? "" : " " + unit) + " and turns by " +
+             text(plate.rotation + 0., 6) + // never -0
              " rad at " + to_string(plate.centre);
     }
   return {};

@@ -135,6 +135,27 @@ TEST(Drawing, NotesDoNotOverlap)
   EXPECT_GE(drawing.extent().height(), 12 * Drawing::font_size);
 }
 
+/** Resultants are in stress times area: the label of stress says it where it divides by that of length. */
+TEST(SceneWords, ForcesOfPlatesHaveUnits)
+{
+  Scene<2> scene;
+  BoundaryCondition<2> &top = scene.boundary("top");
+  top.plate = RigidPlate<2>();
+  top.plate->force = {{20000, 0, 1.5}};
+  const auto words = [&](const std::string &stress, const std::string &length)
+  {
+    scene.stress_unit = stress;
+    scene.length_unit = length;
+    std::string line;
+    for (const std::string &phrase : support_phrases<2>(scene, top, {Point<2>(0, 1)}))
+      line += phrase + "; ";
+    return line;
+  };
+  EXPECT_EQ(words("N/mm^2", "mm"), "rigid plate; Fx = 20000 N; uy free; moment = 1.5 N mm; ");
+  EXPECT_EQ(words("MPa", "m"), "rigid plate; Fx = 20000 MPa m^2; uy free; moment = 1.5 MPa m^3; ");
+  EXPECT_EQ(words("MPa", "1"), "rigid plate; Fx = 20000; uy free; moment = 1.5; ");
+}
+
 TEST(SceneWords, RangesAndUnits)
 {
   EXPECT_EQ(range_in_words({1., 1. + 1e-12}, "mm"), "1 mm");
