@@ -171,6 +171,26 @@ invalid "Boundary right/Displacement = 0.1; 0" "Contact = unilateral" "exceeds t
 invalid "Boundary right/Displacement = 0.1; 0" "contradicts Boundary bottom/Contact = bilateral" -- "Boundary right/Displacement=0.1; 0" "Boundary bottom/Contact direction=3; -4"
 refused "Boundary bottom/Contact direction" "the primal path" "reduced" -- "$scenes/base.prm" --set "Boundary bottom/Contact direction=0; -1" --set "Solver/Path=primal" --set "Adaptivity/Method=hap2"
 
+# --- each entry's wrong kinds
+glued=("Boundary top/Traction=" "Boundary right/Displacement=" "Boundary top/Rigid=true")
+invalid "Material/Density = heavy" "number >= 0" -- "Material/Density=heavy"
+invalid "Material/Thickness = thick" "number > 0" -- "Material/Thickness=thick"
+invalid "Material/Plane = round" "stress, strain or axisymmetric" -- "Material/Plane=round"
+invalid "Body force/Gravity = g; 0" "not an expression" -- "Body force/Gravity=g; 0" "Material/Density=1"
+invalid "Material/Thermal expansion = nan" "a number" -- "Material/Thermal expansion=nan"
+invalid "Temperature/Expression = q" "not an expression" -- "Temperature/Expression=q" "Material/Thermal expansion=1"
+invalid "Temperature/Expression = 1; 2" "2 component(s)" -- "Temperature/Expression=1; 2" "Material/Thermal expansion=1"
+invalid "Material/Initial strain = 0; 0; 0; 0; 1" "5 component(s)" -- "Material/Initial strain=0; 0; 0; 0; 1"
+invalid "Material/Initial strain" "is not finite" -- "Material/Initial strain=1/(x - 2); 0; 0"
+invalid "Boundary top/Spring = a; 0" "not an expression" -- "Boundary top/Spring=a; 0"
+invalid "Boundary top/Shear = 1; 2" "2 component(s)" -- "Boundary top/Shear=1; 2"
+invalid "Boundary top/Rigid = maybe" "true or false" -- "Boundary top/Rigid=maybe"
+invalid "Boundary top/Rotation = abc" "not an expression" -- "${glued[@]}" "Boundary top/Rotation=abc"
+invalid "Boundary top/Moment = 1; 2" "2 component(s)" -- "${glued[@]}" "Boundary top/Moment=1; 2"
+invalid "Boundary top/Moment = t" "the time of a load history" -- "${glued[@]}" "Boundary top/Moment=t"
+invalid "Boundary top/Displacement = x; 0" "a rigid plate has one value" -- "${glued[@]}" "Boundary top/Displacement=x; 0"
+invalid "Boundary foot/Symmetry = true" "contradicts Boundary foot/Displacement" -- "Boundary foot/On=top" "Boundary foot/Where=1" "Boundary foot/Symmetry=true" "Boundary foot/Displacement=0; free"
+
 # --- orthotropic materials: base.prm names E and nu in Material
 wood=("Material wood/Where=x - 2" "Material wood/Elasticity=orthotropic" "Material wood/Young's moduli=9, 1, 1"
   "Material wood/Poisson's ratios=0.3, 0.3, 0.4" "Material wood/Shear moduli=0.7")

@@ -218,6 +218,10 @@ ROWS = [
      {"plates.top.displacement.1": -3 / (10 * math.pi), "forces.bottom.1": 3, "von_mises.largest": 3 / math.pi}),
     ("a heavy pipe", {**TURNED, "Geometry/Lower corner": "1, 0", "Geometry/Upper corner": "2, 1", "Boundary top/Pressure": None,
                       "Material/Density": "2", "Body force/Gravity": "0; -5"}, {"forces.bottom.1": 30 * math.pi}),
+    ("a hot cylinder between two plates in time",
+     {**TURNED, **HISTORY, "Boundary top/Pressure": None, "Boundary top/Displacement": "free; 0", "Material/Thermal expansion": "0.001",
+      "Temperature/Expression": "100*t"},
+     {"loading.stored_energy": 0.5 * 0.1 * math.pi, "forces.bottom.1": math.pi, "von_mises.largest": 1}),
     ("heat in time", {**HOT, **HISTORY, "Temperature/Expression": "100*t"},
      {"loading.stored_energy": 0, "loading.work": 0, "von_mises.largest": 0}),
     ("heat between two walls in time",
@@ -361,6 +365,12 @@ class ByHand(RunTest):
         """Loads of (20, -6) meet the base at x = 1 + 20/12, beyond its end: friction turns the body, too, and no end is blamed."""
         line = self.run_settings({**SLOPE, "Boundary bottom/Friction coefficient": "0.8", "Boundary left/Traction": "20; 0"}, status=2)
         self.assertIn("no equilibrium: the loads turn the body", line)
+
+    def test_a_shaft_pressed_out_of_its_ring(self):
+        """A pressure of 1 on a shaft of radius 2 against friction of 0.2 on its side, 3 long."""
+        line = self.run_settings({**TURNED, "Geometry/Upper corner": "2, 3", "Boundary bottom/Displacement": None, "Boundary top/Pressure": "1",
+                                  "Boundary right/Contact": "bilateral", "Boundary right/Friction bound": "0.2"}, status=2)
+        self.assertIn(f"the loads push with {4 * math.pi:.10g}, friction resists with {2 * math.pi * 2 * 3 * 0.2:.10g}", line)
 
     def test_what_a_direction_leaves_free(self):
         """Along (-d_y, d_x) alone nothing holds the body, whatever its normal."""
