@@ -79,6 +79,40 @@ TEST(DataErrorOfOneCell, HasTheConstantsOfTractions)
   }
 }
 
+/** What springs of varying stiffness exert on u_N is a traction like others: of degree beyond that of the stresses, and paid for. */
+TEST(DataErrorOfOneCell, HasTheConstantsOfSprings)
+{
+  for (const Rhombus &cell : rhombi)
+  {
+    const Scene<2> scene = loaded(cell, {{"Boundary top/Spring", "2 + cos(5*x); 1 + cos(5*x)"},
+                                         {"Boundary right/Traction", "1; 0"}});
+    const RandomMesh mesh(scene, 1, 0, 2, 2);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    EquilibrationCache cache;
+    const EquilibratedStress stress = equilibrated(solution, cache);
+    const auto &edges = stress.patches().edges();
+    const QGauss<1> gauss(20);
+    double sum = 0;
+    for (unsigned int e = 0; e < edges.size(); ++e)
+      if (edges[e].at_boundary() && scene.boundaries[edges[e].boundary].spring)
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const double s = gauss.point(q)[0];
+          Tensor<1, 2> missed = stress.prescribed().value(e, s);
+          EXPECT_GT(missed.norm(), 1e-4); // it is there at all
+          for (unsigned int c = 0; c < 2; ++c)
+            missed -= legendre::evaluate(stress.tractions()[e][c], 2 * s - 1) *
+                      edges[e].components[c].direction;
+          sum += gauss.weight(q) * missed.norm_square();
+        }
+    EXPECT_GT(sum, 1e-8);
+    const double part = cell.diameter / numbers::PI;
+    const double expected = cell.korn * std::sqrt((part + 2) * part / cell.height * sum);
+    EXPECT_NEAR(DataError(solution, stress).oscillation[0], expected, 1e-6 * expected);
+  }
+}
+
 /** Those of Korn and of Poincaré: `korn d/pi |F - Pi F|`. */
 TEST(DataErrorOfOneCell, HasTheConstantsOfBodyForces)
 {
@@ -95,6 +129,71 @@ TEST(DataErrorOfOneCell, HasTheConstantsOfBodyForces)
     const double expected = cell.korn * cell.diameter / numbers::PI * missed;
     EXPECT_NEAR(DataError(solution, stress).oscillation[0], expected, 1e-9 * expected);
   }
+}
+
+/** |f - Pi f| in a cell, Pi f of degrees below @p n in each of its coordinates. */
+double missed_by_polynomials(const std::function<double(const Point<2> &)> &f,
+                             const CellMap<2> &map, const unsigned int n)
+{
+  const QGauss<2> gauss(24);
+  FullMatrix<double> modes(n, n);
+  const auto legendre_at = [n](const Point<2> &s, const unsigned int d)
+  { return legendre::values(n, 2 * s[d] - 1); };
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        modes(i, j) += 4 * gauss.weight(q) * f(map.point(gauss.point(q))) *
+                       legendre_at(gauss.point(q), 0)[i] * legendre_at(gauss.point(q), 1)[j];
+  double sum = 0;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    double missed = f(map.point(gauss.point(q)));
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        missed -=
+            modes(i, j) * legendre_at(gauss.point(q), 0)[i] * legendre_at(gauss.point(q), 1)[j];
+    sum += gauss.weight(q) * missed * missed;
+  }
+  return std::sqrt(std::abs(determinant(map.jacobian(Point<2>(0.5, 0.5)))) * sum);
+}
+
+/** What stresses of the element lack of an initial stress is a stress: `|(f - Pi f) E|` of eps_0 = f E, with no other factor. */
+TEST(DataErrorOfOneCell, IsWhatStressesLackOfAnInitialStress)
+{
+  for (const Rhombus &cell : rhombi)
+  {
+    const Scene<2> scene =
+        loaded(cell, {{"Material/Initial strain", "0.2*sin(5*x); 0; 0.1*sin(5*x)"}});
+    const RandomMesh mesh(scene, 1, 0, 2, 2);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    EquilibrationCache cache;
+    const EquilibratedStress stress = equilibrated(solution, cache);
+    const DataError data(solution, stress);
+    const double size = std::sqrt(0.2 * 0.2 + 2 * 0.1 * 0.1);
+    const double expected =
+        size * missed_by_polynomials([](const Point<2> &x) { return std::sin(5 * x[0]); },
+                                     map_of<2>(mesh.mesh.begin_active()), 3);
+    EXPECT_GT(expected, 1e-4);
+    EXPECT_NEAR(data.oscillation[0], expected, 1e-8 * expected);
+    EXPECT_LT(data.unread_work, 1e-9);
+  }
+}
+
+/** What no rule of the discrete equations knows of an initial strain does work on u_N, which may be anything. */
+TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
+{
+  const Scene<2> scene =
+      loaded(rhombi[0], {{"Material/Initial strain", "0; if(x > 0.37, 0.1, 0); 0"}});
+  const RandomMesh mesh(scene, 1, 0, 2, 2);
+  const Laboratory lab(scene, mesh);
+  const Solution<2> solution = lab.solve();
+  EquilibrationCache cache;
+  const DataError data(solution, equilibrated(solution, cache));
+  const double norm = std::sqrt(
+      internal_forces(scene, lab.displacement_space, lab.tables, solution.u).energy_product);
+  EXPECT_GT(data.unresolved, 1e-3);
+  EXPECT_GE(data.unread_work, 0.99 * data.unresolved * norm);
 }
 
 /** J(U) of U = u_N + d is known but for (sigma(u_N) - s, eps(d)) and R(d): either end pays for these. */
