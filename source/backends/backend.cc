@@ -92,7 +92,8 @@ bool primal_path_pays(const Scene<2> &scene)
   double multipliers = 0;
   for (const auto &boundary : scene.boundaries)
     if (boundary.has_contact() && boundary.friction)
-      multipliers += (p - 1) * cells[1 - sides[boundary.id].axis];
+      multipliers += (p - 1) * (scene.geometry.has_mesh() ? sides[boundary.id].pieces.size()
+                                                          : cells[1 - sides[boundary.id].axis]);
   return fits_primal_path(scene) &&
          3e-10 * std::pow(multipliers, 3) > 12 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
 }

@@ -10,6 +10,8 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
+#include <hpvi/body/curved_edges.h>
+#include <hpvi/body/folded_cell.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/discretisation/loaded_motions.h>
 #include <hpvi/discretisation/negligible_solution.h>
@@ -46,6 +48,7 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
   const auto coarse = std::make_shared<Triangulation<dim>>();
   make_mesh(scene, *coarse);
   cell_degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
+  set_edge_degrees(*coarse, cell_degrees);
   mesh = coarse;
   loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
 }
@@ -102,6 +105,11 @@ void ReducedBackend<dim>::assemble()
         std::make_shared<const Spaces<dim>>(scene, mesh, cell_degrees, tables, loads, past_slip);
   }
   begin("assembling " + std::to_string(cell_degrees.size()) + " elements");
+  if (scene.geometry.has_curves())
+    if (const auto folded = folded_cell(*mesh))
+      throw NumericalFailure("a cell folds over itself at " + to_string(*folded) +
+                             ": a straight edge crosses the curve beside it; take more cells along "
+                             "the curve, or fewer layers beside it");
   StageTimer timer(times.assemble);
   unresolved = loads->unresolved(*mesh);
   missed_displacements = loads->missed_displacements(*mesh, cell_degrees);

@@ -6,6 +6,7 @@
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <iomanip>
 #include <istream>
 #include <iterator>
@@ -81,6 +82,25 @@ void FileFormat::reject(const std::string &file, const std::string &what) const
   throw InputError(printable(file) + ": " + what + "; " + remedy);
 }
 
+namespace
+{
+/** Of the content of a file; "missing" where there is none. */
+std::string fingerprint(const std::string &file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return in ? "content " + checksum({std::istreambuf_iterator<char>(in), {}}) : "missing";
+}
+
+/** Of a mesh file counts what is in it, not where it lies. */
+std::string without_path(const std::string &section, const std::string &setting)
+{
+  const std::string file = "File = ";
+  return section == "Geometry" && setting.rfind(file, 0) == 0
+             ? file + fingerprint(setting.substr(file.size()))
+             : setting;
+}
+} // namespace
+
 std::vector<std::string>
 entries_of(const std::string &scene_prm,
            const std::function<bool(const std::string &section, const std::string &entry)> &counts)
@@ -98,7 +118,8 @@ entries_of(const std::string &scene_prm,
     const std::size_t equals = statement.find(" =");
     if (statement.rfind(setting, 0) == 0 && equals != std::string::npos &&
         counts(section, statement.substr(setting.size(), equals - setting.size())))
-      result.push_back((section.empty() ? "" : section + "/") + statement.substr(setting.size()));
+      result.push_back((section.empty() ? "" : section + "/") +
+                       without_path(section, statement.substr(setting.size())));
   }
   return result;
 }

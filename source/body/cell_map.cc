@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
 #include <hpvi/body/cell_map.h>
 
 #include <algorithm>
@@ -30,8 +31,30 @@ double vertex_shape(const unsigned int v, const Point<dim> &xi,
 }
 } // namespace
 
+namespace
+{
+/** What curved edges add to the map, of the given order per direction, at most 2 in all. */
+Tensor<1, 2> departure(const EdgeBows &bows, const Point<2> &xi,
+                       const std::array<unsigned int, 2> &order)
+{
+  Tensor<1, 2> result;
+  for (unsigned int f = 0; f < bows.size(); ++f)
+  {
+    const unsigned int across = f / 2, along = 1 - across;
+    if (!bows[f] || order[across] > 1)
+      continue;
+    const double far = f % 2 ? 1. : -1., fading = order[across] == 1 ? far
+                                                  : f % 2            ? xi[across]
+                                                                     : 1. - xi[across];
+    result += fading * bows[f](xi[along], order[along])[order[along]];
+  }
+  return result;
+}
+} // namespace
+
 template <int dim>
-CellMap<dim>::CellMap(const Vertices &vertices) : corners(vertices), affine(false)
+CellMap<dim>::CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBows> bows)
+    : corners(vertices), curved(std::move(bows)), affine(false)
 {
   Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -41,7 +64,8 @@ CellMap<dim>::CellMap(const Vertices &vertices) : corners(vertices), affine(fals
   double coordinates = 0;
   for (const Point<dim> &corner : corners)
     coordinates += corner.norm();
-  affine = hessian(centre).norm() <= 1e-12 * constant_jacobian.norm() +
+  affine = !curved &&
+           hessian(centre).norm() <= 1e-12 * constant_jacobian.norm() +
                                          2 * std::numeric_limits<double>::epsilon() * coordinates;
 }
 
@@ -49,6 +73,19 @@ template <int dim>
 const typename CellMap<dim>::Vertices &CellMap<dim>::vertices() const
 {
   return corners;
+}
+
+template <int dim>
+bool CellMap<dim>::is_curved() const
+{
+  return bool(curved);
+}
+
+template <int dim>
+const EdgeBows &CellMap<dim>::bows() const
+{
+  Assert(curved, ExcMessage("All edges of the cell are straight."));
+  return *curved;
 }
 
 template <int dim>
@@ -63,6 +100,9 @@ Point<dim> CellMap<dim>::point(const Point<dim> &reference) const
   Point<dim> x;
   for (unsigned int v = 0; v < corners.size(); ++v)
     x += vertex_shape<dim>(v, reference, {}) * corners[v];
+  if constexpr (dim == 2)
+    if (curved)
+      x += departure(*curved, reference, {});
   return x;
 }
 
@@ -80,6 +120,13 @@ Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
     for (unsigned int v = 0; v < corners.size(); ++v)
       for (unsigned int i = 0; i < dim; ++i)
         J[i][j] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
+    if constexpr (dim == 2)
+      if (curved)
+      {
+        const Tensor<1, dim> column = departure(*curved, reference, order);
+        for (unsigned int i = 0; i < dim; ++i)
+          J[i][j] += column[i];
+      }
   }
   return J;
 }
@@ -99,6 +146,13 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
       for (unsigned int v = 0; v < corners.size(); ++v)
         for (unsigned int i = 0; i < dim; ++i)
           H[i][j][k] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
+      if constexpr (dim == 2)
+        if (curved)
+        {
+          const Tensor<1, dim> column = departure(*curved, reference, order);
+          for (unsigned int i = 0; i < dim; ++i)
+            H[i][j][k] += column[i];
+        }
     }
   return H;
 }
@@ -129,9 +183,42 @@ Tensor<1, dim> CellMap<dim>::normal(const unsigned int face_no, const Point<dim>
 }
 
 template <int dim>
+Tensor<1, dim> CellMap<dim>::curve_normal(const unsigned int face_no,
+                                          const Point<dim> &reference) const
+{
+  if constexpr (dim == 2)
+    if (curved && (*curved)[face_no])
+    {
+      const Tensor<1, dim> n =
+          cross_product_2d((*curved)[face_no].curve().derivative(reference[1 - face_no / 2]));
+      return (face_no == 1 || face_no == 2 ? 1. : -1.) / n.norm() * n;
+    }
+  return normal(face_no, reference);
+}
+
+template <int dim>
 double CellMap<dim>::face_measure(const unsigned int face_no, const Point<dim> &reference) const
 {
   return area_vector(*this, face_no, reference).norm();
+}
+
+template <int dim>
+double CellMap<dim>::face_area(const unsigned int face_no) const
+{
+  Point<dim - 1> middle;
+  for (unsigned int s = 0; s + 1 < dim; ++s)
+    middle[s] = 0.5;
+  if constexpr (dim == 2)
+    if (curved && (*curved)[face_no])
+    {
+      const QGauss<1> gauss(12);
+      double length = 0;
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+        length +=
+            gauss.weight(q) * face_measure(face_no, point_on_face<dim>(face_no, gauss.point(q)));
+      return length;
+    }
+  return face_measure(face_no, point_on_face<dim>(face_no, middle));
 }
 
 namespace

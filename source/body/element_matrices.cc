@@ -3,6 +3,7 @@
 #include <hpvi/body/element_matrices.h>
 
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 
@@ -121,6 +122,9 @@ FullMatrix<double> oscillating_modes(const ShapeTable<dim> &table, const unsigne
 
 namespace
 {
+/** With p+1 points loads and stresses agree for every constant stress; what the map divides by converges as the solution does. */
+constexpr unsigned int further_points_on_curves = 2;
+
 /** For a pole where a linear function vanishes, whose values at the ends of an interval have this @p quotient. */
 unsigned int further_points(const double quotient)
 {
@@ -137,6 +141,8 @@ unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree
 {
   if (map.is_affine())
     return degree + 1;
+  if (map.is_curved())
+    return degree + 1 + further_points_on_curves;
   double quotient = 1.;
   for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
     for (unsigned int d = 0; d < dim; ++d)
@@ -172,6 +178,24 @@ ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables
 {
 }
 
+namespace
+{
+/** A number for curved edges, as good as different for different ones; 0 stands for straight ones. */
+long shape_of(const EdgeBows &bows, const double size)
+{
+  std::uint64_t hash = 1469598103934665603U; // after Fowler, Noll and Vo
+  for (unsigned int f = 0; f < bows.size(); ++f)
+    for (unsigned int k = 1; bows[f] && k < 8; ++k)
+    {
+      const Tensor<1, 2> bow = bows[f](k / 8. + 0.01)[0];
+      for (const long part : {long(f + 1), std::lround(bow[0] / size * 1e11),
+                              std::lround(bow[1] / size * 1e11)})
+        hash = (hash ^ static_cast<std::uint64_t>(part)) * 1099511628211U;
+    }
+  return static_cast<long>(hash | 1U);
+}
+} // namespace
+
 /** Edge vectors from vertex 0, scaled to unit size where scale does not matter, and rounded. */
 template <int dim>
 typename ElementMatrices<dim>::Class
@@ -186,7 +210,7 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
     for (const Point<dim> &v : vertices)
       size = std::max(size, (v - vertices[0]).norm());
   }
-  Class key;
+  Class key{};
   auto entry = key.begin();
   *entry++ = degree;
   *entry++ = material;
@@ -198,6 +222,9 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
     key[2] = std::lround(std::min(vertices[0][0] / size, 1e7) * 1e11);
     key[3] = std::lround(std::log(size) * 1e11);
   }
+  if constexpr (dim == 2)
+    if (map.is_curved())
+      key.back() = shape_of(map.bows(), size);
   return key;
 }
 

@@ -2,6 +2,8 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/text.h>
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/curved_edges.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -54,7 +56,19 @@ void set_parts(const Scene<dim> &scene, Triangulation<dim> &triangulation)
   for (const auto &cell : triangulation.active_cell_iterators())
     for (const auto &face : cell->face_iterators())
       if (scene.has_parts() && face->at_boundary())
-        face->set_boundary_id(boundary_at(scene, face->boundary_id(), face->center()));
+        face->set_boundary_id(
+            boundary_at(scene, face->boundary_id(), face->center(/*respect_manifold=*/true)));
+}
+
+/** Between curved edges the mean of the vertices may lie outside. */
+template <int dim>
+Point<dim> centre_of(const typename Triangulation<dim>::cell_iterator &cell)
+{
+  Point<dim> middle;
+  for (unsigned int d = 0; d < dim; ++d)
+    middle[d] = 0.5;
+  const CellMap<dim> map = map_of<dim>(cell);
+  return map.is_curved() ? map.point(middle) : cell->center();
 }
 
 /** deal.II colours the cells of a box by octants; a scene says itself what they are made of. */
@@ -63,7 +77,8 @@ void set_materials(const Scene<dim> &scene, Triangulation<dim> &triangulation)
 {
   for (const auto &cell : triangulation.active_cell_iterators())
   {
-    const types::material_id id = scene.material_at ? scene.material_at(cell->center()) : 0;
+    const types::material_id id =
+        scene.material_of_coarse_cell(centre_of<dim>(cell), cell->index());
     if (id >= scene.materials.size())
       throw InputError(scene.origin() + ": material_at gives " + std::to_string(id) + " at " +
                        to_string(cell->center()) + ", but there are " +
@@ -71,6 +86,27 @@ void set_materials(const Scene<dim> &scene, Triangulation<dim> &triangulation)
                        " materials; number them from 0, or add one");
     cell->set_material_id(id);
   }
+}
+
+/** A point on a face belongs to both sides; the tolerance covers round-off of rotations. */
+template <int dim>
+bool touches(const typename Triangulation<dim>::cell_iterator &cell, const Point<dim> &point)
+{
+  if constexpr (dim == 2)
+    if (const auto bows = bows_of(cell))
+    {
+      // Where a point is inside matters less than which vertices and curves it lies on.
+      for (const unsigned int v : cell->vertex_indices())
+        if (cell->vertex(v).distance(point) <= 1e-10 * cell->diameter())
+          return true;
+      for (const EdgeBow &bow : *bows)
+        if (bow && bow.curve().point(bow.curve().nearest(point)).distance(point) <=
+                       1e-8 * cell->diameter())
+          return true;
+    }
+  return cell->bounding_box().point_inside(point, 1e-10) &&
+         GeometryInfo<dim>::distance_to_unit_cell(
+             cell->real_to_unit_cell_affine_approximation(point)) < 1e-8;
 }
 
 template <int dim>
@@ -81,20 +117,18 @@ void grade_towards_points(const Geometry<dim> &geometry, Triangulation<dim> &tri
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const Point<dim> &point : geometry.graded_towards)
-          // A point on a face belongs to both sides; the tolerance covers round-off of rotations.
-          if (cell->bounding_box().point_inside(point, 1e-10) &&
-              GeometryInfo<dim>::distance_to_unit_cell(
-                  cell->real_to_unit_cell_affine_approximation(point)) < 1e-8)
+          if (touches<dim>(cell, point))
             cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
   }
 }
 } // namespace
 
-template <int dim>
-void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
+namespace
 {
-  const Geometry<dim> &geometry = scene.geometry;
+template <int dim>
+void make_grid(const Geometry<dim> &geometry, Triangulation<dim> &triangulation)
+{
   constexpr unsigned int last = GeometryInfo<dim>::vertices_per_cell - 1;
   const bool is_cut = std::any_of(geometry.cuts.begin(), geometry.cuts.end(),
                                   [](const auto &lines) { return !lines.empty(); });
@@ -114,6 +148,41 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
     else
       GridTools::transform([&](const Point<dim> &x) { return geometry.point(x); }, triangulation);
   }
+}
+
+/** Vertices and cells keep their numbers. */
+void make_cells(const CoarseMesh &mesh, Triangulation<2> &triangulation)
+{
+  std::vector<CellData<2>> cells;
+  for (const CoarseMesh::Cell &cell : mesh.cells)
+  {
+    const auto &v = cell.vertices;
+    cells.emplace_back();
+    cells.back().vertices = {v[0], v[1], v[3], v[2]}; // deal.II counts line by line
+  }
+  SubCellData boundary;
+  for (const CoarseMesh::Edge &edge : mesh.edges)
+    if (edge.boundary != CoarseMesh::inside)
+    {
+      boundary.boundary_lines.emplace_back();
+      boundary.boundary_lines.back().vertices = {edge.vertices[0], edge.vertices[1]};
+      boundary.boundary_lines.back().boundary_id = edge.boundary;
+    }
+  GridTools::consistently_order_cells(cells);
+  triangulation.create_triangulation(mesh.vertices, cells, boundary);
+  attach_curves(mesh, triangulation);
+}
+} // namespace
+
+template <int dim>
+void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
+{
+  const Geometry<dim> &geometry = scene.geometry;
+  if constexpr (dim == 2)
+    if (geometry.mesh)
+      make_cells(*geometry.mesh, triangulation);
+  if (!geometry.mesh)
+    make_grid(geometry, triangulation);
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.
   AssertThrow(triangulation.get_boundary_ids().back() < scene.boundaries.size(),
               ExcMessage("The scene has no boundary of the number that a face carries."));
@@ -145,6 +214,7 @@ Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
     new_degrees[cell->active_cell_index()] = cell->user_index() != 0
                                                  ? refinement.degrees[cell->user_index() - 1]
                                                  : degrees[cell->parent()->user_index() - 1];
+  set_edge_degrees(triangulation, new_degrees);
   return new_degrees;
 }
 

@@ -51,6 +51,19 @@ std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<di
   return basis;
 }
 
+/** A vertex inside an edge of the body gets the same conditions from both of its cells; at a corner they differ. */
+template <int dim>
+void add_new(const PointCondition<dim> &condition, SupportedNode<dim> &node)
+{
+  if (std::none_of(node.conditions.begin(), node.conditions.end(),
+                   [&](const PointCondition<dim> &known)
+                   {
+                     return known.boundary == condition.boundary &&
+                            (known.direction - condition.direction).norm() < repeats;
+                   }))
+    node.conditions.push_back(condition);
+}
+
 /** A plate exerts any force, and holds what its motion leaves to hold (Plate). */
 template <int dim>
 void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
@@ -59,7 +72,7 @@ void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
   {
     Tensor<1, dim> direction;
     direction[c] = 1.;
-    node.conditions.push_back({direction, 0., boundary.id});
+    add_new({direction, 0., boundary.id}, node);
   }
   node.is_on_plate = true;
 }
@@ -98,16 +111,11 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
             node.dofs[c] = dofs[on_edge[c * (p + 1) + k]];
           const Point<dim> reference = point_on_face<dim>(f, nodes_on_edge.point(k));
           node.x = map.point(reference);
-          // A vertex inside an edge of the body gets the same conditions from both of its cells.
-          if (std::none_of(node.conditions.begin(), node.conditions.end(),
-                           [&](const auto &known) { return known.boundary == boundary.id; }))
-          {
-            for (const PointCondition<dim> &condition :
-                 conditions_at(boundary, map.normal(f, reference), boundary.holds_normal(), node.x))
-              node.conditions.push_back(condition);
-            if (boundary.plate)
-              add_plate(boundary, node);
-          }
+          for (const PointCondition<dim> &condition : conditions_at(
+                   boundary, map.curve_normal(f, reference), boundary.holds_normal(), node.x))
+            add_new(condition, node);
+          if (boundary.plate)
+            add_plate(boundary, node);
         }
       }
   std::vector<SupportedNode<dim>> result;

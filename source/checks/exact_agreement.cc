@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/checks/checks.h>
 #include <hpvi/checks/rejection.h>
+#include <hpvi/shapes/shape.h>
 
 #include <algorithm>
 #include <array>
@@ -206,6 +207,12 @@ void check_exact_solution(const Scene<2> &scene)
              "is none of " + mention(scene, "Exact solution", "Solution") +
                  ", which has contact along the normal; remove it, or measure errors by "
                  "Error/Reference solution");
+  if (scene.geometry.has_mesh())
+    reject(scene, "Geometry", "Shape",
+           "stands beside " + mention(scene, "Exact solution", "Solution") +
+               ", which is measured on a box or a quadrilateral alone; measure errors by "
+               "Error/Reference solution",
+           name_of_shape<2>(scene.geometry.shape));
   if (scene.thickness != 1)
     reject(scene, "Exact solution", "Solution",
            "is that of a body of unit thickness; remove Material/Thickness");

@@ -125,6 +125,21 @@ void add_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary, cons
                            : RigidMotion<2>{{0, 0, 1}});
 }
 
+/** Where conditions on motions are asked for on a side, with its normals: at the corners of each piece, and along curves. */
+template <int dim>
+std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &side)
+{
+  std::vector<std::pair<Point<dim>, Tensor<1, dim>>> result;
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    if (side.is_flat())
+      for (const Point<dim> &corner : side.pieces[k])
+        result.emplace_back(corner, side.outward);
+    else
+      for (unsigned int i = 0; i <= 4; ++i)
+        result.emplace_back(side.point(k, i / 4.), side.normal(k, i / 4.));
+  return result;
+}
+
 /** Conditions at the corners of each piece, for a rigid-body motion is linear along it. */
 template <int dim>
 Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const double length)
@@ -132,27 +147,24 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
   const std::vector<Side<dim>> sides = sides_of(scene);
   Rows<dim> rows;
   for (unsigned int f = 0; f < sides.size(); ++f)
-    for (const auto &piece : sides[f].pieces)
-      for (const Point<dim> &end : piece)
-      {
-        const BoundaryCondition<dim> &boundary = scene.boundaries[f];
-        const Tensor<1, dim> arm = (end - centre) / length;
-        for (const PointCondition<dim> &condition :
-             conditions_at(boundary, sides[f].normal(end),
-                           boundary.symmetry || boundary.contact == Contact::bilateral, end))
-          // Coulomb's law has a multiplier where bilateral contact is a support else.
-          (boundary.has_pressure() ? rows.resisted : rows.held)
-              .push_back(row_of(condition.direction, arm));
-        if (boundary.spring.normal)
-          rows.held.push_back(row_of(sides[f].normal(end), arm));
-        if constexpr (dim == 2)
-          if (boundary.spring.tangential)
-            rows.held.push_back(row_of(sides[f].tangent(end), arm));
-        if constexpr (dim == 2)
-          if (boundary.friction) // where it vanishes, the mesh decides
-            rows.resisted.push_back(
-                row_of(-cross_product_2d(boundary.held_direction(sides[f].normal(end))), arm));
-      }
+    for (const auto &[end, normal] : places_on(sides[f]))
+    {
+      const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+      const Tensor<1, dim> arm = (end - centre) / length;
+      for (const PointCondition<dim> &condition : conditions_at(
+               boundary, normal, boundary.symmetry || boundary.contact == Contact::bilateral, end))
+        // Coulomb's law has a multiplier where bilateral contact is a support else.
+        (boundary.has_pressure() ? rows.resisted : rows.held)
+            .push_back(row_of(condition.direction, arm));
+      if (boundary.spring.normal)
+        rows.held.push_back(row_of(normal, arm));
+      if constexpr (dim == 2)
+        if (boundary.spring.tangential)
+          rows.held.push_back(row_of(-cross_product_2d(normal), arm));
+      if constexpr (dim == 2)
+        if (boundary.friction) // where it vanishes, the mesh decides
+          rows.resisted.push_back(row_of(-cross_product_2d(boundary.held_direction(normal)), arm));
+    }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
       if (boundary.plate)
@@ -188,9 +200,11 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   const Rows<dim> rows = rows_of(*this, centre, length);
   // Unilateral contact holds some motions one way, and what none holds may be in balance.
   const bool may_rest_on_contact = dim == 2 && has_unilateral_contact();
+  std::string names;
+  for (const std::string &name : geometry.boundary_names())
+    names += (names.empty() || name.empty() ? "" : ", ") + name;
   if (const auto motions = motions_of(rows.resisted); !motions.empty() && !may_rest_on_contact)
-    throw InputError(printable(origin(), 400) + ": Boundary left, right, bottom, top" +
-                     (dim == 2 ? "" : ", front, back") +
+    throw InputError(printable(origin(), 400) + ": Boundary " + names +
                      "/Displacement: the supports leave a rigid-body motion free, " +
                      describe(motions.front(), centre, length) +
                      (dim == 2 ? ", and no friction resists it; prescribe a displacement component "

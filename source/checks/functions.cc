@@ -208,7 +208,7 @@ void check_boundary(const Scene<dim> &scene, const BoundaryCondition<dim> &bound
 template <int dim>
 void check_list(const Scene<dim> &scene)
 {
-  constexpr unsigned int n_sides = GeometryInfo<dim>::faces_per_cell;
+  const unsigned int n_sides = scene.geometry.boundary_names().size();
   if (scene.boundaries.size() < n_sides)
     fail(printable(scene.origin()), "Boundary",
          "has " + std::to_string(scene.boundaries.size()) + " instead of " +

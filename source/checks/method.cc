@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/checks/checks.h>
@@ -6,6 +7,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/shapes/shape.h>
 
 #include <algorithm>
 #include <array>
@@ -102,11 +104,39 @@ void check_multiplier_degree(const Scene<dim> &scene, const SceneUse use)
            std::to_string(scene.adaptivity.start_degree));
 }
 
+template <int dim>
+void reject_unknowns(const Scene<dim> &scene, const double unknowns, const std::string &entry,
+                     const std::string &remedy)
+{
+  if (unknowns > scene.adaptivity.maximum_unknowns)
+    reject(scene, "Geometry", entry,
+           "makes at least " + std::to_string(std::llround(unknowns)) +
+               " free unknowns of degree " + std::to_string(scene.adaptivity.start_degree) +
+               " in the first step, more than Adaptivity/Maximum unknowns = " +
+               std::to_string(scene.adaptivity.maximum_unknowns) + "; " + remedy);
+}
+
+/** By p^2 nodes that are a cell's own, and supports that may hold all nodes of the boundary. */
+template <int dim>
+void check_first_step_on_mesh(const Scene<dim> &scene)
+{
+  const double p = scene.adaptivity.start_degree;
+  double n_outside = 0;
+  for (const CoarseMesh::Edge &edge : scene.geometry.mesh->edges)
+    n_outside += edge.boundary == CoarseMesh::inside ? 0 : 1;
+  if constexpr (dim == 2)
+    reject_unknowns(scene, 2 * (p * p * scene.geometry.n_cells() - p * n_outside),
+                    scene.geometry.shape == Shape::file ? "File" : "Subdivisions",
+                    "take a coarser mesh or raise that limit");
+}
+
 /** At least so many: grading adds some, and what two sides hold where they meet is held once. */
 template <int dim>
 void check_first_step(const Scene<dim> &scene)
 {
   const unsigned int degree = scene.adaptivity.start_degree;
+  if (scene.geometry.has_mesh())
+    return check_first_step_on_mesh(scene);
   std::array<double, dim> nodes;
   double all_nodes = 1;
   for (unsigned int d = 0; d < dim; ++d)
@@ -120,13 +150,7 @@ void check_first_step(const Scene<dim> &scene)
       held += component != nullptr ? 1 : 0;
     unknowns -= std::min(held, dim) * all_nodes / nodes[sides[boundary.id].axis];
   }
-  if (unknowns > scene.adaptivity.maximum_unknowns)
-    reject(scene, "Geometry", "Subdivisions",
-           "makes at least " + std::to_string(std::llround(unknowns)) +
-               " free unknowns of degree " + std::to_string(degree) +
-               " in the first step, more than Adaptivity/Maximum unknowns = " +
-               std::to_string(scene.adaptivity.maximum_unknowns) +
-               "; start coarser or raise that limit");
+  reject_unknowns(scene, unknowns, "Subdivisions", "start coarser or raise that limit");
 }
 } // namespace
 
@@ -206,7 +230,7 @@ void check_primal_path(const Scene<dim> &scene)
            std::to_string(scene.loading.steps));
   if (scene.geometry.shape != Shape::box)
     reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
-           "quadrilateral");
+           name_of_shape<dim>(scene.geometry.shape));
   if constexpr (dim == 2)
     if (const auto motions = scene.free_motions(); !motions.empty())
       throw InputError(printable(scene.origin(), 400) +

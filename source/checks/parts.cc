@@ -39,6 +39,20 @@ std::vector<Point<dim>> points_between(const std::array<Point<dim>, 1u << n> &co
   return result;
 }
 
+template <int dim>
+std::vector<Point<dim>> points_on(const CoarseFace<dim> &face)
+{
+  if constexpr (dim == 2)
+    if (face.curve)
+    {
+      std::vector<Point<dim>> result;
+      for (const Point<1> &s : points_between<1, 1>({{Point<1>(0.), Point<1>(1.)}}))
+        result.push_back(face.curve.point(s[0]));
+      return result;
+    }
+  return points_between<dim - 1, dim>(face.corners);
+}
+
 /** Rejects @p part where its Where begins or ends inside a face of the coarse mesh. */
 template <int dim>
 void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
@@ -47,7 +61,7 @@ void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
   double largest = 0;
   for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, part.side))
   {
-    faces.push_back(points_between<dim - 1, dim>(face.corners));
+    faces.push_back(points_on(face));
     for (const Point<dim> &x : faces.back())
       largest = std::max(largest, std::abs(part.where->value(x)));
   }
@@ -57,7 +71,9 @@ void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
       if (is_inside(x) != is_inside(points.back()))
         reject(scene, section_of(part), "Where",
                "changes its sign inside a face of the coarse mesh, at " + to_string(x) +
-                   "; end the part where Geometry/Subdivisions has a grid line");
+                   "; end the part where " +
+                   (scene.geometry.has_mesh() ? "the mesh has a vertex"
+                                              : "Geometry/Subdivisions has a grid line"));
   if (std::none_of(faces.begin(), faces.end(),
                    [&](const auto &points) { return is_inside(points.back()); }))
     reject(scene, section_of(part), "Where",
@@ -72,10 +88,10 @@ void check_parts(const Scene<dim> &scene)
   for (const BoundaryCondition<dim> &part : scene.boundaries)
     if (part.where)
       check_ends(scene, part);
-  for (unsigned int side = 0; side < GeometryInfo<dim>::faces_per_cell; ++side)
+  for (unsigned int side = 0; side < scene.geometry.boundary_names().size(); ++side)
     for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, side))
     {
-      const Point<dim> x = centre_of<dim>(face.corners);
+      const Point<dim> x = middle_of(face);
       const BoundaryCondition<dim> &first = scene.boundaries[boundary_at(scene, side, x)];
       for (const BoundaryCondition<dim> &other : scene.boundaries)
         if (other.id > first.id && other.side == side && other.where && other.where->value(x) > 0 &&
@@ -86,18 +102,34 @@ void check_parts(const Scene<dim> &scene)
     }
 }
 
-template <int dim>
-void check_material_places(const Scene<dim> &scene)
+namespace
 {
-  if (!scene.material_at || !scene.parameters) // code knows its mesh
-    return;
+/** Points of each cell of the coarse mesh before it is graded; the last one is the middle. */
+template <int dim>
+std::vector<std::vector<Point<dim>>> points_of_cells(const Geometry<dim> &geometry)
+{
+  std::vector<std::vector<Point<dim>>> result;
+  if constexpr (dim == 2)
+    if (geometry.mesh)
+    {
+      const EdgeCurves curves(*geometry.mesh);
+      const auto unit = points_between<2, 2>(box_corners<2>({0, 0}, {1, 1}));
+      for (unsigned int c = 0; c < geometry.mesh->cells.size(); ++c)
+      {
+        const BlendedCell cell(curves, c);
+        result.emplace_back();
+        for (const Point<2> &s : unit)
+          result.back().push_back(cell.point(s[0], s[1]));
+      }
+      return result;
+    }
   std::array<std::vector<double>, dim> lines;
-  for (unsigned int d = 0; d < dim; ++d)
-    lines[d] = scene.geometry.grid_lines(d);
-  std::vector<bool> is_used(scene.materials.size(), false);
   unsigned int n_cells = 1;
   for (unsigned int d = 0; d < dim; ++d)
+  {
+    lines[d] = geometry.grid_lines(d);
     n_cells *= lines[d].size() - 1;
+  }
   for (unsigned int cell = 0; cell < n_cells; ++cell)
   {
     Corners<dim> corners;
@@ -106,16 +138,51 @@ void check_material_places(const Scene<dim> &scene)
       Point<dim> unit;
       for (unsigned int d = 0, rest = cell; d < dim; rest /= lines[d++].size() - 1)
         unit[d] = lines[d][rest % (lines[d].size() - 1) + ((v >> d) & 1u)];
-      corners[v] = scene.geometry.point(unit);
+      corners[v] = geometry.point(unit);
     }
-    const std::vector<Point<dim>> points = points_between<dim, dim>(corners);
+    result.push_back(points_between<dim, dim>(corners));
+  }
+  return result;
+}
+} // namespace
+
+namespace
+{
+/** Of a coarse cell whose surface has one of its own. */
+template <int dim>
+std::optional<types::material_id> material_of_surface(const Scene<dim> &scene,
+                                                      const unsigned int cell)
+{
+  if (scene.material_of_surface.empty())
+    return std::nullopt;
+  return scene.material_of_surface[scene.geometry.mesh->cells[cell].surface];
+}
+} // namespace
+
+template <int dim>
+void check_material_places(const Scene<dim> &scene)
+{
+  if (!scene.material_at || !scene.parameters) // code knows its mesh
+    return;
+  std::vector<bool> is_used(scene.materials.size(), false);
+  const std::vector<std::vector<Point<dim>>> cells = points_of_cells(scene.geometry);
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+  {
+    if (const auto own = material_of_surface(scene, cell))
+    {
+      is_used.at(*own) = true;
+      continue;
+    }
+    const std::vector<Point<dim>> &points = cells[cell];
     const types::material_id material = scene.material_at(points.back());
     is_used.at(material) = true;
     for (const Point<dim> &x : points)
       if (const types::material_id other = scene.material_at(x); other != material)
         reject(scene, section_of_material(scene.materials[std::max(material, other)].name), "Where",
                "changes its sign inside a cell of the coarse mesh, at " + to_string(x) +
-                   "; end the material where Geometry/Subdivisions has a grid line");
+                   "; end the material where " +
+                   (scene.geometry.has_mesh() ? "cells meet"
+                                              : "Geometry/Subdivisions has a grid line"));
   }
   for (unsigned int m = 1; m < is_used.size(); ++m)
     if (!is_used[m])

@@ -27,8 +27,26 @@ double length(const Tensor<1, dim> &edge)
   return result;
 }
 
+/** Cells one by one: an edge is too short where a corner of its cell is round-off. */
+void check_cells(const Scene<2> &scene, const std::string &entry)
+{
+  const CellFlaw worst = worst_cell(*scene.geometry.mesh);
+  if (worst.is_folded)
+    reject(scene, "Geometry", entry,
+           "makes a cell that folds over itself at " + to_string(worst.at) +
+               "; take more cells along curves, or straight edges that keep away from them");
+  if (worst.angle > 179.9)
+    reject(scene, "Geometry", entry,
+           "makes a cell with an angle of " + to_string(worst.angle) + " degrees at " +
+               to_string(worst.at) +
+               ": two of its edges are one line or one smooth curve; end a cell there, as by "
+               "another vertex inside");
+}
+
 void check_angles(const Scene<2> &scene, const std::string &entry)
 {
+  if (scene.geometry.has_mesh())
+    return check_cells(scene, entry);
   for (const Corner &corner : corners_of(scene.geometry))
     if (corner.degrees < 0.1 || corner.degrees > 179.9)
       reject(scene, "Geometry", entry,
@@ -39,6 +57,16 @@ void check_angles(const Scene<2> &scene, const std::string &entry)
 
 void check_angles(const Scene<3> &, const std::string &)
 {
+}
+
+double shortest_edge(const CoarseMesh &mesh)
+{
+  double shortest = std::numeric_limits<double>::max();
+  for (const CoarseMesh::Cell &cell : mesh.cells)
+    for (unsigned int v = 0; v < 4; ++v)
+      shortest = std::min(shortest, length(mesh.vertices[cell.vertices[(v + 1) % 4]] -
+                                           mesh.vertices[cell.vertices[v]]));
+  return shortest;
 }
 
 /** Lengths that can be squared, edges that are more than round-off, corners that are corners. */
@@ -53,6 +81,8 @@ void check_lengths(const Scene<dim> &scene, const std::string &entry)
   for (unsigned int l = 0; l < GeometryInfo<dim>::lines_per_cell; ++l)
     shortest = std::min(shortest, length(corners[GeometryInfo<dim>::line_to_cell_vertices(l, 1)] -
                                          corners[GeometryInfo<dim>::line_to_cell_vertices(l, 0)]));
+  if (scene.geometry.mesh)
+    shortest = shortest_edge(*scene.geometry.mesh);
   if (!(farthest <= largest_magnitude) || !(shortest >= smallest_magnitude))
     reject(scene, "Geometry", entry,
            "has lengths from " + to_string(shortest) + " to " + to_string(farthest) +
@@ -87,14 +117,15 @@ void check_geometry(const Scene<dim> &scene)
   if (kind == nullptr)
     reject(scene, "Geometry", "Shape",
            "is no box, and space has no other shape; take box_corners()");
-  if (const auto flaw = kind->flaw(scene.geometry.corners))
-    reject(scene, "Geometry", flaw->entry, flaw->problem, flaw->value);
+  if (kind->flaw)
+    if (const auto flaw = kind->flaw(scene.geometry.corners))
+      reject(scene, "Geometry", flaw->entry, flaw->problem, flaw->value);
   check_lengths(scene, kind->size_entry);
-  double cells = 1;
+  double cells = scene.geometry.has_mesh() ? scene.geometry.n_cells() : 1;
   std::string shown;
   for (const unsigned int n : scene.geometry.subdivisions)
   {
-    cells *= n;
+    cells *= scene.geometry.has_mesh() ? 1 : n;
     shown += (shown.empty() ? "" : ", ") + std::to_string(n);
   }
   if (cells == 0)
@@ -103,8 +134,7 @@ void check_geometry(const Scene<dim> &scene)
                " positive integers",
            shown);
   if (cells > 1e6)
-    reject(scene, "Geometry", "Subdivisions",
-           "makes more than a million cells; start coarse and let the mesh adapt", shown);
+    reject(scene, "Geometry", "Subdivisions", too_many_cells, shown);
   check_grading(scene);
 }
 
@@ -115,7 +145,7 @@ void check_materials(const Scene<dim> &scene)
   const std::string number = std::to_string(scene.materials.size());
   if (scene.materials.empty())
     fail(printable(scene.origin()), "Material", "is missing; give at least one");
-  if (scene.materials.size() > 1 && !scene.material_at)
+  if (scene.materials.size() > 1 && !scene.has_material_places())
     fail(printable(scene.origin()), "Material",
          "says nowhere which of " + number + " is where; set material_at or keep one");
   for (const Material &material : scene.materials)

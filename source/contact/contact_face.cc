@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/contact/contact_space.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -17,9 +20,39 @@ ContactFrame<dim> ContactFace<dim>::frame(const double s) const
 }
 
 template <int dim>
+ContactFrame<dim> ContactFace<dim>::node_frame(const double s) const
+{
+  ContactFrame<dim> result = frame(s);
+  if (map.is_curved())
+  {
+    result.normal = condition->held_direction(
+        map.curve_normal(face_no, point_on_face<dim>(face_no, Point<dim - 1>(s))));
+    result.tangent = -cross_product_2d(result.normal);
+  }
+  return result;
+}
+
+template <int dim>
 Point<dim> ContactFace<dim>::point(const double s) const
 {
   return map.point(point_on_face<dim>(face_no, Point<dim - 1>(s)));
+}
+
+/** Along a curve ds varies, and a finer rule takes it as rows of B do. */
+template <int dim>
+double ContactFace<dim>::basis_integral(const QGauss<1> &points, const unsigned int i) const
+{
+  if (!map.is_curved())
+    return points.weight(i) * frame(points.point(i)[0]).measure;
+  std::vector<double> nodes;
+  for (const Point<1> &point : points.get_points())
+    nodes.push_back(point[0]);
+  const QGauss<1> gauss(std::max(degree, n_points) + 1);
+  double result = 0;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    result += gauss.weight(q) * frame(gauss.point(q)[0]).measure *
+              lagrange_basis(nodes, gauss.point(q)[0])[i];
+  return result;
 }
 
 template <int dim>

@@ -67,7 +67,7 @@ FullMatrix<double> node_rows(const ContactFace<dim> &face, const ShapeTables<dim
   for (unsigned int k = 0, i = 0; k < n_nodes && i < B.m(); ++k)
     if (face.normal_points[i] == rule.point(k)[0])
     {
-      const ContactFrame<dim> frame = face.frame(face.normal_points[i]);
+      const ContactFrame<dim> frame = face.node_frame(face.normal_points[i]);
       for (unsigned int c = 0; c < dim; ++c)
         B(i, c * n_nodes + k) = rule.weight(k) * frame.measure * frame.normal[c];
       ++i;
@@ -77,13 +77,15 @@ FullMatrix<double> node_rows(const ContactFace<dim> &face, const ShapeTables<dim
 
 // @sect3{Which edges take moments}
 //
-// Two conditions: as many multipliers as nodes inside, and nodes that no support holds. Other edges
-// keep nodal values and general rows.
+// Three conditions: as many multipliers as nodes inside, nodes that no support holds, and one normal:
+// along a curve each moment has a share of both components. Other edges keep nodal values and general
+// rows.
 /** May the nodes inside the edge move, and are there as many of them as multipliers? */
 template <int dim>
 bool takes_moments(const ContactFace<dim> &face, const unsigned int n_multipliers)
 {
-  return n_multipliers + 1 == face.degree && !face.condition->has_displacement();
+  return n_multipliers + 1 == face.degree && !face.condition->has_displacement() &&
+         !face.map.is_curved();
 }
 
 /** Of the measure along it, linear in s, beside its mean. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/contact/contact_order.h>
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator 
   ContactFace<dim> face{cell, face_no, degree, &condition, map_of<dim>(cell), 0, 0, 0,
                         0,    {},      {},     {}};
   face.n_points = std::max(0, static_cast<int>(degree) + multiplier_offset + 1);
-  face.length = face.frame(0.5).measure;
+  face.length = face.map.is_curved() ? face.map.face_area(face_no) : face.frame(0.5).measure;
   return face;
 }
 
@@ -38,8 +39,10 @@ std::vector<PointLimit> limits_of(const ContactFace<dim> &face, const QGauss<1> 
   const auto add = [&](const double s, const double weight)
   {
     const Point<dim> x = face.point(s);
-    result.push_back(
-        {s, face.is_turned ? weight * full_turn(x) : weight, face.condition->friction.at(x)});
+    const double measure = face.map.is_curved() ? face.frame(s).measure / face.length
+                           : face.is_turned     ? full_turn(x)
+                                                : 1.;
+    result.push_back({s, weight * measure, face.condition->friction.at(x)});
   };
   const FrictionRule &one = face.friction.vanishes() ? face.coefficient : face.friction;
   if (face.friction.vanishes() || face.coefficient.vanishes())
@@ -136,13 +139,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
                           scene.solver.multiplier_offset, condition));
         }
 
-  std::stable_sort(contact_faces.begin(), contact_faces.end(),
-                   [](const ContactFace<dim> &a, const ContactFace<dim> &b)
-                   {
-                     if (a.condition->id != b.condition->id)
-                       return a.condition->id < b.condition->id;
-                     return a.frame(0.5).tangent * (b.point(0.5) - a.point(0.5)) > 0;
-                   });
+  sort_along_boundaries(scene.geometry, contact_faces);
   for (ContactFace<dim> &face : contact_faces)
   {
     face.is_turned = scene.is_axisymmetric();
@@ -178,7 +175,7 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
   for (unsigned int i = 0; i < face.n_points; ++i)
   {
     const ContactFrame<dim> frame = face.frame(points.point(i)[0]);
-    unknowns.push_back({Kind::friction, frame.x, frame.tangent, points.weight(i) * frame.measure,
+    unknowns.push_back({Kind::friction, frame.x, frame.tangent, face.basis_integral(points, i),
                         checked_limit(face, frame.x)});
   }
   if (face.past)
@@ -212,7 +209,7 @@ void ContactSpace<dim>::number_pressures(ContactFace<dim> &face, const ShapeTabl
     face.pressures.push_back(unknowns.size());
     if (face.condition->friction.knows_pressure() && face.n_multipliers > 0)
       unknowns[face.first_multiplier + i].partner = unknowns.size();
-    unknowns.push_back({Kind::pressure, frame.x, frame.normal, points.weight(i) * frame.measure});
+    unknowns.push_back({Kind::pressure, frame.x, frame.normal, face.basis_integral(points, i)});
     unknowns.back().is_bilateral = !face.condition->is_unilateral();
   }
   for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -238,7 +235,7 @@ void ContactSpace<dim>::number_nodes(ContactFace<dim> &face,
   const QGaussLobatto<1> &rule = tables.gauss_lobatto(p + 1);
   for (unsigned int k = 0; k <= p; ++k)
   {
-    const ContactFrame<dim> frame = face.frame(rule.point(k)[0]);
+    const ContactFrame<dim> frame = face.node_frame(rule.point(k)[0]);
     const double weight = rule.weight(k) * frame.measure, gap = checked_gap(face, frame.x);
     // The support carries what presses there; that it stays above the gap has been checked.
     if (is_prescribed<dim>(displacement_space.constraints(),

@@ -2,6 +2,7 @@
 #include <hpvi/contact/tangential_trace.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -14,29 +15,47 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
                                       const ShapeTables<dim> &tables, const Vector<double> &u,
                                       const types::boundary_id boundary)
 {
+  Point<dim> last;
+  for (const ContactFace<dim> &face : contact_space.faces())
+    if (face.condition->id == boundary)
+    {
+      const Point<dim> x = face.point(0.5);
+      if (tangent.norm_square() == 0)
+      {
+        tangent = face.frame(0.5).tangent;
+        last = origin = face.point(0.);
+      }
+      is_straight = is_straight && !face.map.is_curved() &&
+                    (face.frame(0.5).tangent - tangent).norm() < 1e-9 && (x - last) * tangent >= 0;
+      last = x;
+    }
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     if (face.condition->id != boundary)
       continue;
-    if (pieces.empty())
-    {
-      tangent = face.frame(0.5).tangent;
-      origin = face.point(0.);
-    }
     const auto dofs = displacement_space.cell_dofs(face.cell->active_cell_index());
     const std::vector<unsigned int> &on_edge = tables.numbering(face.degree).edge[face.face_no];
     const QGaussLobatto<1> &rule = tables.gauss_lobatto(face.degree + 1);
-    Piece piece{(face.point(0.) - origin) * tangent, (face.point(1.) - origin) * tangent, {}, {}};
+    Piece piece{(face.point(0.) - origin) * tangent,
+                (face.point(1.) - origin) * tangent,
+                {},
+                {},
+                {{face.point(0.), face.point(1.)}},
+                {}};
+    if (face.map.is_curved() && face.map.bows()[face.face_no])
+      piece.curve = face.map.bows()[face.face_no].curve();
     for (unsigned int k = 0; k < rule.size(); ++k)
     {
+      const Tensor<1, dim> t = is_straight ? tangent : face.node_frame(rule.point(k)[0]).tangent;
       piece.nodes.push_back(rule.point(k)[0]);
       piece.u_t.push_back(0.);
       for (unsigned int c = 0; c < dim; ++c)
-        piece.u_t.back() += tangent[c] * u[dofs[on_edge[c * rule.size() + k]]];
+        piece.u_t.back() += t[c] * u[dofs[on_edge[c * rule.size() + k]]];
     }
-    if (piece.begin > piece.end) // the nodes lie symmetrically
+    if (piece.begin > piece.end && is_straight) // the nodes lie symmetrically
     {
       std::swap(piece.begin, piece.end);
+      std::swap(piece.ends[0], piece.ends[1]);
       std::reverse(piece.u_t.begin(), piece.u_t.end());
     }
     pieces.push_back(piece);
@@ -44,15 +63,57 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
 }
 
 template <int dim>
+double TangentialTrace<dim>::Piece::nearest(const Point<dim> &x) const
+{
+  if (curve)
+    return curve.nearest(x);
+  const Tensor<1, dim> way = ends[1] - ends[0];
+  return std::clamp((x - ends[0]) * way / way.norm_square(), 0., 1.);
+}
+
+template <int dim>
+double TangentialTrace<dim>::Piece::value(const double s) const
+{
+  const std::vector<double> basis = lagrange_basis(nodes, s);
+  return std::inner_product(basis.begin(), basis.end(), u_t.begin(), 0.);
+}
+
+template <int dim>
+const typename TangentialTrace<dim>::Piece &
+TangentialTrace<dim>::piece_at(const Point<dim> &x) const
+{
+  const Piece *result = &pieces.front();
+  double least = std::numeric_limits<double>::max();
+  for (const Piece &piece : pieces)
+  {
+    const Tensor<1, dim> chord = piece.ends[1] - piece.ends[0];
+    if ((piece.ends[0] + chord / 2.).distance(x) - chord.norm() > least)
+      continue; // farther whatever its curve does
+    const double s = piece.nearest(x);
+    const Point<dim> there =
+        piece.curve ? piece.curve.point(s) : piece.ends[0] + s * (piece.ends[1] - piece.ends[0]);
+    if (const double distance = there.distance(x); distance < least)
+    {
+      least = distance;
+      result = &piece;
+    }
+  }
+  return *result;
+}
+
+template <int dim>
 double TangentialTrace<dim>::value(const Point<dim> &x, const unsigned int) const
 {
+  if (!is_straight)
+  {
+    const Piece &piece = piece_at(x);
+    return piece.value(piece.nearest(x));
+  }
   const double place = (x - origin) * tangent;
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), place,
                                       [](const double a, const Piece &b) { return a < b.begin; });
   const Piece &piece = after == pieces.begin() ? pieces.front() : *std::prev(after);
-  const std::vector<double> basis =
-      lagrange_basis(piece.nodes, (place - piece.begin) / (piece.end - piece.begin));
-  return std::inner_product(basis.begin(), basis.end(), piece.u_t.begin(), 0.);
+  return piece.value((place - piece.begin) / (piece.end - piece.begin));
 }
 
 template <int dim>

@@ -3,6 +3,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/evaluation/contact_zones.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 
@@ -18,108 +19,6 @@ using namespace dealii;
 
 namespace
 {
-/** Slip in one direction next to slip in the other differs; without friction any slip goes on. */
-bool differ(const ContactPoint<2> &a, const ContactPoint<2> &b)
-{
-  return a.mode() != b.mode() || (a.mode() == ContactMode::slip && a.friction_bound != 0. &&
-                                  b.friction_bound != 0. && a.lambda * b.lambda < 0.);
-}
-
-/** Does contact end between the two? */
-bool opens(const ContactPoint<2> &a, const ContactPoint<2> &b)
-{
-  return a.is_open != b.is_open;
-}
-
-/**
- * Where the exact multiplier only just reaches 1, stick and slip may alternate from point to point: an
- * odd number of changes within two edges counts as one, in their middle, an even one as none. Each end
- * of contact counts, however small the contact.
- */
-std::vector<Point<2>> transitions_between(const std::vector<ContactPoint<2>> &points)
-{
-  std::vector<Point<2>> result;
-  for (unsigned int k = 1; k < points.size();)
-  {
-    Point<2> sum;
-    unsigned int n_changes = 0, last = k;
-    for (unsigned int i = k; i < points.size(); ++i)
-      if (differ(points[i - 1], points[i]))
-      {
-        if (n_changes > 0 &&
-            (opens(points[i - 1], points[i]) ||
-             points[i].x.distance(points[last].x) >
-                 (2 + 1e-6) * std::max(points[i].face_length, points[last].face_length)))
-          break;
-        sum += 0.5 * (points[i - 1].x + Tensor<1, 2>(points[i].x));
-        ++n_changes;
-        last = i;
-        if (opens(points[i - 1], points[i]))
-          break;
-      }
-    if (n_changes == 0)
-      break;
-    if (n_changes % 2 == 1)
-      result.push_back(sum / n_changes);
-    k = last + 1;
-  }
-  return result;
-}
-
-/** What most points between two places do, for those near a cut may still alternate: of equally many the first mode. */
-ContactMode mode_between(const std::vector<ContactPoint<2>> &points, const Point<2> &begin,
-                         const Point<2> &end)
-{
-  std::array<unsigned int, 3> n_points{}; // by mode
-  for (const ContactPoint<2> &point : points)
-    if ((point.x - begin) * (end - point.x) > 0)
-      ++n_points[static_cast<unsigned int>(point.mode())];
-  return static_cast<ContactMode>(std::max_element(n_points.begin(), n_points.end()) -
-                                  n_points.begin());
-}
-
-/** From end to end of a piece of the boundary, cut at its transitions; points and transitions follow the tangent. */
-std::vector<ContactZone<2>> zones_of(const std::array<Point<2>, 2> &piece,
-                                     const std::vector<ContactPoint<2>> &points,
-                                     const std::vector<Point<2>> &transitions)
-{
-  std::vector<Point<2>> cuts = {piece[0]};
-  cuts.insert(cuts.end(), transitions.begin(), transitions.end());
-  cuts.push_back(piece[1]);
-  std::vector<ContactZone<2>> zones;
-  for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-  {
-    const ContactMode mode = mode_between(points, cuts[k], cuts[k + 1]);
-    if (!zones.empty() && zones.back().mode == mode) // slip that turns around is slip
-      zones.back().end = cuts[k + 1];
-    else
-      zones.push_back({mode, cuts[k], cuts[k + 1]});
-  }
-  return zones;
-}
-
-/** What contact that has ended in one piece does in the next is another zone. */
-void find_zones(std::vector<std::array<Point<2>, 2>> pieces, ContactState<2> &state)
-{
-  const Tensor<1, 2> along = state.end - state.begin;
-  for (auto &piece : pieces)
-    if ((piece[1] - piece[0]) * along < 0)
-      std::swap(piece[0], piece[1]);
-  std::sort(pieces.begin(), pieces.end(),
-            [&](const auto &a, const auto &b) { return (b[0] - a[0]) * along > 0; });
-  for (const auto &piece : pieces)
-  {
-    std::vector<ContactPoint<2>> points;
-    for (const ContactPoint<2> &point : state.points)
-      if ((point.x - piece[0]) * (piece[1] - point.x) > 0)
-        points.push_back(point);
-    const std::vector<Point<2>> transitions = transitions_between(points);
-    const std::vector<ContactZone<2>> zones = zones_of(piece, points, transitions);
-    state.transitions.insert(state.transitions.end(), transitions.begin(), transitions.end());
-    state.zones.insert(state.zones.end(), zones.begin(), zones.end());
-  }
-}
-
 /** A pressure that is round-off beside the largest of all, or beside the data, is none. */
 template <int dim>
 double negligible_pressure(const Field<dim> &field, const DataScale &data)
@@ -263,9 +162,14 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
       const bool backwards = runs_backwards(face);
       const auto end = [&](const double s)
       { return face.map.point(point_on_face<2>(face.face_no, Point<1>(s))); };
+      const Point<dim> begin = end(backwards ? 1. : 0.);
       if (is_new)
-        state.begin = end(backwards ? 1. : 0.);
+        state.begin = begin;
       state.end = end(backwards ? 0. : 1.);
+      const unsigned int n_points = state.points.size();
+      if (is_new || state.chains.back().end.distance(begin) > 1e-6 * face.area())
+        state.chains.push_back({begin, state.end, n_points, n_points});
+      state.chains.back().end = state.end;
     }
     Point<dim - 1> middle;
     for (unsigned int s = 0; s < dim - 1; ++s)
@@ -273,6 +177,8 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
     state.area +=
         face.area() * field.scene.turn(face.map.point(point_on_face<dim>(face.face_no, middle)));
     add_points(face, state);
+    if (dim == 2)
+      state.chains.back().last_point = state.points.size();
     add_normal_traction(face, state);
   }
   return states;
@@ -375,11 +281,7 @@ std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
     std::vector<Side<2>> sides;
     together(field.communicator(), [&]() { sides = sides_of(field.scene); });
     for (ContactState<2> &state : states)
-      if (!state.points.empty())
-        find_zones(field.scene.has_parts()
-                       ? sides[state.boundary].pieces
-                       : std::vector<Side<2>::Piece>{{{state.begin, state.end}}},
-                   state);
+      find_zones(field.scene, sides[state.boundary], state);
   }
   return states;
 }

@@ -44,10 +44,7 @@ unsigned int FieldFace<dim>::degree() const
 template <int dim>
 double FieldFace<dim>::area() const
 {
-  Point<dim - 1> middle;
-  for (unsigned int s = 0; s < dim - 1; ++s)
-    middle[s] = 0.5;
-  return map.face_measure(face_no, point_on_face<dim>(face_no, middle));
+  return map.face_area(face_no);
 }
 
 /** In space the tangents are those of the lines of coordinates: of boxes the axes to the last bit. */
@@ -111,11 +108,40 @@ const std::vector<FieldFace<dim>> &Field<dim>::faces() const
 
 namespace
 {
+/** By Newton's method, which leaves where @p x is far. */
+std::optional<Point<2>> reference_in_curved_cell(const CellMap<2> &map, const Point<2> &x,
+                                                 const double hair)
+{
+  const double size = map.longest_edge();
+  if (x.distance(map.point({0.5, 0.5})) > 2 * size)
+    return std::nullopt;
+  Point<2> reference(0.5, 0.5);
+  for (unsigned int step = 0; step < 30; ++step)
+  {
+    const Tensor<1, 2> rest = x - map.point(reference);
+    if (rest.norm() <= 1e-13 * size)
+      break;
+    const Tensor<2, 2> J = map.jacobian(reference);
+    if (!(std::abs(determinant(J)) > 1e-12 * size * size))
+      return std::nullopt;
+    reference += invert(J) * rest;
+    if (reference.norm() > 10)
+      return std::nullopt;
+  }
+  if (x.distance(map.point(reference)) > hair * size ||
+      !GeometryInfo<2>::is_inside_unit_cell(reference, hair))
+    return std::nullopt;
+  return GeometryInfo<2>::project_to_unit_cell(reference);
+}
+
 /** The point of the unit cell that lies at @p x; null: @p cell has none. */
 template <int dim>
 std::optional<Point<dim>> reference_of(const typename Field<dim>::Cell &cell, const Point<dim> &x)
 {
   const double hair = 1e-9;
+  if constexpr (dim == 2)
+    if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved())
+      return reference_in_curved_cell(map, x, hair);
   if (!cell->bounding_box().point_inside(x, hair))
     return std::nullopt;
   try

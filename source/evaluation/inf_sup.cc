@@ -2,6 +2,7 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
+#include <hpvi/body/curved_edges.h>
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/quadratic/quadratic_program.h>
@@ -52,6 +53,7 @@ Degrees make_reference_mesh(const Triangulation<dim> &coarse, const Degrees &deg
       refine_mesh(fine, degrees, {std::vector<bool>(degrees.size(), true), degrees});
   for (unsigned int &degree : fine_degrees)
     degree += additional_degree;
+  set_edge_degrees(fine, fine_degrees);
   return fine_degrees;
 }
 

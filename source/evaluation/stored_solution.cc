@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/body/curved_edges.h>
 #include <hpvi/evaluation/stored_solution.h>
 
 #include <deal.II/base/mpi.h>
@@ -123,6 +124,8 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
     degrees.push_back(record.degree);
     cell_coefficients.push_back(record.coefficients);
   }
+  if constexpr (dim == 2)
+    set_edge_degrees(mesh, degrees);
 }
 
 template <int dim>

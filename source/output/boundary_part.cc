@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/output/boundary_part.h>
+#include <hpvi/output/cell_outline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,8 @@ struct Edge
 {
   unsigned int from, to;
   types::boundary_id boundary;
-  Tensor<1, 2> direction; ///< of length 1
+  Tensor<1, 2> leaving, arriving; ///< along it at its ends, of length 1
+  std::vector<Point<2>> line;     ///< its ends and what is curved between them
 };
 
 std::vector<Edge> boundary_edges(const Triangulation<2> &mesh)
@@ -28,15 +30,18 @@ std::vector<Edge> boundary_edges(const Triangulation<2> &mesh)
       if (cell->at_boundary(number))
       {
         const auto face = cell->face(number);
-        Tensor<1, 2> way = face->vertex(1) - face->vertex(0);
+        const Tensor<1, 2> way = face->vertex(1) - face->vertex(0);
         const Tensor<1, 2> inward = cell->center() - face->center();
         unsigned int from = face->vertex_index(0), to = face->vertex_index(1);
+        std::vector<Point<2>> line = face_line(map_of<2>(cell), number);
         if (way[0] * inward[1] - way[1] * inward[0] < 0)
         {
           std::swap(from, to);
-          way = -way;
+          line = {line.rbegin(), line.rend()};
         }
-        edges.push_back({from, to, face->boundary_id(), way / way.norm()});
+        const Tensor<1, 2> first = line[1] - line[0], last = *(line.end() - 1) - *(line.end() - 2);
+        edges.push_back(
+            {from, to, face->boundary_id(), first / first.norm(), last / last.norm(), line});
       }
   return edges;
 }
@@ -46,7 +51,7 @@ bool continues(const Edge &edge, const Edge &next)
 {
   constexpr double cosine_of_corner =
       0.64; // 50 degrees: an edge of a polygon for a curve turns by less
-  return next.boundary == edge.boundary && edge.direction * next.direction > cosine_of_corner;
+  return next.boundary == edge.boundary && edge.arriving * next.leaving > cosine_of_corner;
 }
 } // namespace
 
@@ -112,7 +117,7 @@ std::vector<BoundaryPart> boundary_parts(const Triangulation<2> &mesh)
       first = before;
     std::vector<Point<2>> points{mesh.get_vertices()[first->from]};
     for (const Edge *next = first; next && done.insert(next).second; next = neighbour(*next, true))
-      points.push_back(mesh.get_vertices()[next->to]);
+      points.insert(points.end(), next->line.begin() + 1, next->line.end());
     parts.emplace_back(edge.boundary, points);
   }
   return parts;

@@ -122,7 +122,7 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
 {
   const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
-  const double scale = largest_force(equilibrium);
+  const double scale = force_scale(equilibrium, state);
   std::string words =
       "\ncontact " + boundary.name + ": " + acting(force, equilibrium, state, scale);
   for (const UnboundedStress<dim> &stress : unbounded)
@@ -132,8 +132,7 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
              point_text<dim>(state.highest_pressure_point);
   for (const ContactZone<dim> &zone : state.zones)
     words += "\n  " + mode_name(zone.mode) + " from " + point_text<dim>(zone.begin) + " to " +
-             point_text<dim>(zone.end) + ", length " +
-             labelled(zone.begin.distance(zone.end), scene.length_unit);
+             point_text<dim>(zone.end) + ", length " + labelled(zone.length, scene.length_unit);
   if constexpr (dim == 3)
     words +=
         "\n  open " + text(state.open_area, digits) + ", slip " +
@@ -152,7 +151,7 @@ std::string json_zone(const ContactZone<dim> &zone)
 {
   return "{\"state\": " + json_string(mode_name(zone.mode)) +
          ", \"from\": " + json_point<dim>(zone.begin) + ", \"to\": " + json_point<dim>(zone.end) +
-         ", \"length\": " + json_number(zone.begin.distance(zone.end)) + "}";
+         ", \"length\": " + json_number(zone.length) + "}";
 }
 
 /** "at" is null where the value is zero. */
@@ -197,7 +196,8 @@ std::string json_value(const Tensor<1, 3> &value)
 std::string json_acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
                         const ContactState<2> &state)
 {
-  const auto line = line_of_action(force, equilibrium.centre, state, largest_force(equilibrium));
+  const auto line =
+      line_of_action(force, equilibrium.centre, state, force_scale(equilibrium, state));
   return ",\n      \"through\": " + (line ? json_point<2>(*line) : "null");
 }
 
@@ -276,7 +276,9 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
   std::string words;
   for (const ContactState<dim> &state : contact)
     words += in_words(scene, state, equilibrium, on(state.boundary, unbounded));
-  const double scale = largest_force(equilibrium);
+  double scale = largest_force(equilibrium);
+  for (const ContactState<dim> &state : contact)
+    scale = std::max(scale, force_scale(equilibrium, state));
   std::string separator = "\n";
   for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
     if (std::none_of(contact.begin(), contact.end(),

@@ -2,6 +2,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/axes.h>
+#include <hpvi/output/cell_outline.h>
 #include <hpvi/output/mesh_picture.h>
 
 #include <algorithm>
@@ -99,10 +100,10 @@ void MeshPicture::draw_line(const double x1, const double y1, const double x2, c
 void MeshPicture::draw_cell(const Cell &cell, const double size)
 {
   const unsigned int degree = step.field.degree(cell);
-  out << "<path d=\"M";
-  for (const unsigned int v : {0, 1, 3, 2})
-    out << (v > 0 ? "L" : "") << coordinates(page(cell->vertex(v)));
-  out << "Z\" fill=\"" << colour(degree) << "\" stroke-width=\""
+  std::string path;
+  for (const Point<2> &x : cell_outline(map_of<2>(cell)))
+    path += (path.empty() ? "M" : "L") + coordinates(page(x));
+  out << "<path d=\"" << path << "Z\" fill=\"" << colour(degree) << "\" stroke-width=\""
       << text(std::min(0.8, 0.03 * size), 4) << "\"/>\n";
   // a scaled text of ordinary size: renderers round tiny font sizes
   out << "<text y=\"3.5\" transform=\"translate(" << coordinates(page(cell->center())) << ") scale("
@@ -131,11 +132,14 @@ void MeshPicture::draw_contact()
   std::string path;
   for (const auto &face : step.field.faces())
   {
-    const auto edge = face.cell->face(face.face_no);
-    const Tensor<1, 2> outward =
-        4. / scale * face.map.normal(face.face_no, /*middle of the cell*/ Point<2>(0.5, 0.5));
-    path += 'M' + coordinates(page(edge->vertex(0) + outward)) + 'L' +
-            coordinates(page(edge->vertex(1) + outward));
+    const std::vector<Point<2>> line = face_line(face.map, face.face_no);
+    for (unsigned int k = 0; k < line.size(); ++k)
+    {
+      const Point<1> s(double(k) / (line.size() - 1));
+      const Tensor<1, 2> outward =
+          4. / scale * face.map.normal(face.face_no, point_on_face<2>(face.face_no, s));
+      path += (k == 0 ? 'M' : 'L') + coordinates(page(line[k] + outward));
+    }
   }
   if (!path.empty())
     out << "<path d=\"" << path << "\" stroke=\"#c4161c\" stroke-width=\"4\" fill=\"none\"/>\n";

@@ -3,6 +3,7 @@
 #include <hpvi/body/mesh.h>
 #include <hpvi/output/arrow_rows.h>
 #include <hpvi/output/axes.h>
+#include <hpvi/output/cell_outline.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_marks.h>
 #include <hpvi/output/scene_picture.h>
@@ -35,8 +36,8 @@ void draw_body(SceneSheet &sheet, const Triangulation<2> &mesh)
   for (const auto &cell : mesh.active_cell_iterators())
   {
     std::vector<PagePoint> corners;
-    for (const unsigned int v : {0, 1, 3, 2})
-      corners.push_back(sheet.page(cell->vertex(v)));
+    for (const Point<2> &x : cell_outline(map_of<2>(cell)))
+      corners.push_back(sheet.page(x));
     const double size = sheet.scale * cell->minimum_vertex_distance();
     sheet.drawing.area(corners, "class=\"cell\" fill=\"" + material_colour(cell->material_id()) +
                                     "\" " + stroke("#8a97a6", std::min(0.8, 0.06 * size)));

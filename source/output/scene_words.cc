@@ -5,6 +5,7 @@
 #include <hpvi/body/mesh.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/mesh_words.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/scene/elasticity.h>
@@ -143,6 +144,17 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
          "\n";
 }
 
+/** What a mesh file holds. */
+template <int dim>
+std::string mesh_in_words(const Scene<dim> &scene)
+{
+  std::string lines;
+  if (scene.geometry.shape == Shape::file && scene.geometry.mesh)
+    for (const std::string &line : mesh_words(*scene.geometry.mesh, scene.length_unit))
+      lines += line + "\n";
+  return lines;
+}
+
 template <int dim>
 std::string materials_in_words(const Scene<dim> &scene)
 {
@@ -178,7 +190,7 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
       continue;
     const std::string words = joined(phrases_of(scene, boundary, points));
     if (words.empty())
-      free.push_back(boundary.name);
+      free.push_back(boundary.name.empty() ? "edges without a name" : boundary.name);
     else
       lines += boundary.name + ": " + words + "\n";
   }
@@ -235,7 +247,7 @@ std::string scene_in_words(const Scene<dim> &scene)
   std::string remarks;
   for (const std::string &remark : scene.remarks)
     remarks += remark + "\n";
-  return body_in_words(last, mesh) + remarks + materials_in_words(last) +
+  return body_in_words(last, mesh) + mesh_in_words(last) + remarks + materials_in_words(last) +
          (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
                                          " load steps; what follows is at t = 1\n"
                                    : "") +

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 #include <hpvi/base/formatting.h>
@@ -239,15 +241,21 @@ private:
   std::vector<double> coordinates() const
   {
     std::vector<double> result;
+    auto cell = this->triangulation->begin_active();
     for (const auto &patch : this->get_patches())
     {
       const unsigned int n = patch.n_subdivisions + 1;
+      while (!cell->is_locally_owned())
+        ++cell;
+      const CellMap<dim> map = map_of<dim>(cell++);
       for (unsigned int k = 0; k < std::pow(n, dim); ++k)
       {
         Point<dim> unit, x;
         for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
           unit[d] = double(rest % n) / patch.n_subdivisions;
-        for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+        if (map.is_curved())
+          x = map.point(unit);
+        for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell && !map.is_curved(); ++v)
           x += GeometryInfo<dim>::d_linear_shape_function(unit, v) * patch.vertices[v];
         for (unsigned int d = 0; d < 3; ++d)
           result.push_back(d < dim ? x[d] : 0.);
@@ -317,6 +325,25 @@ CellData cell_data(const StepReport<dim> &step, const bool is_shared)
   }
   return result;
 }
+
+/** That of cells with curved edges, for derivatives of fields: of degree @p degree it is one of these itself. */
+template <int dim>
+std::unique_ptr<Mapping<dim>> curved_mapping(const Triangulation<dim> &mesh,
+                                             const unsigned int degree)
+{
+  auto mapping = std::make_unique<MappingQCache<dim>>(degree);
+  const std::vector<Point<dim>> nodes = FE_Q<dim>(degree).get_unit_support_points();
+  mapping->initialize(mesh,
+                      [&](const typename Triangulation<dim>::cell_iterator &cell)
+                      {
+                        const CellMap<dim> map = map_of<dim>(cell);
+                        std::vector<Point<dim>> result;
+                        for (const Point<dim> &node : nodes)
+                          result.push_back(map.point(node));
+                        return result;
+                      });
+  return mapping;
+}
 } // namespace
 
 template <int dim>
@@ -337,7 +364,15 @@ Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces)
     for (unsigned int k = 0; k < 2; ++k) // where they have always stood, beside CellData
       data_out.add_data_vector(cells[k].second, cells[k].first, DataOut<dim>::type_cell_data);
   }
-  data_out.build_patches(std::min(step.size.p_max(), 8U));
+  const unsigned int n_subdivisions = std::min(step.size.p_max(), 8U);
+  if (step.scene.geometry.has_curves())
+  {
+    const auto mapping =
+        curved_mapping(step.field.dof_handler.get_triangulation(), step.size.p_max());
+    data_out.build_patches(*mapping, n_subdivisions, DataOut<dim>::no_curved_cells);
+  }
+  else
+    data_out.build_patches(n_subdivisions);
   return {data_out.vtu(cells), is_shared ? data_out.pvtu(cells, pieces) : ""};
 }
 

@@ -48,11 +48,16 @@ std::string multiplier_degree(const int offset)
 void print_inf_sup(const Scene<2> &scene)
 {
   if (!scene.has_friction() && !scene.has_unilateral_contact())
-    throw InputError(scene.origin() +
-                     ": Boundary left, right, bottom, top/Friction bound: no boundary "
+  {
+    std::string names;
+    for (const std::string &name : scene.geometry.boundary_names())
+      names += (names.empty() || name.empty() ? "" : ", ") + name;
+    throw InputError(scene.origin() + ": Boundary " + names +
+                     "/Friction bound: no boundary "
                      "names one, so there is no multiplier to measure the inf-sup "
                      "constant of; name a contact with a bound, or a unilateral one, or remove "
                      "--inf-sup");
+  }
   const Scene<2> refining = refining_scene(scene);
   AdaptiveSolver<2> solver(refining);
   note_interruptions();

@@ -6,11 +6,13 @@
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
+#include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <vector>
 
@@ -91,21 +93,53 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
   scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
 }
 
+/** Materials that have the name of a surface of the mesh are those of it. */
+std::vector<std::optional<types::material_id>>
+materials_of_surfaces(const std::vector<std::string> &surfaces,
+                      const std::vector<Material> &materials)
+{
+  std::vector<std::optional<types::material_id>> result(surfaces.size());
+  for (unsigned int s = 0; s < surfaces.size(); ++s)
+    for (unsigned int m = 1; m < materials.size(); ++m)
+      if (materials[m].name == surfaces[s])
+        result[s] = m;
+  return result;
+}
+
 template <int dim>
 void place_materials(const Parameters &parameters, Scene<dim> &scene)
 {
+  std::vector<std::string> surfaces;
+  if (scene.geometry.shape == Shape::file)
+    surfaces = scene.geometry.mesh->surfaces;
+  scene.material_of_surface = materials_of_surfaces(surfaces, scene.materials);
   std::vector<Expression<dim>> wheres{nullptr};
+  bool has_where = false;
   for (unsigned int m = 1; m < scene.materials.size(); ++m)
   {
     const std::string section = section_of_material(scene.materials[m].name);
-    wheres.push_back(read_where(parameters, section, sample_body(scene.geometry)));
+    const bool is_surface =
+        std::find(surfaces.begin(), surfaces.end(), scene.materials[m].name) != surfaces.end();
+    wheres.emplace_back();
+    if (is_surface && !parameters.text(section, "Where").empty())
+      parameters.reject(section, "Where",
+                        "stands beside a surface of the mesh that has this name; keep one of the "
+                        "two");
+    if (is_surface)
+      continue;
+    if (!surfaces.empty() && parameters.text(section, "Where").empty())
+      parameters.reject(section, "Where",
+                        "is missing, and the mesh has no surface of this name, it has " +
+                            listed(surfaces, "and"));
+    wheres.back() = read_where(parameters, section, sample_body(scene.geometry));
+    has_where = true;
     cut_body(scene, wheres.back(), section + "/Where");
   }
-  if (wheres.size() > 1)
+  if (has_where)
     scene.material_at = [wheres](const Point<dim> &x) -> types::material_id
     {
       for (unsigned int m = 1; m < wheres.size(); ++m)
-        if (wheres[m]->value(x) > 0)
+        if (wheres[m] && wheres[m]->value(x) > 0)
           return m;
       return 0;
     };
@@ -114,11 +148,14 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
 template <int dim>
 void read_part(const Parameters &parameters, const std::string &name, Scene<dim> &scene)
 {
-  const std::vector<std::string> sides = boundary_names(dim);
+  const std::vector<std::string> sides = scene.geometry.boundary_names();
+  std::vector<std::string> named; // edges of a mesh in no group have no name
+  std::copy_if(sides.begin(), sides.end(), std::back_inserter(named),
+               [](const std::string &side) { return !side.empty(); });
   const std::string section = "Boundary " + name;
   const auto side = std::find(sides.begin(), sides.end(), parameters.text(section, "On"));
   if (side == sides.end())
-    parameters.reject(section, "On", "is no side of the body; give " + listed(sides, "or"));
+    parameters.reject(section, "On", "is no side of the body; give " + listed(named, "or"));
   BoundaryCondition<dim> part;
   part.name = name;
   part.id = scene.boundaries.size();
@@ -133,6 +170,10 @@ template <int dim>
 void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene)
 {
   scene.geometry = read_geometry<dim>(parameters);
+  scene.name_boundaries();
+  if constexpr (dim == 2)
+    if (scene.geometry.shape == Shape::file)
+      scene.remarks = remarks_on_polygons(*scene.geometry.mesh);
   read_materials(parameters, names.materials, scene);
   scene.geometry.grading_levels = parameters.integer("Geometry", "Grading levels");
   const std::vector<Material> materials = scene.materials;
@@ -149,12 +190,12 @@ template <int dim>
 std::vector<unsigned int> materials_along(const Scene<dim> &scene,
                                           const BoundaryCondition<dim> &boundary)
 {
-  if (!scene.material_at)
+  if (!scene.has_material_places())
     return {0};
   std::vector<unsigned int> result;
   for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, boundary.side))
-    if (boundary_at(scene, boundary.side, centre_of<dim>(face.corners)) == boundary.id)
-      result.push_back(scene.material_at(face.inside));
+    if (boundary_at(scene, boundary.side, middle_of(face)) == boundary.id)
+      result.push_back(scene.material_of_coarse_cell(face.inside, face.cell));
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;

@@ -59,25 +59,56 @@ ExpressionReader<dim> reader_along(const Parameters &parameters, const Scene<dim
   return ExpressionReader<dim>(parameters, constants, remark);
 }
 
+/** A component of a load along a direction that turns with the side. */
+template <int dim>
+class TurningLoad : public Function<dim>
+{
+public:
+  using Direction = Tensor<1, dim> (Side<dim>::*)(const Point<dim> &) const;
+
+  TurningLoad(const Expression<dim> &load, const Side<dim> &side, const Direction direction,
+              const unsigned int component)
+      : load(load), side(side), direction(direction), component(component)
+  {
+  }
+
+  double value(const Point<dim> &x, const unsigned int = 0) const override
+  {
+    return load->value(x) * (side.*direction)(x)[component];
+  }
+
+private:
+  const Expression<dim> load;
+  const Side<dim> side;
+  const Direction direction;
+  const unsigned int component;
+};
+
 /** Traction, pressure and shear as one load. */
 template <int dim>
 void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
                 const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
                 BoundaryCondition<dim> &boundary)
 {
+  using Direction = typename TurningLoad<dim>::Direction;
   const std::vector<Point<dim>> points = side.sample();
   boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
-  const auto add = [&](const std::string &entry, const double sign, const Tensor<1, dim> &direction)
+  const auto add = [&](const std::string &entry, const double sign, const Direction direction)
   {
     const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
     for (unsigned int c = 0; c < dim; ++c)
-      boundary.traction[c] = sum<dim>(boundary.traction[c], sign * direction[c], load);
+      boundary.traction[c] =
+          side.is_flat()
+              ? sum<dim>(boundary.traction[c], sign * (side.*direction)(points.front())[c], load)
+              : sum<dim>(boundary.traction[c], sign,
+                         load ? std::make_shared<TurningLoad<dim>>(load, side, direction, c)
+                              : Expression<dim>());
   };
   if (points.empty()) // parts have taken it all
     return;
-  add("Pressure", -1, side.normal(points.front()));
+  add("Pressure", -1, &Side<dim>::normal);
   if constexpr (dim == 2)
-    add("Shear", 1, side.tangent(points.front()));
+    add("Shear", 1, &Side<dim>::tangent);
 }
 
 /** Glued on before anything happens: springs know no time. */

@@ -56,6 +56,7 @@ FreeNames free_names(const std::string &file,
       all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
                      value, printable(file, 400) + " (--set)"});
   FreeNames result;
+  result.sides = sides;
   std::vector<std::string> known = sides;
   for (const Assignment &one : all)
   {

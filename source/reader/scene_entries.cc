@@ -4,6 +4,7 @@
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
+#include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/patterns.h>
@@ -366,9 +367,16 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
   materials.insert(materials.end(), names.materials.begin(), names.materials.end());
   add_problem_entries(entries, dim, materials);
   add(entries, closed_form_entries());
-  const std::vector<std::string> sides = boundary_names(dim);
+  const std::vector<std::string> &sides = names.sides;
   for (const std::string &side : sides)
-    add_boundary_entries(entries, side);
+    if (!side.empty()) // edges of a mesh in no group are free
+    {
+      add_boundary_entries(entries, side);
+      if (names.is_from_file)
+        entries.push_back(curve_entry(side));
+    }
+  for (const std::string &interface : names.interfaces)
+    entries.push_back(curve_entry(interface));
   for (const std::string &part : names.parts)
   {
     add_part_entries(entries, part, sides);

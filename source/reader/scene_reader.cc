@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/reader/scene_reader.h>
+#include <hpvi/shapes/mesh_from_file.h>
+#include <hpvi/shapes/shape.h>
 
 #include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
@@ -221,7 +223,8 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
                                                 remark_on_constants(scene.materials[0])),
                             scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
-    read_boundary(*parameters, t, scene, boundary);
+    if (!boundary.name.empty()) // edges of a mesh in no group
+      read_boundary(*parameters, t, scene, boundary);
   scene.reference_solution = parameters->text("Error", "Reference solution");
   return scene;
 }
@@ -245,20 +248,41 @@ Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
 }
 } // namespace
 
+namespace
+{
+/** Of the body first, for these say which others there may be. */
+template <int dim>
+FreeNames names_in(const std::string &file,
+                   const std::vector<std::pair<std::string, std::string>> &overrides)
+{
+  const SideNames sides = names_of_sides<dim>(file, overrides);
+  FreeNames names = free_names(file, overrides, sides.sides);
+  names.is_from_file = sides.is_from_file;
+  names.interfaces = sides.interfaces;
+  return names;
+}
+} // namespace
+
 template <int dim>
 Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides,
                       const SceneUse use)
 {
-  const FreeNames names = free_names(file, overrides, boundary_names(dim));
-  const auto parameters = std::make_shared<Parameters>(scene_entries(dim, names),
-                                                       scene_hints(dim, boundary_names(dim)), file);
+  const FreeNames names = names_in<dim>(file, overrides);
+  const auto parameters =
+      std::make_shared<Parameters>(scene_entries(dim, names), scene_hints(dim, names.sides), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
                        "is not that of the program; set Dimension = " + std::to_string(dim));
   const std::string name = std::filesystem::path(file).stem().string();
   complete(*parameters, name);
+  if (names.is_from_file && !parameters->text("Geometry", "File").empty())
+    // scene.prm lies in another directory
+    parameters->set("Geometry", "File",
+                    std::filesystem::absolute(beside(file, parameters->text("Geometry", "File")))
+                        .lexically_normal()
+                        .string());
   const bool is_default_tolerance = choose_tolerance(*parameters, use);
   const Loading<dim> loading = read_loading<dim>(parameters, names, name);
   Scene<dim> scene = loading.at ? loading.at(loading.time(1))
@@ -285,7 +309,9 @@ int scene_dimension(const std::string &file,
 
 std::string default_parameters()
 {
-  return Parameters(scene_entries(2, {{"NAME"}, {"NAME"}}), {}, "").print(true);
+  std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
+  entries.push_back(curve_entry("NAME")); // of a mesh file alone
+  return Parameters(entries, {}, "").print(true);
 }
 
 template Scene<2> read_scene(const std::string &,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/boundary_parts.h>
 
+#include <map>
+
 #include <algorithm>
 
 #include <array>
@@ -20,8 +22,46 @@ types::boundary_id boundary_at(const Scene<dim> &scene, const unsigned int side,
 }
 
 template <int dim>
+Point<dim> middle_of(const CoarseFace<dim> &face)
+{
+  if constexpr (dim == 2)
+    if (face.curve)
+      return face.curve.point(0.5);
+  return centre_of<dim>(face.corners);
+}
+
+namespace
+{
+std::vector<CoarseFace<2>> faces_of_mesh(const CoarseMesh &mesh, const unsigned int side)
+{
+  std::map<std::array<unsigned int, 2>, unsigned int>
+      cells; // by an edge counterclockwise around them
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    for (unsigned int v = 0; v < 4; ++v)
+      cells[{{mesh.cells[c].vertices[v], mesh.cells[c].vertices[(v + 1) % 4]}}] = c;
+  const EdgeCurves curves(mesh);
+  std::vector<CoarseFace<2>> result;
+  for (const CoarseMesh::Edge &edge : mesh.edges)
+    if (edge.boundary == side)
+    {
+      CoarseFace<2> face;
+      for (unsigned int end = 0; end < 2; ++end)
+        face.corners[end] = mesh.vertices[edge.vertices[end]];
+      face.cell = cells.at(edge.vertices);
+      face.inside = BlendedCell(curves, face.cell).point(0.5, 0.5);
+      face.curve = edge.curve;
+      result.push_back(face);
+    }
+  return result;
+}
+} // namespace
+
+template <int dim>
 std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, const unsigned int side)
 {
+  if constexpr (dim == 2)
+    if (geometry.mesh)
+      return faces_of_mesh(*geometry.mesh, side);
   const unsigned int across = side / 2;
   std::array<std::vector<double>, dim> lines;
   for (unsigned int d = 0; d < dim; ++d)
@@ -66,15 +106,20 @@ std::vector<Side<dim>> sides_of(const Scene<dim> &scene)
   {
     result.push_back(whole[boundary.side]);
     result.back().pieces.clear();
+    result.back().curves.clear();
   }
   for (unsigned int side = 0; side < whole.size(); ++side)
     for (const CoarseFace<dim> &face : coarse_faces(scene.geometry, side))
     {
-      auto &pieces = result[boundary_at(scene, side, centre_of<dim>(face.corners))].pieces;
-      if (dim == 2 && !pieces.empty() && pieces.back()[1] == face.corners[0])
-        pieces.back()[1] = face.corners[1];
+      Side<dim> &part = result[boundary_at(scene, side, middle_of(face))];
+      if (dim == 2 && part.is_flat() && !part.pieces.empty() &&
+          part.pieces.back()[1] == face.corners[0])
+        part.pieces.back()[1] = face.corners[1];
       else
-        pieces.push_back(face.corners);
+      {
+        part.pieces.push_back(face.corners);
+        part.curves.push_back(face.curve);
+      }
     }
   return result;
 }
@@ -89,6 +134,8 @@ bool lies_on_axis(const Side<dim> &side)
 
 template types::boundary_id boundary_at(const Scene<2> &, unsigned int, const Point<2> &);
 template types::boundary_id boundary_at(const Scene<3> &, unsigned int, const Point<3> &);
+template Point<2> middle_of(const CoarseFace<2> &);
+template Point<3> middle_of(const CoarseFace<3> &);
 template bool lies_on_axis(const Side<2> &);
 template bool lies_on_axis(const Side<3> &);
 template std::vector<CoarseFace<2>> coarse_faces(const Geometry<2> &, unsigned int);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace hpvi
@@ -45,6 +46,34 @@ Geometry<dim>::Geometry()
 }
 
 template <int dim>
+bool Geometry<dim>::has_mesh() const
+{
+  return bool(mesh);
+}
+
+template <int dim>
+bool Geometry<dim>::has_curves() const
+{
+  return mesh && std::any_of(mesh->edges.begin(), mesh->edges.end(),
+                             [](const CoarseMesh::Edge &edge) { return bool(edge.curve); });
+}
+
+template <int dim>
+std::vector<std::string> Geometry<dim>::boundary_names() const
+{
+  return mesh ? mesh->boundaries : hpvi::boundary_names(dim);
+}
+
+template <int dim>
+double Geometry<dim>::n_cells() const
+{
+  double result = mesh ? mesh->cells.size() : 1.;
+  for (unsigned int d = 0; d < dim && !mesh; ++d)
+    result *= n_cells(d);
+  return result;
+}
+
+template <int dim>
 Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
 {
   // One direction after the other, from the nearer end: a side along an axis stays there to the last bit.
@@ -75,12 +104,33 @@ std::vector<double> Geometry<dim>::grid_lines(const unsigned int direction) cons
 template <int dim>
 unsigned int Geometry<dim>::n_cells(const unsigned int direction) const
 {
-  return subdivisions[direction] + cuts[direction].size();
+  return mesh ? static_cast<unsigned int>(std::ceil(std::sqrt(mesh->cells.size())))
+              : subdivisions[direction] + cuts[direction].size();
 }
+
+namespace
+{
+bool has_affine_cells_in(const CoarseMesh &mesh)
+{
+  if (std::any_of(mesh.edges.begin(), mesh.edges.end(),
+                  [](const CoarseMesh::Edge &edge) { return bool(edge.curve); }))
+    return false;
+  return std::all_of(mesh.cells.begin(), mesh.cells.end(),
+                     [&](const CoarseMesh::Cell &cell)
+                     {
+                       std::array<Point<2>, 4> x;
+                       for (unsigned int v = 0; v < 4; ++v)
+                         x[v] = mesh.vertices[cell.vertices[v]];
+                       return (x[0] - x[1] + (x[2] - x[3])).norm() <= 1e-12 * x[0].distance(x[2]);
+                     });
+}
+} // namespace
 
 template <int dim>
 bool Geometry<dim>::has_affine_cells() const
 {
+  if (mesh)
+    return has_affine_cells_in(*mesh);
   double size = 0, skew = 0, coordinates = 0; // far from the origin these are rounded more coarsely
   for (unsigned int v = 0; v < corners.size(); ++v)
   {
@@ -124,18 +174,69 @@ Point<dim> Geometry<dim>::centre() const
   return result;
 }
 
+namespace
+{
+/** Not more than @p hair outside: by the winding of boundaries around @p x, each followed in short steps. */
+bool is_inside(const std::vector<Side<2>> &sides, const Point<2> &x, const double hair)
+{
+  double winding = 0;
+  for (const Side<2> &side : sides)
+    for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    {
+      if (side.distance(k, x) <= hair)
+        return true;
+      const unsigned int steps = side.curves.empty() || !side.curves[k] ? 1 : 32;
+      for (unsigned int i = 0; i < steps; ++i)
+      {
+        const Tensor<1, 2> a = side.point(k, double(i) / steps) - x,
+                           b = side.point(k, double(i + 1) / steps) - x;
+        winding += std::atan2(a[0] * b[1] - a[1] * b[0], a * b);
+      }
+    }
+  return winding > numbers::PI;
+}
+} // namespace
+
 template <int dim>
 bool Geometry<dim>::contains(const Point<dim> &x) const
 {
   const std::vector<Side<dim>> sides = sides_of(*this);
+  if constexpr (dim == 2)
+    if (mesh)
+      return is_inside(sides, x, 2e-10 * radius());
   return std::all_of(sides.begin(), sides.end(),
                      [&](const Side<dim> &side)
-                     { return side.normal(x) * (x - side.ends[0]) <= 2e-10 * radius(); });
+                     { return side.outward * (x - side.pieces[0][0]) <= 2e-10 * radius(); });
 }
 
-std::array<Corner, 4> corners_of(const Geometry<2> &geometry)
+namespace
 {
-  std::array<Corner, 4> result;
+std::vector<Corner> corners_of_mesh(const Geometry<2> &geometry)
+{
+  std::map<unsigned int, std::array<Tensor<1, 2>, 2>> ways; // into a vertex and out of it
+  const auto &vertices = geometry.mesh->vertices;
+  for (const CoarseMesh::Edge &edge : geometry.mesh->edges)
+    if (edge.boundary != CoarseMesh::inside)
+      for (const unsigned int end : {0, 1})
+        ways[edge.vertices[end]][1 - end] =
+            edge.curve ? edge.curve.derivative(end)
+                       : vertices[edge.vertices[1]] - vertices[edge.vertices[0]];
+  std::vector<Corner> result;
+  for (const auto &[vertex, way] : ways)
+  {
+    const double turn = std::atan2(way[0][0] * way[1][1] - way[0][1] * way[1][0], way[0] * way[1]);
+    if (std::abs(turn) > 1e-6)
+      result.push_back({vertices[vertex], 180 - turn * 180 / numbers::PI});
+  }
+  return result;
+}
+} // namespace
+
+std::vector<Corner> corners_of(const Geometry<2> &geometry)
+{
+  if (geometry.mesh)
+    return corners_of_mesh(geometry);
+  std::vector<Corner> result(4);
   for (unsigned int c = 0; c < result.size(); ++c)
   {
     // Neighbours differ in one bit of the lexicographic number.
@@ -169,105 +270,34 @@ std::vector<Point<dim>> unit_grid(const unsigned int n)
 }
 } // namespace
 
-template <int dim>
-std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
-{
-  std::vector<Point<dim>> points = unit_grid<dim>(16);
-  for (Point<dim> &point : points)
-    point = geometry.point(point);
-  return points;
-}
-
 namespace
 {
-/** @p n + 1 equidistant points, both ends exactly, for conditions that meet there. */
-template <int dim>
-std::vector<Point<dim>> sample_segment(const Point<dim> &a, const Point<dim> &b,
-                                       const unsigned int n)
+/** Likewise in each cell, some hundred in all; of thousands of cells every so many. */
+std::vector<Point<2>> sample_mesh(const CoarseMesh &mesh)
 {
-  std::vector<Point<dim>> points;
-  for (unsigned int i = 0; i < n; ++i)
-    points.push_back(a + (double(i) / n) * (b - a));
-  points.push_back(b);
+  const unsigned int n = mesh.cells.size() > 64 ? 2 : mesh.cells.size() > 16 ? 4 : 8;
+  std::vector<Point<2>> points;
+  const EdgeCurves curves(mesh);
+  for (std::size_t c = 0; c < mesh.cells.size(); c += 1 + mesh.cells.size() / 4000)
+  {
+    const BlendedCell cell(curves, c);
+    for (const Point<2> &unit : unit_grid<2>(n))
+      points.push_back(cell.point(unit[0], unit[1]));
+  }
   return points;
 }
 } // namespace
 
 template <int dim>
-std::vector<Point<dim>> Side<dim>::sample() const
+std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
 {
-  std::vector<Point<dim>> points;
-  for (const Piece &piece : pieces)
-  {
-    const auto first = sample_segment(piece[0], piece[n_corners - 2], dim == 2 ? 0 : 16),
-               last = sample_segment(piece[1], piece[n_corners - 1], dim == 2 ? 0 : 16);
-    for (unsigned int i = 0; i < first.size(); ++i)
-      for (const Point<dim> &point : sample_segment(first[i], last[i], dim == 2 ? 32 : 16))
-        points.push_back(point);
-  }
-  return points;
-}
-
-template <int dim>
-Tensor<1, dim> Side<dim>::normal(const Point<dim> &) const
-{
-  return outward; // of a flat side everywhere
-}
-
-template <int dim>
-Tensor<1, dim> Side<dim>::tangent(const Point<dim> &x) const
-{
-  Tensor<1, dim> result;
   if constexpr (dim == 2)
-    result = -cross_product_2d(normal(x));
-  else
-    Assert(false, ExcMessage("A side in space has two tangents."));
-  return result;
-}
-
-template <int dim>
-std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
-{
-  const Point<dim> centre = geometry.centre();
-  std::vector<Side<dim>> sides(GeometryInfo<dim>::faces_per_cell);
-  for (unsigned int f = 0; f < sides.size(); ++f)
-  {
-    Side<dim> &side = sides[f];
-    side.axis = GeometryInfo<dim>::unit_normal_direction[f];
-    for (unsigned int v = 0; v < side.n_corners; ++v)
-      side.ends[v] = geometry.corners[GeometryInfo<dim>::face_to_cell_vertices(f, v)];
-    side.pieces = {side.ends};
-    const Tensor<1, dim> along = side.ends[1] - side.ends[0];
-    if constexpr (dim == 2)
-      side.outward = cross_product_2d(along) / along.norm();
-    else
-    {
-      const Tensor<1, dim> across = side.ends[2] - side.ends[0];
-      side.outward = cross_product_3d(along / along.norm(), across / across.norm());
-      side.outward /= side.outward.norm();
-    }
-    if (side.outward * (side.ends[0] - centre) < 0)
-      side.outward *= -1.;
-  }
-  return sides;
-}
-
-template <int dim>
-std::vector<Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two)
-{
-  std::vector<Point<dim>> result;
-  for (const auto &a : one.pieces)
-    for (const auto &b : two.pieces)
-    {
-      std::vector<Point<dim>> corners;
-      for (const Point<dim> &corner : a)
-        if (std::find(b.begin(), b.end(), corner) != b.end())
-          corners.push_back(corner);
-      if (corners.size() == 2)
-        corners = sample_segment(corners[0], corners[1], 16);
-      result.insert(result.end(), corners.begin(), corners.end());
-    }
-  return result;
+    if (geometry.mesh)
+      return sample_mesh(*geometry.mesh);
+  std::vector<Point<dim>> points = unit_grid<dim>(16);
+  for (Point<dim> &point : points)
+    point = geometry.point(point);
+  return points;
 }
 
 template <int dim>
@@ -319,12 +349,6 @@ template Corners<2> box_corners(const Point<2> &, const Point<2> &);
 template Corners<3> box_corners(const Point<3> &, const Point<3> &);
 template struct Geometry<2>;
 template struct Geometry<3>;
-template struct Side<2>;
-template struct Side<3>;
-template std::vector<Side<2>> sides_of(const Geometry<2> &);
-template std::vector<Side<3>> sides_of(const Geometry<3> &);
-template std::vector<Point<2>> common_points(const Side<2> &, const Side<2> &);
-template std::vector<Point<3>> common_points(const Side<3> &, const Side<3> &);
 template std::vector<Point<2>> sample_body(const Geometry<2> &);
 template std::vector<Point<3>> sample_body(const Geometry<3> &);
 } // namespace hpvi

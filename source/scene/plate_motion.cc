@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <deal.II/base/quadrature_lib.h>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -25,12 +27,22 @@ PlateMotion::PlateMotion(const Scene<2> &scene, const BoundaryCondition<2> &boun
 {
   const Side<2> side = sides_of(scene)[boundary.id];
   double length = 0;
-  for (const Side<2>::Piece &piece : side.pieces)
-  {
-    const double own = piece[0].distance(piece[1]);
-    mean += own * centre_of<2>(piece);
-    length += own;
-  }
+  const QGauss<1> gauss(16);
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    if (!side.curves.empty() && side.curves[k])
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = gauss.point(q)[0],
+                     own = gauss.weight(q) * side.curves[k].derivative(s).norm();
+        mean += own * side.curves[k].point(s);
+        length += own;
+      }
+    else
+    {
+      const double own = side.pieces[k][0].distance(side.pieces[k][1]);
+      mean += own * centre_of<2>(side.pieces[k]);
+      length += own;
+    }
   if (length > 0) // parts have left something of the side
     mean /= length;
   for (const Side<2>::Piece &piece : side.pieces)

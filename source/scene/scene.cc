@@ -118,19 +118,42 @@ double Loading<dim>::time(const unsigned int step) const
 // ---------------------------------------------------------------- the scene
 
 template <int dim>
-Scene<dim>::Scene() : materials(1), boundaries(GeometryInfo<dim>::faces_per_cell)
+Scene<dim>::Scene() : materials(1)
 {
-  const std::vector<std::string> names = boundary_names(dim);
+  name_boundaries();
+  if (dim == 3) // as in a file
+  {
+    adaptivity.method = Method::hap2;
+    adaptivity.start_degree = own_start_degree(Method::hap2);
+  }
+}
+
+template <int dim>
+types::material_id Scene<dim>::material_of_coarse_cell(const Point<dim> &centre,
+                                                       const unsigned int cell) const
+{
+  if (geometry.mesh && !material_of_surface.empty())
+    if (const auto own = material_of_surface[geometry.mesh->cells[cell].surface])
+      return *own;
+  return material_at ? material_at(centre) : 0;
+}
+
+template <int dim>
+bool Scene<dim>::has_material_places() const
+{
+  return material_at || !material_of_surface.empty();
+}
+
+template <int dim>
+void Scene<dim>::name_boundaries()
+{
+  const std::vector<std::string> names = geometry.boundary_names();
+  boundaries.assign(names.size(), {});
   for (types::boundary_id b = 0; b < boundaries.size(); ++b)
   {
     boundaries[b].name = names[b];
     boundaries[b].id = b;
     boundaries[b].side = b;
-  }
-  if (dim == 3) // as in a file
-  {
-    adaptivity.method = Method::hap2;
-    adaptivity.start_degree = own_start_degree(Method::hap2);
   }
 }
 
@@ -229,7 +252,7 @@ double Scene<dim>::hoop_strain(const types::material_id material, const Tensor<1
 template <int dim>
 bool Scene<dim>::has_parts() const
 {
-  return boundaries.size() > GeometryInfo<dim>::faces_per_cell;
+  return boundaries.size() > geometry.boundary_names().size();
 }
 
 template <int dim>
@@ -298,6 +321,8 @@ std::string Scene<dim>::no_error_bound() const
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
+  if (geometry.has_curves())
+    return "cells have curved edges, and stresses in equilibrium are known on straight ones";
   if (!geometry.has_affine_cells() && !bound_on_distorted_cells)
     return "cells are no parallelograms, and Error/Bound on distorted cells is false";
   return {};

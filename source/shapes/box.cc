@@ -31,22 +31,15 @@ std::optional<ShapeFlaw> flaw_of_box(const Corners<dim> &corners)
 template <int dim>
 ShapeKind<dim> box_shape()
 {
-  const PointWords<dim> words;
-  const auto point = std::make_shared<Patterns::List>(Patterns::Double(), dim, dim, ",");
-  const std::string wanted = words.number + " finite numbers \"" + words.axes + "\"",
-                    origin = dim == 2 ? "0, 0" : "0, 0, 0", ones = dim == 2 ? "1, 1" : "1, 1, 1";
   return {Shape::box,
           "box",
           "box: given by Lower corner and Upper corner.",
-          {{"Geometry", "Lower corner", origin, point, wanted,
-            "Corner of the box with the smallest coordinates, " + words.axes + " [length]."},
-           {"Geometry", "Upper corner", ones, point, wanted,
-            "Corner of the box with the largest coordinates, " + words.axes + " [length]."}},
+          {lower_corner_entry<dim>(), upper_corner_entry<dim>()},
           "Upper corner",
-          [](const Parameters &parameters)
+          [](const Parameters &parameters, Geometry<dim> &geometry)
           {
-            return box_corners(parameters.points<dim>("Geometry", "Lower corner")[0],
-                               parameters.points<dim>("Geometry", "Upper corner")[0]);
+            geometry.corners = box_corners(parameters.points<dim>("Geometry", "Lower corner")[0],
+                                           parameters.points<dim>("Geometry", "Upper corner")[0]);
           },
           flaw_of_box<dim>};
 }

@@ -10,14 +10,14 @@ using namespace dealii;
 
 namespace
 {
-Corners<2> read_corners(const Parameters &parameters)
+void read_corners(const Parameters &parameters, Geometry<2> &geometry)
 {
   const std::vector<Point<2>> around = parameters.points<2>("Geometry", "Corners");
   if (around.size() != 4)
     parameters.reject("Geometry", "Corners",
                       "does not give four corners; a quadrilateral needs \"x, y; x, y; x, y; "
                       "x, y\", counterclockwise from the bottom left");
-  return quadrilateral_corners({{around[0], around[1], around[2], around[3]}});
+  geometry.corners = quadrilateral_corners({{around[0], around[1], around[2], around[3]}});
 }
 
 /** Of length 1, without squares, which over- and underflow. */

@@ -31,7 +31,7 @@ Warnings sharp_corners(const Geometry<2> &geometry)
 {
   std::string list;
   for (const Corner &corner : corners_of(geometry))
-    if (corner.degrees < 5 || corner.degrees > 175)
+    if (corner.degrees < 5 || (corner.degrees > 175 && !geometry.has_mesh()))
       list +=
           line(list.empty() ? "" : ", ", text(corner.degrees, 4), " degrees at (", corner.at, ")");
   if (list.empty())
@@ -40,6 +40,26 @@ Warnings sharp_corners(const Geometry<2> &geometry)
            "the body has corners of " + list +
                ": distorted elements enlarge the error indicator and round-off; cut the body in "
                "another way or compare with a finer mesh"}};
+}
+
+/** Where two edges of a cell are almost one line or one smooth curve. */
+Warnings flat_corners(const Geometry<2> &geometry)
+{
+  if (!geometry.mesh)
+    return {};
+  const CellFlaw worst = worst_cell(*geometry.mesh);
+  if (worst.angle <= 170)
+    return {};
+  return {
+      {WarningKind::corners, worst.angle,
+       line("a cell has a corner of ", text(worst.angle, 5), " degrees at (", worst.at,
+            "): accuracy suffers there; let the mesh have another vertex nearby, so that no cell "
+            "has two edges on one smooth line")}};
+}
+
+Warnings flat_corners(const Geometry<3> &)
+{
+  return {};
 }
 
 /** Boxes. */
@@ -110,8 +130,9 @@ Warnings locking(const Scene<dim> &scene, const BodyState<dim> &body)
 template <int dim>
 Warnings mesh_warnings(const Scene<dim> &scene, const BodyState<dim> &body)
 {
-  return joined(elongated_elements(body), sharp_corners(scene.geometry), large_strain(body),
-                large_rotation(body), locking(scene, body));
+  return joined(elongated_elements(body), sharp_corners(scene.geometry),
+                flat_corners(scene.geometry), large_strain(body), large_rotation(body),
+                locking(scene, body));
 }
 
 template Warnings mesh_warnings(const Scene<2> &, const BodyState<2> &);

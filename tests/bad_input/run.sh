@@ -3,82 +3,10 @@
 #
 # usage: run.sh HPVI
 #
-# Every bad scene must end with exit status 1 and exactly one line on stderr that names file, entry,
-# value and remedy, and must write nothing. Each call below is one row:
-#
-#   invalid WORD... -- ENTRY=VALUE...   base.prm with these entries overridden
-#   broken FILE WORD...                 a file that is bad by itself
-#   refused WORD... -- ARGUMENT...      any other command line
-#
-# Every WORD must occur in the line.
+# A table of bad input, as rows.sh says.
 
-if [ $# -ne 1 ] || [ ! -x "$1" ]; then
-  echo "usage: $0 HPVI" >&2
-  exit 2
-fi
-hpvi=$(realpath "$1")
-scenes=$(realpath "$(dirname "$0")")
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-mkdir "$scratch/empty"
-cd "$scratch/empty" || exit 2
-rows=0
-failures=0
-
-complain() { # ROW PROBLEM
-  echo "FAILED: $1: $2" >&2
-  sed 's/^/  stderr: /' "$scratch/stderr" >&2
-  failures=$((failures + 1))
-}
-
-# Run hpvi with the arguments; $1 is an array's name that holds the words to look for.
-check() {
-  local -n expected=$1
-  shift
-  local status word row="hpvi $*"
-  rows=$((rows + 1))
-  timeout 60 "$hpvi" "$@" >"$scratch/stdout" 2>"$scratch/stderr"
-  status=$?
-  [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
-  [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || complain "$row" "stderr does not hold one line"
-  for word in "${expected[@]}"; do
-    grep -qF -- "$word" "$scratch/stderr" || complain "$row" "stderr does not say: $word"
-  done
-  ! grep -q "internal error" "$scratch/stderr" || complain "$row" "an internal error"
-  ! LC_ALL=C grep -q '[[:cntrl:]]' "$scratch/stderr" || complain "$row" "control characters on stderr"
-  [ ! -s "$scratch/stdout" ] || complain "$row" "something on stdout"
-  [ -z "$(ls -A)" ] || complain "$row" "files were written: $(ls -A)"
-}
-
-invalid() {
-  local words=("base.prm") arguments=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
-  for override in "$@"; do
-    arguments+=(--set "$override")
-  done
-  check words --validate "$scenes/base.prm" "${arguments[@]}"
-}
-
-# Validation and a real run share their checks; the run must not have begun to write.
-broken() {
-  local words=("$@")
-  check words --validate "$scenes/$1"
-  check words "$scenes/$1"
-}
-
-refused() {
-  local words=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
-  check words "$@"
-}
+base=base.prm
+source "$(dirname "$0")/rows.sh"
 
 # --- materials and parts of sides, which scenes name themselves
 invalid "Material a.b" "is no name" "letters" -- "Material a.b/Where=x"
@@ -104,7 +32,7 @@ invalid "Boundary foot/Where" "is missing" -- "Boundary foot/On=top"
 invalid "Boundary foot/Where" "positive nowhere on top" -- "Boundary foot/On=top" "Boundary foot/Where=x - 100"
 invalid "Boundary toe/Where" "overlaps Boundary foot/Where" -- "Boundary foot/On=top" "Boundary foot/Where=1" "Boundary toe/On=top" "Boundary toe/Where=1"
 invalid "Boundary Top" "differs from Boundary top in case" -- "Boundary Top/On=top" "Boundary Top/Where=1"
-invalid "Boundary foot/Where" "inside a face" "Subdivisions" -- "Boundary foot/On=top" "Boundary foot/Where=x - 0.3" "Geometry/Shape=quadrilateral" "Geometry/Corners=0, 0; 4, 0; 4, 4; 0, 4"
+invalid "Boundary foot/Where" "inside a face" "Subdivisions" -- "Boundary foot/On=top" "Boundary foot/Where=x - 0.3" "Geometry/Shape=quadrilateral" "Geometry/Upper corner=1, 1" "Geometry/Corners=0, 0; 4, 0; 4, 4; 0, 4"
 invalid "Boundary foot/Displacement" "stands beside Contact = unilateral" -- "Boundary foot/On=top" "Boundary foot/Where=1" "Boundary foot/Contact=unilateral" "Boundary foot/Displacement=0; 0"
 invalid "Boundary top/Pressure" "component y" -- "Boundary top/Traction=" "Boundary top/Displacement=free; 0" "Boundary top/Pressure=1"
 invalid "Boundary top/Shear" "component x" -- "Boundary top/Traction=" "Boundary top/Displacement=0; free" "Boundary top/Shear=x+1"
@@ -310,7 +238,7 @@ invalid "Dimension = 1" "give 2 or 3" -- "Dimension=1"
 invalid "Title = a # b" "remove '#'" -- "Title=a # b"
 
 # --- geometry
-invalid "Geometry/Shape = triangle" "box or quadrilateral" -- "Geometry/Shape=triangle"
+invalid "Geometry/Shape = triangle" "give box, quadrilateral, ring sector, half disc, plate with hole or file" -- "Geometry/Shape=triangle"
 invalid "Geometry/Upper corner = 0, 4" "lower corner (0, 0)" "enlarge" -- "Geometry/Upper corner=0, 4"
 invalid "Geometry/Upper corner = nan, 4" "two finite numbers" -- "Geometry/Upper corner=nan, 4"
 invalid "Geometry/Upper corner = 4" "two finite numbers" -- "Geometry/Upper corner=4"
@@ -323,9 +251,9 @@ invalid "Geometry/Graded towards = 5, 0" "(5, 0) outside the body" "points of th
   "Geometry/Graded towards=5, 0" "Geometry/Grading levels=2"
 invalid "Geometry/Grading levels = 2" "no point" "Graded towards" -- "Geometry/Grading levels=2"
 invalid "Geometry/Corners" "has no meaning for a box" "Shape = quadrilateral" -- "Geometry/Corners=0,0; 4,0; 4,4; 0,4"
-invalid "Geometry/Corners = " "four corners" "counterclockwise" -- "Geometry/Shape=quadrilateral"
+invalid "Geometry/Corners = " "four corners" "counterclockwise" -- "Geometry/Shape=quadrilateral" "Geometry/Upper corner=1, 1"
 not_convex() {
-  invalid "Geometry/Corners = $1" "not convex at $2" "counterclockwise" -- "Geometry/Shape=quadrilateral" "Geometry/Corners=$1"
+  invalid "Geometry/Corners = $1" "not convex at $2" "counterclockwise" -- "Geometry/Shape=quadrilateral" "Geometry/Upper corner=1, 1" "Geometry/Corners=$1"
 }
 not_convex "0,0; 4,0; 1,1; 0,4" "(1, 1)"
 not_convex "0,0; 4,0; 4,0; 0,4" "(4, 0)"
@@ -334,7 +262,7 @@ not_convex "0,0; 0,4; 4,4; 4,0" "(0, 0)"
 not_convex "0,0; 4,4; 4,0; 0,4" "(4, 4)"
 
 has_angle() {
-  invalid "Geometry/Corners = $1" "an angle of $2" "between 0.1 and 179.9" -- "Geometry/Shape=quadrilateral" "Geometry/Corners=$1"
+  invalid "Geometry/Corners = $1" "an angle of $2" "between 0.1 and 179.9" -- "Geometry/Shape=quadrilateral" "Geometry/Upper corner=1, 1" "Geometry/Corners=$1"
 }
 has_angle "0,0; 4,0; 8,0.0066; 4,0.0066" "0.094538 degrees at (0, 0)"
 has_angle "0,0; 4,0; 4,4; 1.9999,2.0001" "179.994 degrees at (1.9999, 2.0001)"
@@ -397,7 +325,7 @@ invalid "rigid-body motion" "translation in y" "prescribe" -- "${frictionless[@]
 invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionless[@]}" \
   "Boundary right/Displacement=free; 0" "Boundary bottom/Displacement=0; free"
 invalid "rigid-body motion" "translation along (1, 1)" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound=" \
-  "Geometry/Shape=quadrilateral" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
+  "Geometry/Shape=quadrilateral" "Geometry/Upper corner=1, 1" "Geometry/Corners=0,0; 4,4; 0,8; -4,4"
 
 # --- contact that opens, friction alone
 open=("Boundary bottom/Contact=unilateral")

@@ -93,6 +93,7 @@ struct RandomMesh
       cell->set_material_id(cell->active_cell_index() % scene.materials.size());
     refine_at_random(mesh, levels, random);
     degrees = random_degrees(mesh, lowest, highest, random);
+    set_edge_degrees(mesh, degrees);
   }
 };
 

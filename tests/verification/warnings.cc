@@ -128,6 +128,8 @@ TEST(Warnings, ShippedScenesWhoseStrainsAreNotSmallAreListed)
   for (const auto &file : std::filesystem::directory_iterator("prm"))
   {
     const std::string name = file.path().stem().string();
+    if (file.path().extension() != ".prm") // a directory of meshes
+      continue;
     if (name == "dome" || name == "slab") // in space
       continue;
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "2"}});

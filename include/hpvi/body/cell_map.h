@@ -6,20 +6,32 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <hpvi/body/curved_edges.h>
+
 #include <array>
+#include <memory>
 
 namespace hpvi
 {
-/** The d-linear map from the reference cell to a cell with straight edges. */
+/**
+ * The map from the reference cell: d-linear where edges are straight; in the plane the blend of four edges (W. J. Gordon,
+ * C. A. Hall, DOI 10.1007/BF01436298) where one is curved.
+ */
 template <int dim>
 class CellMap
 {
 public:
   using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
 
-  explicit CellMap(const Vertices &vertices);
+  /** @p bows: of curved edges, in the plane; null: all are straight. */
+  explicit CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBows> bows = nullptr);
 
   const Vertices &vertices() const; ///< in deal.II's order
+
+  bool is_curved() const; ///< is any edge?
+
+  /** Of a curved cell in the plane, by face; none of the others. */
+  const EdgeBows &bows() const;
 
   /** Is the map affine, so that every derivative of it is constant? */
   bool is_affine() const;
@@ -35,14 +47,25 @@ public:
   /** Outer unit normal of a face at a point of it. */
   dealii::Tensor<1, dim> normal(unsigned int face_no, const dealii::Point<dim> &reference) const;
 
+  /**
+   * That of the curve that an edge follows, at a Gauss-Lobatto parameter of the edge, where it meets the curve; of a straight edge
+   * as normal(). Between cells edges have a kink, which gets smaller with their degree; the curve has none.
+   */
+  dealii::Tensor<1, dim> curve_normal(unsigned int face_no,
+                                      const dealii::Point<dim> &reference) const;
+
   /** ds of a face over that of the reference face, at a point of it: the length of a straight edge. */
   double face_measure(unsigned int face_no, const dealii::Point<dim> &reference) const;
 
-  double longest_edge() const; ///< h_K [length]
+  /** The area of a face [length^(dim-1)], in the plane its length along the curve. */
+  double face_area(unsigned int face_no) const;
+
+  double longest_edge() const; ///< h_K, along chords [length]
   double shortest_edge() const;
 
 private:
   Vertices corners;
+  std::shared_ptr<const EdgeBows> curved;
   bool affine;
   dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
 };
@@ -64,7 +87,10 @@ CellMap<dim> map_of(const CellIterator &cell)
   typename CellMap<dim>::Vertices vertices;
   for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
     vertices[v] = cell->vertex(v);
-  return CellMap<dim>(vertices);
+  if constexpr (dim == 2)
+    return CellMap<dim>(vertices, bows_of(cell));
+  else
+    return CellMap<dim>(vertices);
 }
 } // namespace hpvi
 

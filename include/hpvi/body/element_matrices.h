@@ -71,7 +71,7 @@ public:
    * for each material. In an axisymmetric body it does not change along the axis alone: the class holds the radius
    * and the size, where it has nothing else to say of vertex 0.
    */
-  using Class = std::array<long, 2 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
+  using Class = std::array<long, 3 + dim * dealii::GeometryInfo<dim>::vertices_per_cell>;
   Class congruence_class(const CellMap<dim> &map, unsigned int degree,
                          dealii::types::material_id material) const;
 

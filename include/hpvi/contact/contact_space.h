@@ -2,6 +2,7 @@
 #ifndef hpvi_contact_space_h
 #define hpvi_contact_space_h
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>
 #include <hpvi/body/displacement_space.h>
@@ -61,6 +62,12 @@ struct ContactFace
   ContactFrame<dim>
   frame(double s) const; ///< its measure is that of the full turn, if there is one
   dealii::Point<dim> point(double s) const; ///< x there
+
+  /** At a Gauss-Lobatto node with the normal of the curve that the edge follows: neighbours agree on it. */
+  ContactFrame<dim> node_frame(double s) const;
+
+  /** int psi_i of the Lagrange basis at Gauss points of the face [length^(dim-1)]. */
+  double basis_integral(const dealii::QGauss<1> &points, unsigned int i) const;
 
   double friction_bound(const dealii::Point<dim> &x) const;       ///< FrictionLaw::bound_at()
   double friction_coefficient(const dealii::Point<dim> &x) const; ///< likewise

@@ -7,7 +7,7 @@
 namespace hpvi
 {
 /**
- * u_t along one straight contact boundary as a function of x [length], which outlives its mesh: where a
+ * u_t along one contact boundary as a function of x [length], which outlives its mesh: where a
  * load step begins to count slip. On every face of a mesh that descends from its own it is one
  * polynomial, of no higher degree, so that quadrature there loses nothing.
  */
@@ -25,14 +25,22 @@ public:
   double value(const dealii::Point<dim> &x, unsigned int component = 0) const override;
 
 private:
-  /** One face, along the tangent of the boundary. */
+  /** One face, along the tangent of the boundary; where that turns, a place of its own. */
   struct Piece
   {
     double begin, end;         ///< distance from the origin along the tangent
     std::vector<double> nodes; ///< in [0,1]
     std::vector<double> u_t;   ///< there
+    std::array<dealii::Point<dim>, 2> ends;
+    CurvePiece curve; ///< between them; none: straight
+
+    double nearest(const dealii::Point<dim> &x) const; ///< in [0,1]
+    double value(double s) const;
   };
 
+  const Piece &piece_at(const dealii::Point<dim> &x) const;
+
+  bool is_straight = true; ///< all along one line
   dealii::Point<dim> origin;
   dealii::Tensor<1, dim> tangent;
   std::vector<Piece> pieces; ///< in order

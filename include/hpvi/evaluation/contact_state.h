@@ -63,6 +63,22 @@ struct ContactZone
 {
   ContactMode mode;
   dealii::Point<dim> begin, end;
+  double
+      length; ///< from one to the other, along edges that turn by what their points stand for [length]
+};
+
+/** Edges of a contact boundary in the plane, each of which begins where the one before ends. */
+template <int dim>
+struct ContactChain
+{
+  dealii::Point<dim> begin, end;
+  unsigned int first_point, last_point; ///< of ContactState::points; the last one is not its own
+
+  template <class Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &begin &end &first_point &last_point;
+  }
 };
 
 /** What happens on one contact boundary. */
@@ -85,8 +101,9 @@ struct ContactState
    */
   std::vector<dealii::Point<dim>> transitions;
   std::vector<ContactZone<dim>>
-      zones;                   ///< between the ends of each piece, no two alike in a row there
-  double normal_resultant = 0; ///< int T_n [stress length^(dim-1)]
+      zones; ///< between the ends of each piece, no two alike in a row there
+  std::vector<ContactChain<dim>> chains; ///< in the plane, of this process
+  double normal_resultant = 0;           ///< int T_n [stress length^(dim-1)]
   Tangential<dim> friction_resultant{};  ///< int T_t = -int z_N, likewise
   dealii::Tensor<1, dim> friction_force; ///< int T_t t, likewise
   double absolute_friction = 0;          ///< int |T_t|, likewise
@@ -103,7 +120,7 @@ struct ContactState
   template <class Archive>
   void serialize(Archive &archive, unsigned int)
   {
-    archive &boundary &area &open_area &slipping_area &begin &end &normal_resultant
+    archive &boundary &area &open_area &slipping_area &begin &end &chains &normal_resultant
         &friction_resultant &friction_force &absolute_friction &open_friction &tension
             &highest_tension &highest_tension_point &highest_pressure &highest_pressure_point
                 &deepest_penetration &deepest_penetration_point;

@@ -3,6 +3,7 @@
 #define hpvi_axial_force_h
 
 #include <hpvi/base/formatting.h>
+#include <hpvi/evaluation/contact_state.h>
 #include <hpvi/evaluation/equilibrium.h>
 
 #include <algorithm>
@@ -39,6 +40,13 @@ template <int dim>
 std::string axial_force_in_words(const dealii::Tensor<1, dim> &force, const double scale)
 {
   return "axial force " + text(std::abs(force[1]) > 1e-12 * scale ? force[1] : 0., 6);
+}
+/** Beside which a force is round-off: around a closed curve tractions balance each other. */
+template <int dim>
+double force_scale(const Equilibrium<dim> &equilibrium, const ContactState<dim> &state)
+{
+  return std::max(largest_force(equilibrium),
+                  std::abs(state.normal_resultant) + state.absolute_friction);
 }
 } // namespace hpvi
 

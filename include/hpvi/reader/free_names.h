@@ -13,6 +13,10 @@ struct FreeNames
 {
   std::vector<std::string> parts;     ///< `Boundary NAME` that says On which side it lies
   std::vector<std::string> materials; ///< `Material NAME`
+  std::vector<std::string> sides = {"left", "right", "bottom",
+                                    "top"}; ///< of the body, by boundary id: each has a section
+  bool is_from_file = false; ///< is the mesh one of a file, whose edges may follow curves?
+  std::vector<std::string> interfaces = {}; ///< of such a mesh, curves inside
 };
 
 /**

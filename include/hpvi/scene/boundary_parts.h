@@ -18,15 +18,21 @@ template <int dim>
 struct CoarseFace
 {
   typename Side<dim>::Piece corners;
-  dealii::Point<dim> inside; ///< the centre of its cell
+  dealii::Point<dim> inside;              ///< the centre of its cell
+  CurvePiece curve = {};                  ///< in the plane, where it is curved
+  unsigned int cell = CoarseMesh::inside; ///< of a mesh, its cell
 };
+
+/** Its middle in the plane, along its curve; in space the mean of its corners. */
+template <int dim>
+dealii::Point<dim> middle_of(const CoarseFace<dim> &face);
 
 template <int dim>
 std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, unsigned int side);
 
 /**
  * By boundary id, the sides of the body without their parts and then these: in the plane each consists of its
- * longest segments, in space of faces of the coarse mesh. Without parts as sides_of() of the geometry.
+ * longest segments, in space and of a mesh of faces of the coarse mesh. Without parts as sides_of() of the geometry.
  */
 template <int dim>
 std::vector<Side<dim>> sides_of(const Scene<dim> &scene);

@@ -7,7 +7,10 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/vector.h>
 
+#include <hpvi/scene/coarse_mesh.h>
+
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +22,11 @@ std::vector<std::string> boundary_names(int dim);
 enum class Shape
 {
   box,
-  quadrilateral
+  quadrilateral,
+  ring_sector,
+  half_disc,
+  plate_with_hole,
+  file
 };
 
 template <int dim>
@@ -32,7 +39,9 @@ Corners<dim> box_corners(const dealii::Point<dim> &lower, const dealii::Point<di
 /** The corners of a quadrilateral, given counterclockwise from the bottom left. */
 Corners<2> quadrilateral_corners(const std::array<dealii::Point<2>, 4> &around);
 
-/** The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, then graded. */
+/**
+ * The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, or cells one by one; then graded.
+ */
 template <int dim>
 struct Geometry
 {
@@ -40,6 +49,14 @@ struct Geometry
 
   /** The d-linear image of @p unit in [0,1]^dim. */
   dealii::Point<dim> point(const dealii::Point<dim> &unit) const;
+
+  /** Has it a mesh of its own in the place of a regular grid? */
+  bool has_mesh() const;
+
+  bool has_curves() const; ///< is any edge curved?
+
+  /** By boundary id. */
+  std::vector<std::string> boundary_names() const;
 
   /** Are all cells images of a square under an affine map? */
   bool has_affine_cells() const;
@@ -49,13 +66,18 @@ struct Geometry
   dealii::Point<dim> centre() const; ///< the mean of the corners
   bool contains(const dealii::Point<dim> &x) const; ///< up to round-off
 
+  double n_cells() const; ///< of the coarse mesh before it is graded
+
   /** All grid lines across @p direction, where they cut that axis of the unit cube, from 0 to 1. */
   std::vector<double> grid_lines(unsigned int direction) const;
 
-  unsigned int n_cells(unsigned int direction) const; ///< of the coarse mesh before it is graded
+  /** Of a grid in one direction; of a mesh the root of their number. */
+  unsigned int n_cells(unsigned int direction) const;
 
   Shape shape = Shape::box;
-  /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right). */
+  /** In the place of corners, subdivisions and cuts; null: these make a grid. In the plane. */
+  std::shared_ptr<const CoarseMesh> mesh;
+  /** Corners in deal.II's lexicographic order (bottom left, bottom right, top left, top right); of a mesh its bounding box. */
   Corners<dim> corners;
   std::array<unsigned int, dim> subdivisions;
   /** Grid lines beside the equidistant ones, for what ends between these: in (0,1), ascending. */
@@ -65,7 +87,7 @@ struct Geometry
   unsigned int grading_levels = 0;
 };
 
-/** A flat side of the body: an edge in the plane, a parallelogram in space. */
+/** A named part of the boundary: of a grid a flat side, an edge in the plane, a parallelogram in space. */
 template <int dim>
 struct Side
 {
@@ -73,10 +95,12 @@ struct Side
 
   using Piece = std::array<dealii::Point<dim>, n_corners>; ///< its corners
 
-  Piece ends;
-  unsigned int axis; ///< direction of Geometry::subdivisions in which no cells stand along it
-  /** Of what it consists: one, unless boundaries are parts of sides; none where they take it all. */
+  /** Of what it consists: one, unless boundaries are parts of sides; none where they take it all; of a mesh its edges. */
   std::vector<Piece> pieces;
+  /** What pieces follow between their ends, piece by piece; empty: all are straight. */
+  std::vector<CurvePiece> curves;
+  unsigned int axis =
+      0; ///< of a grid: direction of Geometry::subdivisions in which no cells stand along it
 
   dealii::Tensor<1, dim> normal(const dealii::Point<dim> &x) const; ///< outer unit normal there
 
@@ -86,11 +110,18 @@ struct Side
   /** Equidistant points all over each piece, their corners exactly. */
   std::vector<dealii::Point<dim>> sample() const;
 
-private:
-  dealii::Tensor<1, dim> outward;
+  /** At s in [0,1] of a piece in the plane. */
+  dealii::Point<dim> point(unsigned int piece, double s) const;
 
-  template <int other_dim>
-  friend std::vector<Side<other_dim>> sides_of(const Geometry<other_dim> &geometry);
+  /** The outer unit normal of a piece in the plane at s in [0,1]. */
+  dealii::Tensor<1, dim> normal(unsigned int piece, double s) const;
+
+  double distance(unsigned int piece, const dealii::Point<dim> &x) const;
+
+  bool is_flat() const; ///< has it one normal?
+
+  /** Of a flat side; of pieces of a mesh nothing, they have their own. */
+  dealii::Tensor<1, dim> outward;
 };
 
 /** The mean of its corners. */
@@ -122,7 +153,8 @@ struct Corner
   double degrees;
 };
 
-std::array<Corner, 4> corners_of(const Geometry<2> &geometry);
+/** Where its boundary turns, of the angle inside the body; smooth curves have none. */
+std::vector<Corner> corners_of(const Geometry<2> &geometry);
 
 /** A displacement that strains nothing: `translation + rotation e_z x (x - centre)`. */
 template <int dim>

@@ -3,6 +3,7 @@
 #define hpvi_scene_h
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/scene/boundary_condition.h>
 #include <hpvi/scene/data_scale.h>
 #include <hpvi/scene/exact_solution.h>
 #include <hpvi/scene/friction_law.h>
@@ -24,72 +25,12 @@ namespace hpvi
 {
 class Parameters;
 
-/** What a plane below a boundary asks of it. */
-enum class Contact
-{
-  none,
-  bilateral,  ///< u_n = 0
-  unilateral, ///< u_n <= u_0, T_n <= 0, (u_n - u_0) T_n = 0
-  tangential  ///< nothing in the normal direction; friction alone acts
-};
-
 /** How `u_n <= u_0` is discretised; doc/contact.md compares the two. */
 enum class NormalContact
 {
   multiplier, ///< in the moments of a multiplier lambda_n >= 0 of degree p + offset
   nodes,      ///< at the Gauss-Lobatto points of each edge, the thesis's set (3.67)
   automatic   ///< nodes where they are offered, see Scene::normal_contact()
-};
-
-/** An elastic foundation, glued to the body: the traction -k_n u_n n - k_t u_t on it, whichever way it moves. */
-template <int dim>
-struct Spring
-{
-  Expression<dim> normal, tangential; ///< k_n, k_t >= 0 [stress/length]; null: zero
-
-  explicit operator bool() const
-  {
-    return normal || tangential;
-  }
-
-  /** `k_n n n' + k_t (I - n n')` there: -traction = stiffness u [stress/length]. */
-  dealii::Tensor<2, dim> stiffness(const dealii::Point<dim> &x,
-                                   const dealii::Tensor<1, dim> &n) const;
-};
-
-/** Everything that a scene says about one named part of the boundary. */
-template <int dim>
-struct BoundaryCondition
-{
-  using Expression = hpvi::Expression<dim>;
-
-  std::string name;                  ///< left, right, bottom, top, front, back, or that of a part
-  dealii::types::boundary_id id = 0; ///< deal.II's number: the index into Scene::boundaries
-  unsigned int side = 0;             ///< id of the side of the body: its own, unless it is a part
-  Expression where;                  ///< a part has the faces of the side where this is positive
-  std::array<Expression, dim> displacement; ///< prescribed components u_D [length]; null: free
-  Load<dim> traction;                       ///< components of G [stress]; null: zero
-  bool symmetry = false;                    ///< u_n = 0 without friction, a plane of symmetry
-  Spring<dim> spring;
-  std::optional<RigidPlate<dim>> plate;
-  Contact contact = Contact::none;
-  Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
-  FrictionLaw<dim> friction;
-  /** A unit vector d out of the body along which contact is measured, in the plane; nothing: the normal. */
-  std::optional<dealii::Tensor<1, dim>> contact_direction;
-
-  bool has_displacement() const; ///< is any component prescribed?
-  bool has_traction() const;     ///< is any component given?
-  bool exerts_forces() const;    ///< a support, plate, contact or springs?
-  bool has_contact() const;
-  bool is_unilateral() const;
-  /** u_n = 0 as a constraint of the space: symmetry; bilateral contact whose friction knows no pressure. */
-  bool holds_normal() const;
-  bool has_pressure()
-      const; ///< a multiplier of its own for T_n: unilateral, or friction knows the pressure
-  double gap_at(const dealii::Point<dim> &x) const; ///< u_0(x)
-  /** Along which contact and symmetry measure u_n, where the body has @p normal. */
-  dealii::Tensor<1, dim> held_direction(const dealii::Tensor<1, dim> &normal) const;
 };
 
 /** The methods of Chapter 5, and one that needs fewer unknowns and less time. */
@@ -269,6 +210,8 @@ struct Scene
   std::vector<Material> materials; ///< indexed by the material_id of a cell; at first one
   /** The index of the material at the centre of a coarse cell; null: 0 everywhere. */
   std::function<dealii::types::material_id(const dealii::Point<dim> &)> material_at;
+  /** Of a mesh, by CoarseMesh::Cell::surface; nothing: material_at says. */
+  std::vector<std::optional<dealii::types::material_id>> material_of_surface;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
   /** In its place, by material id, where materials differ in what they weigh. */
@@ -296,6 +239,15 @@ struct Scene
 
   /** Of check() the part on which functions rely that are tried on the body: its shape and materials. */
   void check_body() const;
+
+  /** That of a coarse cell with this centre and, of a mesh, this number. */
+  dealii::types::material_id material_of_coarse_cell(const dealii::Point<dim> &centre,
+                                                     unsigned int cell) const;
+
+  bool has_material_places() const; ///< is it said where materials are?
+
+  /** Makes boundaries of the names and numbers that those of the geometry have, all free. */
+  void name_boundaries();
 
   /** Throws InputError where there is none of this name. */
   BoundaryCondition<dim> &boundary(const std::string &name);

@@ -18,6 +18,17 @@ struct ShapeFlaw
   std::string entry, problem, value;
 };
 
+/** The value of an entry of the section `Geometry`, before it is checked. */
+using GeometryText = std::function<std::string(const std::string &entry)>;
+
+/** Names that say what sections of boundaries there may be. */
+struct SideNames
+{
+  std::vector<std::string> sides;           ///< by boundary id; an empty one has no section
+  std::vector<std::string> interfaces = {}; ///< of a mesh file
+  bool is_from_file = false;
+};
+
 /** One value of `Geometry/Shape`. */
 template <int dim>
 struct ShapeKind
@@ -27,8 +38,13 @@ struct ShapeKind
   std::string documentation; ///< a sentence for the entry, which begins with the name
   std::vector<Entry> entries;
   std::string size_entry; ///< of these the one to change where lengths are wrong
-  std::function<Corners<dim>(const Parameters &)> read;
-  std::function<std::optional<ShapeFlaw>(const Corners<dim> &)> flaw;
+  /** Sets corners or a mesh; subdivisions are there. */
+  std::function<void(const Parameters &, Geometry<dim> &)> read;
+  std::function<std::optional<ShapeFlaw>(const Corners<dim> &)>
+      flaw; ///< of a grid; null: of a mesh
+  /** Names of its sides by id; null: those of a grid. */
+  std::function<SideNames(const GeometryText &)> boundaries = nullptr;
+  bool takes_subdivisions = true;
 };
 
 /** All that a body in so many dimensions may have: the one list of them. */
@@ -39,6 +55,13 @@ const std::vector<ShapeKind<dim>> &shapes();
 template <int dim>
 const ShapeKind<dim> *find_shape(Shape shape);
 
+/** Of a shape without name "shape". */
+template <int dim>
+std::string name_of_shape(Shape shape);
+
+/** A body with a mesh of its own, for scenes by code: call Scene::name_boundaries() after that. */
+Geometry<2> geometry_of(Shape shape, const CoarseMesh &mesh);
+
 /** "two" numbers and "x, y", in space "three" and "x, y, z". */
 template <int dim>
 struct PointWords
@@ -46,9 +69,32 @@ struct PointWords
   const std::string number = dim == 2 ? "two" : "three", axes = dim == 2 ? "x, y" : "x, y, z";
 };
 
+/** Pairs of numbers, in space triples. */
+template <int dim>
+std::shared_ptr<const dealii::Patterns::PatternBase> point_pattern();
+
+inline const std::string too_many_cells =
+    "makes more than a million cells; start coarse and let the mesh adapt";
+
+/** Entries that shapes share. */
+Entry centre_entry();
+Entry radius_entry();
+template <int dim>
+Entry lower_corner_entry();
+template <int dim>
+Entry upper_corner_entry();
+
 /** The section `Geometry`. */
 template <int dim>
 std::vector<Entry> geometry_entries();
+
+/**
+ * Those of the body in @p file: of its entries and @p overrides, pairs "Section/Entry", "value", only those that say so
+ * are looked at.
+ */
+template <int dim>
+SideNames names_of_sides(const std::string &file,
+                         const std::vector<std::pair<std::string, std::string>> &overrides);
 
 /** What it says, but for the levels of grading, which are a number as others. */
 template <int dim>

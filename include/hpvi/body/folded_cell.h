@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_folded_cell_h
+#define hpvi_folded_cell_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/grid/tria.h>
+
+#include <optional>
+
+namespace hpvi
+{
+/** A Gauss point at which det J of a curved cell is not positive; nothing: all maps are one to one there. */
+std::optional<dealii::Point<2>> folded_cell(const dealii::Triangulation<2> &mesh);
+} // namespace hpvi
+
+#endif

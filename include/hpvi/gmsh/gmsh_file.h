@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_gmsh_file_h
+#define hpvi_gmsh_file_h
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** Elements by Gmsh's number of their type. */
+struct ElementKind
+{
+  const char *name; ///< for messages, in the plural; null: unknown
+  unsigned int dim;
+  unsigned int n_nodes; ///< 0 where elements of the kind are not read
+  unsigned int n_corners;
+};
+
+ElementKind element_kind(std::int64_t type);
+
+/** What stands in a mesh file of Gmsh: nodes and elements in its order, names of physical groups. */
+struct GmshFile
+{
+  using Group = std::pair<unsigned int, std::int64_t>; ///< dimension, tag
+
+  struct Node
+  {
+    std::int64_t tag;
+    dealii::Point<3> at;
+  };
+
+  struct Element
+  {
+    std::int64_t type;
+    std::int64_t group = 0; ///< tag of its physical group; 0: none
+    std::size_t line = 0;   ///< of the file
+    std::array<unsigned int, 9> nodes =
+        {}; ///< indices into nodes: corners, middles of edges, the centre
+  };
+
+  std::string version;
+  std::vector<Node> nodes;
+  std::vector<Element> elements; ///< but for points
+  std::map<Group, std::string> names;
+
+  /** In quotes, with the word curve or surface: of a group without a name its tag. */
+  std::string words(const Group &group) const;
+};
+
+/**
+ * Read the mesh file @p path of Gmsh, format 4.1, 4.0 or 2.2 in ASCII. Throws InputError of one line for one that is
+ * missing, binary, damaged, or has a curve or surface in two physical groups.
+ */
+GmshFile read_gmsh_file(const std::string &path);
+} // namespace hpvi
+
+#endif

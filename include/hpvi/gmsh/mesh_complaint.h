@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_mesh_complaint_h
+#define hpvi_mesh_complaint_h
+
+#include <cstddef>
+#include <string>
+
+namespace hpvi
+{
+/** The one line about a mesh file that is refused: file, what is wrong, remedy. */
+class MeshComplaint
+{
+public:
+  explicit MeshComplaint(const std::string &path);
+
+  [[noreturn]] void operator()(const std::string &problem_and_remedy) const;
+
+  /** Names a line of the file, counted from 1. */
+  [[noreturn]] void at(std::size_t line, const std::string &problem_and_remedy) const;
+
+  /** Throws it for a file that is damaged: the remedy is to make it anew. */
+  [[noreturn]] void damaged(std::size_t line, const std::string &problem) const;
+
+  /** The command that writes the file in a format which is read, for remedies. */
+  std::string rewriting() const;
+
+private:
+  const std::string file;
+};
+} // namespace hpvi
+
+#endif

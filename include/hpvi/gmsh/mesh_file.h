@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_mesh_file_h
+#define hpvi_mesh_file_h
+
+#include <hpvi/scene/coarse_mesh.h>
+
+#include <string>
+
+namespace hpvi
+{
+/**
+ * The body in the mesh file @p path of Gmsh: quadrilaterals of first or second order in z = 0, in format 4.1, 4.0 or
+ * 2.2, ASCII. Boundaries, interfaces and surfaces are physical groups in the order of their tags; one without a name
+ * is called by its tag.
+ *
+ * Edges of the boundary stand loop by loop, each where the one before it ends, and a loop begins where a boundary
+ * begins. Those inside run counterclockwise around the cell of the surface with the lower number. Curves are those of
+ * middle nodes off the chord by more than 1e-10 of its length, on the boundary, on named curves and between surfaces;
+ * middles of other edges, and centres, are ignored.
+ *
+ * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is
+ * missing, binary or damaged; other elements; cells that are in no group, not convex, or not one part connected
+ * through edges; nodes outside the plane, twice at one place (to 1e-12 of the size) or hanging; edges in two groups,
+ * or in one and of no cell; a group that lies on the boundary and inside; names that a scene cannot write.
+ */
+CoarseMesh read_mesh_file(const std::string &path);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_mesh_words_h
+#define hpvi_mesh_words_h
+
+#include <hpvi/scene/coarse_mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** The corner of a cell where the angle between its edges, as curves, is largest. */
+struct WidestCorner
+{
+  dealii::Point<2> at;
+  double degrees = 0;
+};
+
+WidestCorner widest_corner(const CoarseMesh &mesh);
+
+/**
+ * What a mesh holds, a line each: numbers of cells and vertices, the largest angle of a corner; of each boundary and
+ * curve inside edges and length, of each surface cells and area, curves taken as they are.
+ */
+std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &length_unit);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_mesh_from_file_h
+#define hpvi_mesh_from_file_h
+
+#include <hpvi/shapes/shape.h>
+
+namespace hpvi
+{
+/** The mesh of a file of Gmsh (read_mesh_file()), for the list of shapes(). */
+ShapeKind<2> mesh_from_file();
+
+/** Where a scene file @p scene finds the file that it calls @p name: beside itself, unless that is a whole path. */
+std::string beside(const std::string &scene, const std::string &name);
+
+/** Of a boundary, or an interface of a mesh: what its edges follow. */
+Entry curve_entry(const std::string &name);
+
+/** Lines for users about boundaries that are polygons where circles might be meant. */
+std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/text.h>
+#include <hpvi/gmsh/mesh_complaint.h>
+
+namespace hpvi
+{
+MeshComplaint::MeshComplaint(const std::string &path) : file(printable(path, 400))
+{
+}
+
+void MeshComplaint::operator()(const std::string &problem_and_remedy) const
+{
+  throw InputError(file + ": " + problem_and_remedy);
+}
+
+void MeshComplaint::at(const std::size_t line, const std::string &problem_and_remedy) const
+{
+  throw InputError(file + ":" + std::to_string(line) + ": " + problem_and_remedy);
+}
+
+void MeshComplaint::damaged(const std::size_t line, const std::string &problem) const
+{
+  at(line, problem + "; the file is damaged, write it anew with Gmsh");
+}
+
+std::string MeshComplaint::rewriting() const
+{
+  return "gmsh " + file + " -0 -format msh41 -o ascii.msh";
+}
+} // namespace hpvi

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/gmsh/cell_checks.h>
+#include <hpvi/gmsh/element_checks.h>
+#include <hpvi/gmsh/gmsh_file.h>
+#include <hpvi/gmsh/mesh_file.h>
+#include <hpvi/gmsh/mesh_groups.h>
+#include <hpvi/gmsh/quadratic_edge.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+class MeshMaker
+{
+public:
+  MeshMaker(const GmshFile &file, const MeshComplaint &complain)
+      : file(file), complain(complain), vertex_of(file.nodes.size(), CoarseMesh::inside)
+  {
+  }
+
+  CoarseMesh make()
+  {
+    take_cells();
+    take_vertices();
+    orient_cells(mesh, lines, complain);
+    const CellEdges edges(mesh, lines, complain);
+    check_connection(mesh, edges, complain);
+    take_middles(edges);
+    take_edges(edges, edge_groups(edges));
+    return std::move(mesh);
+  }
+
+private:
+  static bool is_cell(const GmshFile::Element &element)
+  {
+    return element_kind(element.type).dim == 2;
+  }
+
+  void take_cells()
+  {
+    std::vector<std::int64_t> tags;
+    for (const GmshFile::Element &element : file.elements)
+      if (is_cell(element))
+        tags.push_back(element.group);
+    const GroupNumbers numbers(file, 2, tags, complain);
+    mesh.surfaces = numbers.names();
+    for (const GmshFile::Element &element : file.elements)
+      if (is_cell(element))
+      {
+        CoarseMesh::Cell cell;
+        cell.surface = numbers.number(element.group);
+        for (unsigned int k = 0; k < 4; ++k)
+          cell.vertices[k] = take_node(element.nodes[k], element.line);
+        for (unsigned int k = 0; k < 4; ++k)
+          if (std::count(cell.vertices.begin(), cell.vertices.end(), cell.vertices[k]) > 1)
+            complain.damaged(element.line, "the cell has the node " +
+                                               std::to_string(file.nodes[element.nodes[k]].tag) +
+                                               " twice");
+        mesh.cells.push_back(cell);
+        lines.push_back(element.line);
+      }
+  }
+
+  unsigned int take_node(const unsigned int node, const std::size_t line)
+  {
+    if (vertex_of[node] == CoarseMesh::inside)
+    {
+      vertex_of[node] = nodes.size();
+      nodes.push_back(node);
+      mesh.vertices.push_back(plane_point(node, line));
+    }
+    return vertex_of[node];
+  }
+
+  /** In which z is 0 to round-off: it is measured when the size is known. */
+  Point<2> plane_point(const unsigned int node, const std::size_t line)
+  {
+    const Point<3> &at = file.nodes[node].at;
+    if (std::abs(at[2]) > largest_z)
+    {
+      largest_z = std::abs(at[2]);
+      highest = node;
+      highest_line = line;
+    }
+    return Point<2>(at[0], at[1]);
+  }
+
+  void take_vertices()
+  {
+    size = size_of(mesh, complain);
+    check_plane();
+    check_places(file, mesh, nodes, size, complain);
+  }
+
+  void check_plane() const
+  {
+    if (largest_z <= 1e-12 * size)
+      return;
+    const Point<3> &at = file.nodes[highest].at;
+    complain.at(highest_line,
+                "the node " + std::to_string(file.nodes[highest].tag) + " at " + to_string(at) +
+                    " is not in the plane z = 0, in which a body lies; draw it there");
+  }
+
+  /** Of edges, from cells and lines of second order. */
+  void take_middles(const CellEdges &edges)
+  {
+    middles.assign(edges.all().size(), CoarseMesh::inside);
+    for (const GmshFile::Element &element : file.elements)
+    {
+      const ElementKind kind = element_kind(element.type);
+      if (kind.n_nodes == kind.n_corners)
+        continue;
+      for (unsigned int k = 0; k < (kind.dim == 1 ? 1 : 4); ++k)
+      {
+        const unsigned int e =
+            edge_between(edges, element.nodes[k], element.nodes[(k + 1) % kind.n_corners]);
+        if (e == CoarseMesh::inside)
+          continue; // a line that edge_groups() refuses, or one in no group
+        const unsigned int middle = element.nodes[kind.n_corners + k];
+        if (middles[e] != CoarseMesh::inside && middles[e] != middle)
+          complain.damaged(element.line, "the edge " +
+                                             edge_in_words(mesh, edges.all()[e].vertices) +
+                                             " has a second node in its middle");
+        middles[e] = middle;
+      }
+    }
+  }
+
+  unsigned int edge_between(const CellEdges &edges, const unsigned int node,
+                            const unsigned int other) const
+  {
+    const unsigned int v = vertex_of[node], w = vertex_of[other];
+    return v == CoarseMesh::inside || w == CoarseMesh::inside ? CoarseMesh::inside
+                                                              : edges.find(v, w);
+  }
+
+  /** The tag of the physical curve on each edge; 0: none. */
+  std::vector<std::int64_t> edge_groups(const CellEdges &edges) const
+  {
+    std::vector<std::int64_t> groups(edges.all().size(), 0);
+    for (const GmshFile::Element &element : file.elements)
+    {
+      if (is_cell(element) || element.group == 0)
+        continue;
+      const unsigned int e = edge_between(edges, element.nodes[0], element.nodes[1]);
+      if (e == CoarseMesh::inside)
+        refuse_loose_lines(edges, element);
+      if (groups[e] != 0 && groups[e] != element.group)
+        complain.at(element.line, "the edge " + edge_in_words(mesh, edges.all()[e].vertices) +
+                                      " is in two physical groups, " + file.words({1, groups[e]}) +
+                                      " and " + file.words({1, element.group}) +
+                                      "; take its curve out of one");
+      groups[e] = element.group;
+    }
+    return groups;
+  }
+
+  [[noreturn]] void refuse_loose_lines(const CellEdges &edges, const GmshFile::Element &first) const
+  {
+    unsigned int n = 0;
+    for (const GmshFile::Element &element : file.elements)
+      n += !is_cell(element) && element.group == first.group &&
+           edge_between(edges, element.nodes[0], element.nodes[1]) == CoarseMesh::inside;
+    const auto place = [&](const unsigned int k)
+    {
+      const Point<3> &at = file.nodes[first.nodes[k]].at;
+      return to_string(Point<2>(at[0], at[1]));
+    };
+    complain.at(first.line, "the physical " + file.words({1, first.group}) + " has " +
+                                std::to_string(n) + (n == 1 ? " edge" : " edges") +
+                                " of no cell, the first from " + place(0) + " to " + place(1) +
+                                "; let it be a curve of a surface, or remove it");
+  }
+
+  void take_edges(const CellEdges &edges, const std::vector<std::int64_t> &groups)
+  {
+    const EdgeGroups numbers(file, mesh, edges, groups, complain);
+    mesh.boundaries = numbers.boundaries.names();
+    mesh.interfaces = numbers.interfaces.names();
+    for (const unsigned int e : numbers.ordered_loops())
+    {
+      CoarseMesh::Edge edge = curved_edge(edges.all()[e].vertices, middles[e]);
+      edge.boundary = numbers.boundaries.number(groups[e]);
+      mesh.edges.push_back(edge);
+    }
+    for (unsigned int e = 0; e < groups.size(); ++e)
+      if (!edges.all()[e].is_on_boundary())
+        take_inner_edge(edges.all()[e], groups[e], middles[e], numbers.interfaces);
+  }
+
+  void take_inner_edge(const CellEdge &shared, const std::int64_t group, const unsigned int middle,
+                       const GroupNumbers &interfaces)
+  {
+    const unsigned int one = mesh.cells[shared.cells[0]].surface,
+                       two = mesh.cells[shared.cells[1]].surface;
+    if (group == 0 && one == two)
+      return;
+    auto vertices = shared.vertices;
+    if (two < one)
+      std::swap(vertices[0], vertices[1]);
+    CoarseMesh::Edge edge = curved_edge(vertices, middle);
+    if (group != 0)
+      edge.interface = interfaces.number(group);
+    if (group != 0 || edge.curve)
+      mesh.edges.push_back(edge);
+  }
+
+  CoarseMesh::Edge curved_edge(const std::array<unsigned int, 2> &vertices,
+                               const unsigned int middle)
+  {
+    CoarseMesh::Edge edge;
+    edge.vertices = vertices;
+    if (middle == CoarseMesh::inside)
+      return edge;
+    const GmshFile::Node &node = file.nodes[middle];
+    const auto curve = std::make_shared<QuadraticEdge>(
+        mesh.vertices[vertices[0]], Point<2>(node.at[0], node.at[1]), mesh.vertices[vertices[1]]);
+    const std::string words = "the middle node " + std::to_string(node.tag) + " of the edge " +
+                              edge_in_words(mesh, vertices);
+    if (std::abs(node.at[2]) > 1e-12 * size)
+      complain(words + " is not in the plane z = 0, in which a body lies; draw it there");
+    if (!curve->is_regular())
+      complain(words + " is not in the middle half of it, where the curve would turn back; mesh "
+                       "finer, or with -order 1");
+    if (curve->bow() > 1e-10)
+      edge.curve = {curve, 0, 1};
+    return edge;
+  }
+
+  const GmshFile &file;
+  const MeshComplaint &complain;
+  CoarseMesh mesh;
+  std::vector<unsigned int> vertex_of; ///< by node; CoarseMesh::inside: not used
+  std::vector<unsigned int> nodes;     ///< by vertex
+  std::vector<std::size_t> lines;      ///< by cell
+  std::vector<unsigned int> middles;   ///< nodes by edge; CoarseMesh::inside: none
+  double size = 0, largest_z = 0;
+  unsigned int highest = 0;
+  std::size_t highest_line = 0;
+};
+} // namespace
+
+CoarseMesh read_mesh_file(const std::string &path)
+{
+  const GmshFile file = read_gmsh_file(path);
+  const MeshComplaint complain(path);
+  check_elements(file, complain);
+  return MeshMaker(file, complain).make();
+}
+} // namespace hpvi

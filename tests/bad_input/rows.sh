@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+#
+# What tables of bad input have in common, for run.sh and shapes.sh. Every bad scene must end with exit status 1 and
+# exactly one line on stderr that names file, entry, value and remedy, and must write nothing. Each call below is one row:
+#
+#   invalid WORD... -- ENTRY=VALUE...   the table's own scene, $base, with these entries overridden
+#   broken FILE WORD...                 a file that is bad by itself
+#   refused WORD... -- ARGUMENT...      any other command line
+#
+# Every WORD must occur in the line.
+
+if [ $# -ne 1 ] || [ ! -x "$1" ]; then
+  echo "usage: $0 HPVI" >&2
+  exit 2
+fi
+hpvi=$(realpath "$1")
+scenes=$(realpath "$(dirname "$0")")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/empty"
+cd "$scratch/empty" || exit 2
+rows=0
+failures=0
+
+complain() { # ROW PROBLEM
+  echo "FAILED: $1: $2" >&2
+  sed 's/^/  stderr: /' "$scratch/stderr" >&2
+  failures=$((failures + 1))
+}
+
+# Run hpvi with the arguments; $1 is an array's name that holds the words to look for.
+check() {
+  local -n expected=$1
+  shift
+  local status word row="hpvi $*"
+  rows=$((rows + 1))
+  timeout 60 "$hpvi" "$@" >"$scratch/stdout" 2>"$scratch/stderr"
+  status=$?
+  [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
+  [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || complain "$row" "stderr does not hold one line"
+  for word in "${expected[@]}"; do
+    grep -qF -- "$word" "$scratch/stderr" || complain "$row" "stderr does not say: $word"
+  done
+  ! grep -q "internal error" "$scratch/stderr" || complain "$row" "an internal error"
+  ! LC_ALL=C grep -q '[[:cntrl:]]' "$scratch/stderr" || complain "$row" "control characters on stderr"
+  [ ! -s "$scratch/stdout" ] || complain "$row" "something on stdout"
+  [ -z "$(ls -A)" ] || complain "$row" "files were written: $(ls -A)"
+}
+
+invalid() {
+  local words=("$base") arguments=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  check words --validate "$scenes/$base" "${arguments[@]}"
+}
+
+# Validation and a real run share their checks; the run must not have begun to write.
+broken() {
+  local words=("$@")
+  check words --validate "$scenes/$1"
+  check words "$scenes/$1"
+}
+
+refused() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  check words "$@"
+}
