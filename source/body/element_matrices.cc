@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
 #include <hpvi/body/element_matrices.h>
+#include <hpvi/body/tensor_stiffness.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -134,47 +136,69 @@ unsigned int further_points(const double quotient)
                extra = -std::log(tolerance) / (2 * std::log((root + 1) / (root - 1)));
   return static_cast<unsigned int>(std::ceil(std::min<double>(extra, most)));
 }
-} // namespace
 
+/** In each direction of the reference cell, for the quotients of det J at the ends of edges that run there. */
 template <int dim>
-unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree)
+std::array<unsigned int, dim> points_by_direction(const CellMap<dim> &map,
+                                                  const unsigned int degree)
 {
-  if (map.is_affine())
-    return degree + 1;
-  if (map.is_curved())
-    return degree + 1 + further_points_on_curves;
-  double quotient = 1.;
+  std::array<unsigned int, dim> result;
+  result.fill(degree + 1 + (map.is_curved() ? further_points_on_curves : 0));
+  if (map.is_affine() || map.is_curved())
+    return result;
+  std::array<double, GeometryInfo<dim>::vertices_per_cell> volumes;
   for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double here = determinant(map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v))),
-                   there = determinant(
-                       map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v ^ (1u << d))));
-      quotient = std::max(quotient, here / there);
-    }
-  return degree + 1 + further_points(quotient);
+    volumes[v] = determinant(map.jacobian(GeometryInfo<dim>::unit_cell_vertex(v)));
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    double quotient = 1.;
+    for (const unsigned int v : GeometryInfo<dim>::vertex_indices())
+      quotient = std::max(quotient, volumes[v] / volumes[v ^ (1u << d)]);
+    result[d] = degree + std::max(1U, further_points(quotient));
+  }
+  return result;
 }
 
+/** The same in the body of a scene. */
 template <int dim>
-unsigned int stiffness_points(const Scene<dim> &scene, const CellMap<dim> &map,
-                              const unsigned int degree)
+std::array<unsigned int, dim> points_by_direction(const Scene<dim> &scene, const CellMap<dim> &map,
+                                                  const unsigned int degree)
 {
-  const unsigned int n = stiffness_points(map, degree);
+  std::array<unsigned int, dim> result = points_by_direction(map, degree);
   if (!scene.is_axisymmetric())
-    return n;
+    return result;
   double least = std::numeric_limits<double>::max(), largest = 0;
   for (const Point<dim> &v : map.vertices())
     largest = std::max(largest, v[0]);
   for (const Point<dim> &v : map.vertices())
     if (v[0] > 1e-12 * largest) // what vanishes on the axis is divided by x without a pole there
       least = std::min(least, v[0]);
-  return std::max(n, degree + 1 + further_points(largest / least));
+  for (unsigned int &n : result)
+    n = std::max(n, degree + 1 + further_points(largest / least));
+  return result;
+}
+} // namespace
+
+template <int dim>
+unsigned int stiffness_points(const CellMap<dim> &map, const unsigned int degree)
+{
+  const auto points = points_by_direction(map, degree);
+  return *std::max_element(points.begin(), points.end());
+}
+
+template <int dim>
+unsigned int stiffness_points(const Scene<dim> &scene, const CellMap<dim> &map,
+                              const unsigned int degree)
+{
+  const auto points = points_by_direction(scene, map, degree);
+  return *std::max_element(points.begin(), points.end());
 }
 
 template <int dim>
 ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables<dim> &tables,
                                       const Volume volume)
-    : volume(volume), scene(scene), tables(tables)
+    : volume(volume), scene(scene), tables(tables),
+      factorised(std::make_shared<TensorStiffness>(tables))
 {
 }
 
@@ -188,8 +212,8 @@ long shape_of(const EdgeBows &bows, const double size)
     for (unsigned int k = 1; bows[f] && k < 8; ++k)
     {
       const Tensor<1, 2> bow = bows[f](k / 8. + 0.01)[0];
-      for (const long part : {long(f + 1), std::lround(bow[0] / size * 1e11),
-                              std::lround(bow[1] / size * 1e11)})
+      for (const long part :
+           {long(f + 1), std::lround(bow[0] / size * 1e11), std::lround(bow[1] / size * 1e11)})
         hash = (hash ^ static_cast<std::uint64_t>(part)) * 1099511628211U;
     }
   return static_cast<long>(hash | 1U);
@@ -233,6 +257,8 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
                                                    const unsigned int degree,
                                                    const types::material_id material) const
 {
+  if (is_factorised(map))
+    return from_triangle(map, degree, material);
   const ShapeTable<dim> &table = tables.gradients(degree, stiffness_points(scene, map, degree));
   const auto P = gradient_products(scene, map, table);
   const LocalNumbering &numbering = tables.numbering(degree);
@@ -253,6 +279,50 @@ FullMatrix<double> ElementMatrices<dim>::stiffness(const CellMap<dim> &map,
   if (scene.is_axisymmetric())
     add_hoop_stiffness(map, law, table, numbering, K);
   return K;
+}
+
+template <int dim>
+bool ElementMatrices<dim>::is_factorised(const CellMap<dim> &map) const
+{
+  return !map.is_affine() && volume == Volume::full;
+}
+
+template <int dim>
+void ElementMatrices<dim>::triangle(const CellMap<dim> &map, const unsigned int degree,
+                                    const types::material_id material, std::vector<double> &K) const
+{
+  const HookesLaw<dim> law(scene.materials[material]);
+  factorised->integrate(scene, map, law, degree, points_by_direction(scene, map, degree), K);
+  if (!scene.is_axisymmetric())
+    return;
+  const LocalNumbering &numbering = tables.numbering(degree);
+  const unsigned int n = numbering.shape.size();
+  FullMatrix<double> hoop(n, n);
+  add_hoop_stiffness(map, law, tables.gradients(degree, stiffness_points(scene, map, degree)),
+                     numbering, hoop);
+  for (unsigned int column = 0; column < n; ++column)
+    for (unsigned int row = column; row < n; ++row)
+      K[std::size_t(column) * n + row] +=
+          hoop((row + numbering.n_boundary) % n, (column + numbering.n_boundary) % n);
+}
+
+template <int dim>
+FullMatrix<double> ElementMatrices<dim>::from_triangle(const CellMap<dim> &map,
+                                                       const unsigned int degree,
+                                                       const types::material_id material) const
+{
+  std::vector<double> K;
+  triangle(map, degree, material, K);
+  const LocalNumbering &numbering = tables.numbering(degree);
+  const unsigned int n = numbering.shape.size(), n_boundary = numbering.n_boundary;
+  FullMatrix<double> result(n, n);
+  for (unsigned int column = 0; column < n; ++column)
+    for (unsigned int row = column; row < n; ++row)
+    {
+      const unsigned int i = (row + n_boundary) % n, j = (column + n_boundary) % n;
+      result(i, j) = result(j, i) = K[std::size_t(column) * n + row];
+    }
+  return result;
 }
 
 template <int dim>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/lac/lapack_support.h>
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/discretisation/condensation.h>
 #include <hpvi/discretisation/initial_stress.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace hpvi
@@ -67,6 +70,56 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
   return element;
 }
 
+namespace
+{
+/** The factor of the first columns of @p K, n x n by columns, as deal.II keeps it. */
+void factor_first(const std::vector<double> &K, const unsigned int n,
+                  LAPACKFullMatrix<double> &factor)
+{
+  for (unsigned int j = 0; j < factor.n(); ++j)
+    std::copy_n(&K[std::size_t(j) * n], factor.m(), &factor(0, j));
+  factor.set_property(LAPACKSupport::symmetric);
+  factor.compute_cholesky_factorization();
+}
+} // namespace
+
+// With `K_ii = L L'` and `W = K_bi L'^-1` what is left is `K_bb - W W'`, and `u_i = -L'^-1 W' u_b`.
+template <int dim>
+std::shared_ptr<CondensedElement>
+CondensedElements<dim>::condense(std::vector<double> &K, const unsigned int n,
+                                 const unsigned int n_boundary) const
+{
+  auto element = std::make_shared<CondensedElement>();
+  const unsigned int n_interior = n - n_boundary;
+  double *const K_bi = &K[n_interior], *const K_bb = K_bi + std::size_t(n_interior) * n;
+  if (n_interior > 0)
+  {
+    DensePart L = {K.data(), n};
+    if (interior_loads)
+    {
+      element->K_ii.reinit(n_interior);
+      factor_first(K, n, element->K_ii);
+      L = {&element->K_ii(0, 0), n_interior};
+    }
+    else
+      AssertThrow(cholesky(n_interior, K.data(), n), LACExceptions::ExcSingular());
+    solve_from_right('T', n_boundary, n_interior, L, K_bi, n);
+    subtract_square(n_boundary, n_interior, {K_bi, n}, K_bb, n);
+    // By rows it is its transpose by columns.
+    element->extension.reinit(n_interior, n_boundary, /*omit_default_initialization=*/true);
+    double *const extension = &element->extension(0, 0);
+    for (unsigned int i = 0; i < n_interior; ++i)
+      std::transform(K_bi + std::size_t(i) * n, K_bi + std::size_t(i) * n + n_boundary,
+                     extension + std::size_t(i) * n_boundary, std::negate<>());
+    solve_from_right('N', n_boundary, n_interior, L, extension, n_boundary);
+  }
+  element->condensed.reinit(n_boundary, n_boundary, /*omit_default_initialization=*/true);
+  for (unsigned int j = 0; j < n_boundary; ++j)
+    for (unsigned int i = j; i < n_boundary; ++i)
+      element->condensed(j, i) = element->condensed(i, j) = K_bb[std::size_t(j) * n + i];
+  return element;
+}
+
 template <int dim>
 std::shared_ptr<const CondensedElement>
 CondensedElements<dim>::get(const CellMap<dim> &map, const unsigned int degree,
@@ -76,7 +129,14 @@ CondensedElements<dim>::get(const CellMap<dim> &map, const unsigned int degree,
   std::shared_ptr<const CondensedElement> element = entry.lock();
   if (!element)
   {
-    element = condense(matrices.stiffness(map, degree, material), matrices.n_boundary(degree));
+    const unsigned int n_boundary = matrices.n_boundary(degree);
+    if (matrices.is_factorised(map))
+    {
+      matrices.triangle(map, degree, material, triangle);
+      element = condense(triangle, dim * Utilities::pow(degree + 1, dim), n_boundary);
+    }
+    else
+      element = condense(matrices.stiffness(map, degree, material), n_boundary);
     entry = element;
   }
   return element;

@@ -8,9 +8,13 @@
 #include <hpvi/scene/scene.h>
 
 #include <array>
+#include <memory>
+#include <vector>
 
 namespace hpvi
 {
+class TensorStiffness;
+
 /**
  * Gauss points per direction that integrate products of gradients over a cell. p + 1 are exact on
  * affine cells. On others 1/det J stands under the integral, and n points beyond p leave a relative
@@ -62,6 +66,16 @@ public:
   dealii::FullMatrix<double> stiffness(const CellMap<dim> &map, unsigned int degree,
                                        dealii::types::material_id material) const;
 
+  /**
+   * Has triangle() the matrix? Of cells with an affine map it is a sum of few matrices of the reference cell, and one of them
+   * serves many cells; of other cells no two are congruent.
+   */
+  bool is_factorised(const CellMap<dim> &map) const;
+
+  /** @p K := the lower triangle of stiffness() by columns, unknowns inside the cell first; what is above it is undefined. */
+  void triangle(const CellMap<dim> &map, unsigned int degree, dealii::types::material_id material,
+                std::vector<double> &K) const;
+
   /** How many of the first rows of stiffness() belong to the boundary of the cell. */
   unsigned int n_boundary(unsigned int degree) const;
 
@@ -76,8 +90,12 @@ public:
                          dealii::types::material_id material) const;
 
 private:
+  dealii::FullMatrix<double> from_triangle(const CellMap<dim> &map, unsigned int degree,
+                                           dealii::types::material_id material) const;
+
   const Scene<dim> &scene;
   const ShapeTables<dim> &tables;
+  const std::shared_ptr<TensorStiffness> factorised;
 };
 } // namespace hpvi
 

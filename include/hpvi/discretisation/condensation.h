@@ -82,8 +82,13 @@ private:
   std::shared_ptr<CondensedElement> condense(const dealii::FullMatrix<double> &K,
                                              unsigned int n_boundary) const;
 
+  /** The same of ElementMatrices::triangle(), in its place. */
+  std::shared_ptr<CondensedElement> condense(std::vector<double> &K, unsigned int n,
+                                             unsigned int n_boundary) const;
+
   const ElementMatrices<dim> matrices;
   const bool interior_loads;
+  std::vector<double> triangle; ///< keeps its memory from cell to cell
   std::map<typename ElementMatrices<dim>::Class, std::weak_ptr<const CondensedElement>> known;
 
   using ConstrainedKey =
