@@ -81,6 +81,8 @@ def draw_contact(axes, rows, patches, moved):
     for boundary in {row["boundary"] for row in rows}:
         of_it = [k for k, row in enumerate(rows) if row["boundary"] == boundary]
         ends = np.concatenate([points[of_it[:1]], (points[of_it[:-1]] + points[of_it[1:]]) / 2, points[of_it[-1:]]])
+        if len(of_it) > 3 and np.hypot(*(ends[-1] - ends[0])) < 2 * np.hypot(*np.diff(ends, axis=0).T).max():  # it is closed
+            ends[[0, -1]] = (ends[0] + ends[-1]) / 2
         axes.plot(*ends.T, color="white", linewidth=7, zorder=3, solid_capstyle="butt", clip_on=False)
         states = [rows[k]["state"] for k in of_it]
         changes = [k for k in range(1, len(states)) if states[k] != states[k - 1]]
@@ -103,7 +105,7 @@ def draw_body(run, rows):
     if rows:
         draw_contact(axes, rows, patches, moved)
     for frame, low, high in zip((axes.set_xlim, axes.set_ylim), moved.min(axis=(0, 1, 2)), moved.max(axis=(0, 1, 2))):
-        frame(low - 0.04 * width, high + 0.04 * width)
+        frame(low - 0.04 * max(width, height), high + 0.04 * max(width, height))
     tidy(axes, "xy", run)
     add_stress_bar(figure, axes, colours, run, patches.von_mises.max() > limit, location="bottom")
     return figure, scale

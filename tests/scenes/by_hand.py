@@ -315,6 +315,19 @@ ROWS = [
     ("bolt.prm", SCENES / "bolt.prm", {"forces.shaft.1+forces.bottom.1": -450, "forces.left.0": 0}),
     ("thermal-joint.prm", SCENES / "thermal-joint.prm", {"forces.left.0": 800, "forces.bottom.0": -800, "forces.bottom.1": 4000}),
     ("footing.prm", SCENES / "footing.prm", {"forces.bottom.1": 200 + 9.81 * 8 * (1.8 * 2.5 + 2.1 * 1.5)}),
+    ("plate-hole.prm", SCENES / "plate-hole.prm",
+     {"contact.bottom.normal_resultant": -1000, "contact.bottom.friction_resultant": -100, "contact.bottom.through.0": 5}),
+    ("bracket.prm", SCENES / "bracket.prm",
+     {"contact.sole.normal_resultant": -1200, "contact.sole.friction_resultant": -100, "contact.sole.through.0": 55 + 7000 / 1200}),
+    ("roller.prm", SCENES / "roller.prm",
+     {"forces.rim.0": 0, "forces.rim.1": 500, "contact.rim.normal_resultant": -500, "plates.flat.moment": 0}),
+    ("dovetail.prm", SCENES / "dovetail.prm",
+     {"forces.flank.1": -500, "contact.flank.normal_resultant": -500 * 2 ** 0.5 / 1.15,
+      "contact.flank.friction_resultant": -0.15 * 500 * 2 ** 0.5 / 1.15, "forces.middle.0": 500 * 0.85 / 1.15}),
+    ("brake-shoe.prm", SCENES / "brake-shoe.prm", {"forces.outer.1": -400, "forces.inner.0+forces.outer.0": 0}),
+    ("seal.prm", SCENES / "seal.prm",
+     {"forces.floor.0+forces.wall.0+forces.shoulder.0": -0.1 * 3 * (1 + 0.5 ** 0.5), "forces.floor.1+forces.crown.1": 0.1 * 3 * (1 - 0.5 ** 0.5),
+      "forces.wall.1+forces.shoulder.1+forces.crown.0": 0}),
 ]
 
 
@@ -355,6 +368,64 @@ class ByHand(RunTest):
         file = self.home / "row.prm"
         file.write_text(text_of({path: value for path, value in settings.items() if value is not None}))
         return self.run_scene("Output/VTU=false", scene=file, **options)
+
+    def run_meshed(self, scene, mesh, *circles):
+        """Its twin whose body is a mesh of Gmsh, the named boundaries of which are circles."""
+        text = re.sub(r"set (Centre|Radii|Radius|Angles?|Subdivisions) .*\n", "", (SCENES / f"{scene}.prm").read_text())
+        text = re.sub(r"(set Shape +=) .*", rf"\1 file\nset File = {SCENES}/meshes/{mesh}.msh", text)
+        file = self.home / f"{scene}.prm"
+        file.write_text(text + "".join(f"subsection Boundary {name}\nset Curve = circle\nend\n" for name in circles))
+        self.run_scene("Output/VTU=false", scene=file)
+        return self.summary()
+
+    def run_shipped(self, scene, *settings):
+        self.run_scene("Output/VTU=false", *settings, scene=SCENES / f"{scene}.prm")
+        return self.summary()
+
+    def test_a_bush_in_a_bore(self):
+        """Lame and pure torsion, the body a shape and a mesh: all of it exponentially close at degree 10."""
+        E, nu, a, b, gap, s = 210000, 0.3, 20, 30, 0.03, 20
+        p = E * gap / b * (b * b - a * a) / ((1 - nu) * b * b + (1 + nu) * a * a)
+        energy = math.pi * b * p * gap - math.pi * s * s * a ** 4 * (1 / a ** 2 - 1 / b ** 2) * (1 + nu) / E
+        for summary in (self.run_shipped("press-ring"), self.run_meshed("press-ring", "ring", "inner", "outer")):
+            contact, final = summary["contact"]["outer"], summary["final"]
+            self.assertAlmostEqual(contact["normal_resultant"], -2 * math.pi * b * p, delta=1e-11 * 2 * math.pi * b * p)
+            self.assertAlmostEqual(contact["friction_resultant"], 2 * math.pi * a * a * s / b, delta=1e-8)
+            self.assertAlmostEqual(contact["largest_pressure"], p, delta=1e-8 * p)
+            self.assertAlmostEqual(final["energy"], energy, delta=1e-11 * energy)
+            self.assertEqual(contact["slipping_area"], 0)
+
+    def test_a_spherical_ring(self):
+        """u_R = A R + B/R^2, all of whose energy is that of the interference."""
+        E, nu, a, b, gap = 210000, 0.3, 30, 40, 0.02
+        B = -gap / (2 * (1 - 2 * nu) / (1 + nu) * b / a ** 3 + 1 / b ** 2)
+        p, area = 2 * E * B / (1 + nu) * (1 / b ** 3 - 1 / a ** 3), 2 * math.pi * b * 2 * b * math.sin(math.radians(30))
+        summary = self.run_shipped("press-ring-axi")
+        contact, final = summary["contact"]["outer"], summary["final"]
+        self.assertAlmostEqual(contact["normal_resultant"], -p * area, delta=1e-10 * p * area)
+        self.assertAlmostEqual(contact["largest_pressure"], p, delta=1e-8 * p)
+        self.assertAlmostEqual(final["energy"], p * gap * area / 2, delta=1e-10 * p * gap * area / 2)
+
+    def test_a_roller(self):
+        """Hertz's pressure to (b/R)^2, the ends of his contact as far as a node away; and two meshes. Their energies differ by their
+        errors: those are the squares of errors in energy norm, relative to which the indicator says 6e-4 and 4e-4."""
+        b = (4 * 500 * 10 * (1 - 0.3 ** 2) / (math.pi * 210000)) ** 0.5
+        summaries = self.run_shipped("roller"), self.run_meshed("roller", "half-disc", "arc")
+        energies = [summary["final"]["energy"] for summary in summaries]
+        self.assertAlmostEqual(*energies, delta=1e-7 * abs(energies[0]))
+        for summary in summaries:
+            contact = summary["contact"]["rim"]
+            self.assertAlmostEqual(contact["largest_pressure"], 2 * 500 / (math.pi * b), delta=(b / 10) ** 2 * 2 * 500 / (math.pi * b))
+            self.assertAlmostEqual(contact["area"] - contact["open_area"], 2 * b, delta=0.005 * 2 * b)
+
+    def test_a_brake_shoe(self):
+        """The lining slips everywhere: friction is 0.35 times the pressure, and its torque about the drum's centre has the arm 100. The
+        arc is a polynomial on each edge, so its points are at that distance, and its normals radial, as far as degree 6 goes."""
+        outer = self.run_shipped("brake-shoe", "Adaptivity/Start degree=6", "Adaptivity/Maximum steps=2")["contact"]["outer"]
+        torque = outer["through"][0] * outer["force"][1] - outer["through"][1] * outer["force"][0]
+        friction = outer["friction_resultant"]
+        self.assertAlmostEqual(friction, 0.35 * outer["normal_resultant"], delta=1e-9 * abs(friction))
+        self.assertAlmostEqual(torque, 100 * friction, delta=1e-9 * abs(100 * friction))
 
     def test_a_slope_too_steep(self):
         """tan = 3/4: a coefficient of 0.74 holds 0.74 * 4.8 of the 3.6 along the slope."""
