@@ -24,6 +24,9 @@ PAGES = ROOT / "doc/manual"
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # Entries that no scene of prm/ sets: what one could write.
 EXAMPLES = {
+    ("Geometry", "Centre"): "1, 1", ("Geometry", "Radii"): "1, 2", ("Geometry", "Angles"): "0, 120",
+    ("Geometry", "Radius"): "0.25", ("Geometry", "Angle"): "180", ("Geometry", "Part"): "quarter",
+    ("Geometry", "File"): "body.msh", ("Boundary NAME", "Curve"): "circle",
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Boundary NAME", "Contact direction"): "0.1; -1",
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
@@ -44,6 +47,9 @@ EXAMPLES = {
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
+# Scenes in which entries of the other shapes are tried.
+SHAPES = {"Centre": "half_disc", "Radii": "ring", "Angles": "ring", "Radius": "half_disc", "Angle": "half_disc", "Part": "plate",
+          "File": "mesh", "Curve": "mesh"}
 ORTHOTROPIC = ("Elasticity", "Young's moduli", "Poisson's ratios", "Shear moduli", "Angle")
 
 
@@ -186,9 +192,13 @@ def check_example(program, key, value):
     elif key[1] == "Moment":
         beside = {"Boundary bottom/Contact": "none", "Boundary bottom/Friction bound": "", "Boundary right/Displacement": "",
                   "Boundary left/Traction": "", "Boundary top/Displacement": "0; 0", "Boundary bottom/Rigid": "true"}
-    beside[f"{key[0].replace('NAME', 'bottom')}/{key[1]}"] = value
-    run(program, "--validate", *(word for path, text in beside.items() for word in ("--set", f"{path}={text}")),
-        ROOT / "prm/han-6-12.prm")
+    scene, name = ROOT / "prm/han-6-12.prm", "bottom"
+    if key[1] in SHAPES and key[0] != "Material":
+        scene, name = ROOT / f"tests/bad_input/{SHAPES[key[1]]}.prm", "inside"
+        if key[1] == "Part":
+            beside["Geometry/Centre"] = "0, 0"
+    beside[f"{key[0].replace('NAME', name)}/{key[1]}"] = value
+    run(program, "--validate", *(word for path, text in beside.items() for word in ("--set", f"{path}={text}")), scene)
 
 
 def escaped(text):
@@ -297,7 +307,7 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "space", "processes", "results",
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "space", "processes", "results",
                  "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
