@@ -6,7 +6,7 @@ import math
 import re
 import unittest
 
-from runs import SCENES, RunTest
+from runs import SCENES, RunTest, read_vtu
 
 # A body of 2 x 1 that is free to become thinner: one step of degree 2 is exact for a uniform strain.
 BLOCK = {"Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "10",
@@ -394,6 +394,23 @@ class ByHand(RunTest):
             self.assertAlmostEqual(contact["largest_pressure"], p, delta=1e-8 * p)
             self.assertAlmostEqual(final["energy"], energy, delta=1e-11 * energy)
             self.assertEqual(contact["slipping_area"], 0)
+
+    def test_pictures_of_a_ring_are_round(self):
+        """Points of the VTU lie between Lame's circles and have his displacements and stresses."""
+        file = self.home / "row.prm"
+        file.write_text(text_of({
+            "Geometry/Shape": "ring sector", "Geometry/Subdivisions": "2, 4", "Material/Young's modulus": "10",
+            "Material/Poisson's ratio": "0.3", "Boundary start/Symmetry": "true", "Boundary end/Symmetry": "true",
+            "Boundary inner/Pressure": "1", "Adaptivity/Method": "pu", "Adaptivity/Start degree": "8",
+            "Adaptivity/Maximum steps": "1"}))
+        self.run_scene(scene=file)
+        grid = read_vtu(self.out / "solution-01.vtu")
+        radii = [math.hypot(x, y) for x, y, _ in grid["points"]]
+        self.assertAlmostEqual(min(radii), 1, delta=1e-12)
+        self.assertAlmostEqual(max(radii), 2, delta=1e-12)
+        for (x, y, _), r, u, sxx, syy in zip(grid["points"], radii, grid["displacement"], grid["sigma_xx"], grid["sigma_yy"]):
+            self.assertAlmostEqual((u[0] * x + u[1] * y) / r, 0.13 * (0.4 / 3 * r + 4 / 3 / r), delta=1e-6)
+            self.assertAlmostEqual(sxx + syy, 2 / 3, delta=1e-4)
 
     def test_a_spherical_ring(self):
         """u_R = A R + B/R^2, all of whose energy is that of the interference."""
