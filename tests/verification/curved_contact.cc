@@ -68,11 +68,12 @@ private:
   }
 };
 
+/** Of a bound with one wave on each eighth only the mean is left, if each length counts as what it is. */
 TEST(CurvedContact, CarriesFrictionByLength)
 {
   Scene<2> scene = scene_of(ring({{"Boundary inner/Displacement", "0; 0"},
                                   {"Boundary outer/Contact", "bilateral"},
-                                  {"Boundary outer/Friction bound", "0.2"}}));
+                                  {"Boundary outer/Friction bound", "0.2+0.1*sin(8*atan2(y,x))"}}));
   CoarseMesh mesh = *scene.geometry.mesh;
   const auto uneven = std::make_shared<const UnevenCircle>(2.);
   for (CoarseMesh::Edge &edge : mesh.edges)
@@ -92,7 +93,7 @@ TEST(CurvedContact, CarriesFrictionByLength)
   set_edge_degrees(triangulation, degrees);
   const Laboratory laboratory(scene, triangulation, degrees);
   EXPECT_NEAR(laboratory.contact_space.friction_limit(), 0.2 * 4 * numbers::PI, 1e-6);
-  EXPECT_NEAR(laboratory.contact_space.discrete_friction_limit(), 0.2 * 4 * numbers::PI, 1e-6);
+  EXPECT_NEAR(laboratory.contact_space.discrete_friction_limit(), 0.2 * 4 * numbers::PI, 1e-4);
 }
 
 /** Lame's ring under pressure in a rigid one, without friction: pressures at nodes, or moments of them. */
