@@ -5,59 +5,12 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <cmath>
-#include <map>
-
 namespace hpvi
 {
 using namespace dealii;
 
 namespace
 {
-/** Edges of cells by their two vertices, in either direction. */
-class EdgeLookup
-{
-public:
-  explicit EdgeLookup(const CoarseMesh &mesh) : mesh(mesh)
-  {
-    for (const CoarseMesh::Edge &edge : mesh.edges)
-      if (edge.curve)
-      {
-        curves[{edge.vertices[0], edge.vertices[1]}] = edge.curve;
-        curves[{edge.vertices[1], edge.vertices[0]}] = edge.curve.between(1, 0);
-      }
-  }
-
-  /** Of the edge that begins at corner @p k of @p cell, by s from 0 to 1. */
-  Tensor<1, 2> derivative(const CoarseMesh::Cell &cell, const unsigned int k, const double s) const
-  {
-    const CurvePiece *const curve = find(cell, k);
-    return curve != nullptr ? curve->derivative(s) : end(cell, k + 1) - end(cell, k);
-  }
-
-  Point<2> point(const CoarseMesh::Cell &cell, const unsigned int k, const double s) const
-  {
-    const CurvePiece *const curve = find(cell, k);
-    return curve != nullptr ? curve->point(s)
-                            : end(cell, k) + s * (end(cell, k + 1) - end(cell, k));
-  }
-
-private:
-  Point<2> end(const CoarseMesh::Cell &cell, const unsigned int k) const
-  {
-    return mesh.vertices[cell.vertices[k % 4]];
-  }
-
-  const CurvePiece *find(const CoarseMesh::Cell &cell, const unsigned int k) const
-  {
-    const auto found = curves.find({cell.vertices[k % 4], cell.vertices[(k + 1) % 4]});
-    return found == curves.end() ? nullptr : &found->second;
-  }
-
-  const CoarseMesh &mesh;
-  std::map<std::pair<unsigned int, unsigned int>, CurvePiece> curves;
-};
-
 double length(const CoarseMesh &mesh, const CoarseMesh::Edge &edge)
 {
   if (!edge.curve)
@@ -69,37 +22,13 @@ double length(const CoarseMesh &mesh, const CoarseMesh::Edge &edge)
   return result;
 }
 
-/** By Green's formula, about one of its corners: a small cell may be far from the origin. */
-double area(const CoarseMesh &mesh, const EdgeLookup &edges, const CoarseMesh::Cell &cell)
+double area(const BlendedCell &cell)
 {
-  static const QGauss<1> gauss(12);
-  const Point<2> origin = mesh.vertices[cell.vertices[0]];
+  static const QGauss<2> gauss(12);
   double result = 0;
-  for (unsigned int k = 0; k < 4; ++k)
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const double s = gauss.point(q)[0];
-      const Tensor<1, 2> x = edges.point(cell, k, s) - origin, along = edges.derivative(cell, k, s);
-      result += 0.5 * gauss.weight(q) * (x[0] * along[1] - x[1] * along[0]);
-    }
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    result += gauss.weight(q) * cell.determinant(gauss.point(q)[0], gauss.point(q)[1]);
   return result;
-}
-
-WidestCorner widest_corner(const CoarseMesh &mesh, const EdgeLookup &edges)
-{
-  WidestCorner widest;
-  for (const CoarseMesh::Cell &cell : mesh.cells)
-    for (unsigned int k = 0; k < 4; ++k)
-    {
-      const Tensor<1, 2> one = edges.derivative(cell, k, 0),
-                         two = -edges.derivative(cell, (k + 3) % 4, 1);
-      const double angle =
-          std::atan2(one[0] * two[1] - one[1] * two[0], one * two) * 180 / numbers::PI;
-      const double degrees = angle < -1e-9 ? angle + 360 : angle; // curves may meet at none
-      if (degrees > widest.degrees + 1e-9)                        // round-off does not choose
-        widest = {mesh.vertices[cell.vertices[k]], degrees};
-    }
-  return widest;
 }
 
 std::string plural(const unsigned int n, const std::string &one, const std::string &many)
@@ -146,14 +75,15 @@ void add_edges(const CoarseMesh &mesh, const std::string &unit, std::vector<std:
     lines.push_back("curve inside " + mesh.interfaces[i] + ": " + interfaces[i].words(unit));
 }
 
-void add_surfaces(const CoarseMesh &mesh, const EdgeLookup &edges, const std::string &unit,
-                  std::vector<std::string> &lines)
+void add_surfaces(const CoarseMesh &mesh, const std::string &unit, std::vector<std::string> &lines)
 {
   std::vector<Total> surfaces(mesh.surfaces.size());
-  for (const CoarseMesh::Cell &cell : mesh.cells)
+  const EdgeCurves curves(mesh);
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
   {
-    ++surfaces[cell.surface].n;
-    surfaces[cell.surface].size += area(mesh, edges, cell);
+    Total &surface = surfaces[mesh.cells[c].surface];
+    ++surface.n;
+    surface.size += area(BlendedCell(curves, c));
   }
   for (unsigned int s = 0; s < surfaces.size(); ++s)
     lines.push_back("surface " + mesh.surfaces[s] + ": " + plural(surfaces[s].n, "cell", "cells") +
@@ -162,21 +92,15 @@ void add_surfaces(const CoarseMesh &mesh, const EdgeLookup &edges, const std::st
 }
 } // namespace
 
-WidestCorner widest_corner(const CoarseMesh &mesh)
-{
-  return widest_corner(mesh, EdgeLookup(mesh));
-}
-
 std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &length_unit)
 {
-  const EdgeLookup edges(mesh);
-  const WidestCorner widest = widest_corner(mesh, edges);
+  const CellFlaw widest = worst_cell(mesh);
   std::vector<std::string> lines = {"mesh: " + plural(mesh.cells.size(), "cell", "cells") + ", " +
                                     plural(mesh.vertices.size(), "vertex", "vertices") +
-                                    ", largest angle " + to_string(widest.degrees) +
-                                    " degrees at " + to_string(widest.at)};
+                                    ", largest angle " + to_string(widest.angle) + " degrees at " +
+                                    to_string(widest.at)};
   add_edges(mesh, length_unit, lines);
-  add_surfaces(mesh, edges, length_unit, lines);
+  add_surfaces(mesh, length_unit, lines);
   return lines;
 }
 } // namespace hpvi

@@ -85,7 +85,8 @@ CellFlaw worst_cell(const CoarseMesh &mesh)
   {
     const BlendedCell cell(curves, c);
     for (unsigned int v = 0; v < 4; ++v)
-      if (const double angle = cell.angle(v); angle > worst.angle)
+      if (const double angle = cell.angle(v);
+          angle > worst.angle + 1e-9) // round-off does not choose
         worst = {mesh.vertices[mesh.cells[c].vertices[v]], angle};
     for (const Point<1> &s : gauss.get_points())
       for (const Point<1> &t : gauss.get_points())

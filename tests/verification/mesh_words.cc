@@ -30,6 +30,6 @@ TEST(MeshWords, TakeCurvesAsTheyAre)
                   "boundary bottom: 1 edge, curved, length 2.08046",
                   "boundary without a name, free: 3 edges, length 4",
                   "surface 1: 1 cell, area 2.33333"}));
-    EXPECT_NEAR(widest_corner(mesh).degrees, 116.56505117707799, 1e-10); // 90 + atan(1/2)
+    EXPECT_NEAR(worst_cell(mesh).angle, 116.56505117707799, 1e-10); // 90 + atan(1/2)
   }
 }

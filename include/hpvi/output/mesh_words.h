@@ -9,15 +9,6 @@
 
 namespace hpvi
 {
-/** The corner of a cell where the angle between its edges, as curves, is largest. */
-struct WidestCorner
-{
-  dealii::Point<2> at;
-  double degrees = 0;
-};
-
-WidestCorner widest_corner(const CoarseMesh &mesh);
-
 /**
  * What a mesh holds, a line each: numbers of cells and vertices, the largest angle of a corner; of each boundary and
  * curve inside edges and length, of each surface cells and area, curves taken as they are.
