@@ -9,16 +9,6 @@
 #include <string>
 #include <utility>
 
-extern "C"
-{
-  /** What deal.II does not declare of BLAS. */
-  void DEAL_II_FORTRAN_MANGLE(dtrsm, DTRSM)(const char *side, const char *triangle, const char *op,
-                                            const char *unit, const dealii::types::blas_int *m,
-                                            const dealii::types::blas_int *n, const double *alpha,
-                                            const double *A, const dealii::types::blas_int *lda,
-                                            double *B, const dealii::types::blas_int *ldb);
-}
-
 namespace hpvi
 {
 using dealii::types::blas_int;
@@ -65,57 +55,12 @@ void solve_triangular(const char op, const unsigned int n, const unsigned int co
     dealii::trtrs("L", &op, "N", &size, &nrhs, L.entries, &lda, B, &ldb, &info);
 }
 
-namespace
+void solve_by_cholesky(const unsigned int n, const std::vector<double> &L, double *const x)
 {
-/** OpenBLAS multiplies small matrices twice as fast as it solves or squares: beyond this size halves with a product are faster. */
-constexpr unsigned int most_at_once = 20;
-} // namespace
-
-void solve_from_right(const char op, const unsigned int rows, const unsigned int n,
-                      const DensePart L, double *const B, const unsigned int stride)
-{
-  if (rows == 0 || n == 0)
-    return;
-  if (n <= most_at_once)
-  {
-    const blas_int m = rows, size = n, lda = L.stride, ldb = stride;
-    const double one = 1.;
-    DEAL_II_FORTRAN_MANGLE(dtrsm, DTRSM)
-    ("R", "L", &op, "N", &m, &size, &one, L.entries, &lda, B, &ldb);
-    return;
-  }
-  const unsigned int first = n / 2, second = n - first;
-  const std::size_t below = first, beside = std::size_t(first) * L.stride;
-  const DensePart upper = L, lower = {L.entries + beside + below, L.stride},
-                  between = {L.entries + below, L.stride};
-  double *const B_2 = B + std::size_t(first) * stride;
-  if (op == 'T')
-  {
-    solve_from_right(op, rows, first, upper, B, stride);
-    multiply('N', 'T', rows, second, first, -1., {B, stride}, between, 1., B_2, stride);
-    solve_from_right(op, rows, second, lower, B_2, stride);
-  }
-  else
-  {
-    solve_from_right(op, rows, second, lower, B_2, stride);
-    multiply('N', 'N', rows, first, second, -1., {B_2, stride}, between, 1., B, stride);
-    solve_from_right(op, rows, first, upper, B, stride);
-  }
-}
-
-void subtract_square(const unsigned int n, const unsigned int inner, const DensePart A,
-                     double *const C, const unsigned int stride)
-{
-  if (n <= most_at_once)
-  {
-    multiply('N', 'T', n, n, inner, -1., A, A, 1., C, stride);
-    return;
-  }
-  const unsigned int first = n / 2, second = n - first;
-  const DensePart below = {A.entries + first, A.stride};
-  subtract_square(first, inner, A, C, stride);
-  multiply('N', 'T', second, first, inner, -1., below, A, 1., C + first, stride);
-  subtract_square(second, inner, below, C + first + std::size_t(first) * stride, stride);
+  const blas_int size = n, one = 1;
+  blas_int info = 0;
+  if (n > 0)
+    dealii::potrs("L", &size, &one, L.data(), &size, x, &size, &info);
 }
 
 PivotedCholesky::PivotedCholesky(const unsigned int n, const std::vector<double> &A,

@@ -8,6 +8,20 @@
 
 namespace hpvi
 {
+namespace
+{
+template <class Number>
+void resize_in_large_pages(std::vector<Number> &numbers, const std::size_t n)
+{
+  if (n > numbers.capacity())
+  {
+    numbers.reserve(n);
+    want_large_pages(numbers.data() + numbers.size(), (n - numbers.size()) * sizeof(Number));
+  }
+  numbers.resize(n);
+}
+} // namespace
+
 void SymmetricMatrix::resize(const std::size_t n_entries)
 {
   constexpr std::size_t highest = std::numeric_limits<int>::max();
@@ -18,7 +32,7 @@ void SymmetricMatrix::resize(const std::size_t n_entries)
                            "Geometry/Subdivisions");
   if (n_entries > row.size())
     require_memory(n_entries * double(sizeof(int) + sizeof(double)), "the stiffness matrix");
-  row.resize(n_entries);
-  value.resize(n_entries);
+  resize_in_large_pages(row, n_entries);
+  resize_in_large_pages(value, n_entries);
 }
 } // namespace hpvi

@@ -3,9 +3,11 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -138,6 +140,20 @@ void require_memory(const double bytes, const std::string &purpose)
                            bytes_text(available.bytes) + " are left of " + available.limit +
                            "; lower Adaptivity/Maximum unknowns, take fewer Geometry/Subdivisions "
                            "or allow more memory");
+}
+
+void want_large_pages(void *const memory, const std::size_t bytes)
+{
+#ifdef MADV_HUGEPAGE
+  const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory),
+                       first = (begin + large_page - 1) / large_page * large_page,
+                       last = (begin + bytes) / large_page * large_page;
+  if (first < last)
+    madvise(reinterpret_cast<void *>(first), last - first, MADV_HUGEPAGE);
+#else
+  (void)memory;
+  (void)bytes;
+#endif
 }
 
 bool mapping_is_limited()

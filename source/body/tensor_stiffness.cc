@@ -12,15 +12,16 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int n_kinds = 4; // which of two polynomials are derived
+/** Products of two polynomials: both derived, none, and the sum and difference of the first derived and the second. */
+constexpr unsigned int n_kinds = 4, n_symmetric = 3;
 
-/** C_rs for each kind: both, first, second, none derived along xi are rs = 00, 01, 10, 11. */
-constexpr std::array<unsigned int, n_kinds> coefficient_of_kind = {{0, 1, 1, 2}};
+/** C_rs for each kind along xi: rs = 00, 11, and 01 twice. */
+constexpr std::array<unsigned int, n_kinds> coefficient_of_kind = {{0, 2, 1, 1}};
 
-/** Is the first (0) or second (1) of two polynomials derived? */
-bool is_derived(const unsigned int kind, const unsigned int which)
+std::array<double, n_kinds> products_of(const std::array<double, 2> &i,
+                                        const std::array<double, 2> &j)
 {
-  return kind == 0 || kind == 1 + which;
+  return {{i[1] * j[1], i[0] * j[0], i[1] * j[0] + i[0] * j[1], i[1] * j[0] - i[0] * j[1]}};
 }
 } // namespace
 
@@ -39,26 +40,25 @@ const TensorStiffness::Products &TensorStiffness::products(const unsigned int de
   const unsigned int n = degree + 1, n_pairs = n * (n + 1) / 2;
   const auto shapes =
       Polynomials::generate_complete_Lagrange_basis(tables.gauss_lobatto(n).get_points());
-  result.pairs.resize(n_pairs * n_kinds * n_points);
-  result.all.resize(n_kinds * n_points * n * n);
+  result.along.resize(n_pairs * n_kinds * n_points);
+  result.across.resize(n_pairs * n_kinds * n_points);
   std::vector<std::array<double, 2>> l(n); // values and derivatives
   for (unsigned int q = 0; q < n_points; ++q)
   {
     for (unsigned int i = 0; i < n; ++i)
       shapes[i].value(gauss.point(q)[0], 1, l[i].data());
-    for (unsigned int kind = 0; kind < n_kinds; ++kind)
-    {
-      const bool first = is_derived(kind, 0), second = is_derived(kind, 1);
-      for (unsigned int j = 0, pair = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0, pair = 0; j < n; ++j)
+      for (unsigned int i = 0; i <= j; ++i, ++pair)
+      {
+        const auto [both, none, sum, difference] = products_of(l[i], l[j]);
+        const std::array<double, n_kinds> along = {{both, none, sum, difference}},
+                                          across = {{none, both, sum / 2, -difference / 2}};
+        for (unsigned int kind = 0; kind < n_kinds; ++kind)
         {
-          // What is derived along xi is not along eta.
-          result.all[(j * n + i) * n_kinds * n_points + kind * n_points + q] =
-              l[i][!first] * l[j][!second];
-          if (i <= j)
-            result.pairs[(kind * n_points + q) * n_pairs + pair++] = l[i][first] * l[j][second];
+          result.along[(kind * n_points + q) * n_pairs + pair] = along[kind];
+          result.across[(kind * n_points + q) * n_pairs + pair] = across[kind];
         }
-    }
+      }
   }
   return known_products.emplace(std::array<unsigned int, 2>{{degree, n_points}}, std::move(result))
       .first->second;
@@ -113,18 +113,21 @@ const TensorStiffness::Places &TensorStiffness::places(const unsigned int degree
   const auto place = [&](const unsigned int a, const unsigned int b)
   { return std::max(a, b) + size * std::min(a, b); };
   for (unsigned int j2 = 0; j2 < n; ++j2)
-    for (unsigned int i2 = 0; i2 < n; ++i2)
+    for (unsigned int i2 = 0; i2 <= j2; ++i2)
       for (unsigned int j1 = 0; j1 < n; ++j1)
         for (unsigned int i1 = 0; i1 <= j1; ++i1)
-        {
-          const unsigned int i = i2 * n + i1, j = j2 * n + j1;
-          result.of[0].push_back(place(rows[0][i], rows[0][j]));
-          result.of[1].push_back(place(rows[1][i], rows[1][j]));
-          result.of[2].push_back(place(rows[0][i], rows[1][j]));
-          result.of[3].push_back(place(rows[0][j], rows[1][i]));
-          result.rotations.push_back(D[j1 * n + i1] * D[i2 * n + j2] -
-                                     D[i1 * n + j1] * D[j2 * n + i2]);
-        }
+          for (const bool is_swapped : {false, true})
+          {
+            const unsigned int i = (is_swapped ? j2 : i2) * n + i1,
+                               j = (is_swapped ? i2 : j2) * n + j1;
+            Half &half = result.halves[is_swapped];
+            half.of[0].push_back(place(rows[0][i], rows[0][j]));
+            half.of[1].push_back(place(rows[1][i], rows[1][j]));
+            half.of[2].push_back(place(rows[0][i], rows[1][j]));
+            half.of[3].push_back(place(rows[0][j], rows[1][i]));
+            half.rotations.push_back(D[j1 * n + i1] * D[(i / n) * n + j / n] -
+                                     D[i1 * n + j1] * D[(j / n) * n + i / n]);
+          }
   return result;
 }
 
@@ -217,10 +220,12 @@ void TensorStiffness::tabulate_coefficients(const Scene<2> &scene, const CellMap
     }
 }
 
-/** `int x (d_0 phi_i d_1 phi_j - d_1 phi_i d_0 phi_j)` of an axisymmetric body, whose weight the map does not leave out. */
+/**
+ * `int x (d_0 phi_i d_1 phi_j - d_1 phi_i d_0 phi_j)` of an axisymmetric body, whose weight the map does not leave out: half of
+ * differences along xi times sums along eta, less or, swapped, and sums times differences.
+ */
 void TensorStiffness::sum_rotations(const Scene<2> &scene, const CellMap<2> &map, const Products &x,
-                                    const Products &y, const unsigned int n_pairs,
-                                    const unsigned int n_shapes)
+                                    const Products &y, const unsigned int n_pairs)
 {
   const unsigned int n_1 = x.points.size(), n_2 = y.points.size();
   std::vector<double> &C = coefficients[0];
@@ -228,13 +233,20 @@ void TensorStiffness::sum_rotations(const Scene<2> &scene, const CellMap<2> &map
     for (unsigned int q1 = 0; q1 < n_1; ++q1)
       C[q1 + n_1 * q2] = x.weights[q1] * y.weights[q2] *
                          scene.turn(map.point(Point<2>(x.points[q1][0], y.points[q2][0])));
-  for (unsigned int half = 0; half < 2; ++half) // kinds 1 and 2
-    multiply('N', 'N', n_pairs, n_2, n_1, half == 0 ? 1. : -1.,
-             {&x.pairs[(1 + half) * n_1 * n_pairs], n_pairs}, {C.data(), n_1}, 0.,
-             &sums[half * n_2 * n_pairs], n_pairs);
-  rotations.resize(n_pairs * n_shapes);
-  multiply('N', 'N', n_pairs, n_shapes, 2 * n_2, 1., {sums.data(), n_pairs},
-           {&y.all[n_2], n_kinds * n_2}, 0., rotations.data(), n_pairs);
+  constexpr unsigned int sum = 2, difference = 3;
+  for (const bool is_swapped : {false, true})
+  {
+    rotations[is_swapped].resize(n_pairs * n_pairs);
+    for (const unsigned int kind : {sum, difference})
+    {
+      multiply('N', 'N', n_pairs, n_2, n_1, 1., {&x.along[kind * n_1 * n_pairs], n_pairs},
+               {C.data(), n_1}, 0., sums.data(), n_pairs);
+      multiply('N', 'T', n_pairs, n_pairs, n_2, kind == sum && is_swapped ? -1. : 1.,
+               {sums.data(), n_pairs},
+               {&y.across[(sum + difference - kind) * n_2 * n_pairs], n_pairs},
+               kind == sum ? 0. : 1., rotations[is_swapped].data(), n_pairs);
+    }
+  }
 }
 
 void TensorStiffness::integrate(const Scene<2> &scene, const CellMap<2> &map,
@@ -243,40 +255,47 @@ void TensorStiffness::integrate(const Scene<2> &scene, const CellMap<2> &map,
 {
   const Products &x = products(degree, n_points[0]), &y = products(degree, n_points[1]);
   const Places &into = places(degree);
-  const unsigned int n = degree + 1, n_pairs = n * (n + 1) / 2, n_rows = n_blocks * n_pairs;
+  const unsigned int n = degree + 1, n_pairs = n * (n + 1) / 2, n_rows = n_blocks * n_pairs,
+                     n_1 = n_points[0], n_2 = n_points[1];
   tabulate_coefficients(scene, map, law, x, y);
-  sums.resize(n_rows * n_kinds * n_points[1]);
+  sums.resize(n_rows * n_kinds * n_2);
   for (unsigned int kind = 0; kind < n_kinds; ++kind)
-    multiply('N', 'N', n_pairs, n_blocks * n_points[1], n_points[0], 1.,
-             {&x.pairs[kind * n_points[0] * n_pairs], n_pairs},
-             {coefficients[coefficient_of_kind[kind]].data(), n_points[0]}, 0.,
-             &sums[kind * n_points[1] * n_rows], n_pairs);
-  result.resize(n_rows * n * n);
-  multiply('N', 'N', n_rows, n * n, n_kinds * n_points[1], 1., {sums.data(), n_rows},
-           {y.all.data(), n_kinds * n_points[1]}, 0., result.data(), n_rows);
+    multiply('N', 'N', n_pairs, n_blocks * n_2, n_1, 1., {&x.along[kind * n_1 * n_pairs], n_pairs},
+             {coefficients[coefficient_of_kind[kind]].data(), n_1}, 0., &sums[kind * n_2 * n_rows],
+             n_pairs);
+  symmetric.resize(n_rows * n_pairs);
+  skew.resize(n_rows * n_pairs);
+  multiply('N', 'T', n_rows, n_pairs, n_symmetric * n_2, 1., {sums.data(), n_rows},
+           {y.across.data(), n_pairs}, 0., symmetric.data(), n_rows);
+  multiply('N', 'T', n_rows, n_pairs, n_2, 1., {&sums[n_symmetric * n_2 * n_rows], n_rows},
+           {&y.across[n_symmetric * n_2 * n_pairs], n_pairs}, 0., skew.data(), n_rows);
 
-  const double *rotation = into.rotations.data();
-  double skew = Moduli(law, 0, 1).skew;
+  double turning = Moduli(law, 0, 1).skew;
   if (scene.is_axisymmetric())
-  {
-    sum_rotations(scene, map, x, y, n_pairs, n * n);
-    rotation = rotations.data();
-  }
+    sum_rotations(scene, map, x, y, n_pairs);
   if (determinant(map.jacobian(Point<2>(0.5, 0.5))) < 0)
-    skew = -skew;
+    turning = -turning;
   K.resize(4 * n * n * n * n);
-  for (unsigned int column = 0; column < n * n; ++column)
+  for (const bool is_swapped : {false, true})
   {
-    const double *const values = &result[column * n_rows];
-    const std::size_t first = std::size_t(column) * n_pairs;
-    for (unsigned int b = 0; b < 2; ++b)
-      for (unsigned int k = 0; k < n_pairs; ++k)
-        K[into.of[b][first + k]] = values[b * n_pairs + k];
-    for (unsigned int k = 0; k < n_pairs; ++k)
+    const Half &half = into.halves[is_swapped];
+    const double *const rotation =
+        scene.is_axisymmetric() ? rotations[is_swapped].data() : half.rotations.data();
+    const double sign = is_swapped ? -1. : 1.;
+    for (unsigned int column = 0; column < n_pairs; ++column)
     {
-      const double both = values[2 * n_pairs + k], turned = skew * rotation[first + k];
-      K[into.of[2][first + k]] = both + turned;
-      K[into.of[3][first + k]] = both - turned;
+      const double *const P = &symmetric[column * n_rows], *const Q = &skew[column * n_rows];
+      const std::size_t first = std::size_t(column) * n_pairs;
+      for (unsigned int b = 0; b < 2; ++b)
+        for (unsigned int k = 0; k < n_pairs; ++k)
+          K[half.of[b][first + k]] = P[b * n_pairs + k] + sign * Q[b * n_pairs + k];
+      for (unsigned int k = 0; k < n_pairs; ++k)
+      {
+        const double both = P[2 * n_pairs + k] + sign * Q[2 * n_pairs + k],
+                     turned = turning * rotation[first + k];
+        K[half.of[2][first + k]] = both + turned;
+        K[half.of[3][first + k]] = both - turned;
+      }
     }
   }
 }

@@ -49,8 +49,8 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
 {
   auto element = std::make_shared<CondensedElement>();
   const unsigned int n_interior = K.m() - n_boundary;
-  element->condensed.reinit(n_boundary, n_boundary);
-  element->condensed.fill(K, 0, 0, 0, 0);
+  FullMatrix<double> condensed(n_boundary, n_boundary);
+  condensed.fill(K, 0, 0, 0, 0);
   if (n_interior > 0)
   {
     LAPACKFullMatrix<double> K_ii, K_ib(n_interior, n_boundary);
@@ -59,64 +59,45 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
       for (unsigned int j = 0; j < n_boundary; ++j)
         K_ib(i, j) = -K(n_boundary + i, j);
     K_ii.solve(K_ib);
-    element->extension.reinit(n_interior, n_boundary);
-    element->extension = K_ib;
-    FullMatrix<double> K_bi(n_boundary, n_interior);
+    FullMatrix<double> extension(n_interior, n_boundary), K_bi(n_boundary, n_interior);
+    extension = K_ib;
     K_bi.fill(K, 0, 0, 0, n_boundary);
-    K_bi.mmult(element->condensed, element->extension, /*adding=*/true);
+    K_bi.mmult(condensed, extension, /*adding=*/true);
+    element->extension = PooledMatrix(extension);
     if (interior_loads)
-      element->K_ii = K_ii;
+      element->factor.assign(&K_ii(0, 0), &K_ii(0, 0) + K_ii.n_elements());
   }
+  element->condensed = PooledMatrix(condensed);
   return element;
 }
 
-namespace
-{
-/** The factor of the first columns of @p K, n x n by columns, as deal.II keeps it. */
-void factor_first(const std::vector<double> &K, const unsigned int n,
-                  LAPACKFullMatrix<double> &factor)
-{
-  for (unsigned int j = 0; j < factor.n(); ++j)
-    std::copy_n(&K[std::size_t(j) * n], factor.m(), &factor(0, j));
-  factor.set_property(LAPACKSupport::symmetric);
-  factor.compute_cholesky_factorization();
-}
-} // namespace
-
 // With `K_ii = L L'` and `W = K_bi L'^-1` what is left is `K_bb - W W'`, and `u_i = -L'^-1 W' u_b`.
 template <int dim>
-std::shared_ptr<CondensedElement>
-CondensedElements<dim>::condense(std::vector<double> &K, const unsigned int n,
-                                 const unsigned int n_boundary) const
+std::shared_ptr<CondensedElement> CondensedElements<dim>::condense(std::vector<double> &K,
+                                                                   const unsigned int n,
+                                                                   const unsigned int n_boundary)
 {
   auto element = std::make_shared<CondensedElement>();
   const unsigned int n_interior = n - n_boundary;
   double *const K_bi = &K[n_interior], *const K_bb = K_bi + std::size_t(n_interior) * n;
   if (n_interior > 0)
   {
-    DensePart L = {K.data(), n};
-    if (interior_loads)
-    {
-      element->K_ii.reinit(n_interior);
-      factor_first(K, n, element->K_ii);
-      L = {&element->K_ii(0, 0), n_interior};
-    }
-    else
-      AssertThrow(cholesky(n_interior, K.data(), n), LACExceptions::ExcSingular());
-    solve_from_right('T', n_boundary, n_interior, L, K_bi, n);
+    AssertThrow(cholesky.factor(n, n_interior, K.data(), n), LACExceptions::ExcSingular());
     subtract_square(n_boundary, n_interior, {K_bi, n}, K_bb, n);
-    // By rows it is its transpose by columns.
-    element->extension.reinit(n_interior, n_boundary, /*omit_default_initialization=*/true);
-    double *const extension = &element->extension(0, 0);
-    for (unsigned int i = 0; i < n_interior; ++i)
-      std::transform(K_bi + std::size_t(i) * n, K_bi + std::size_t(i) * n + n_boundary,
-                     extension + std::size_t(i) * n_boundary, std::negate<>());
-    solve_from_right('N', n_boundary, n_interior, L, extension, n_boundary);
+    element->extension = PooledMatrix(n_interior, n_boundary, pool);
+    cholesky.extend(element->extension.row(0)); // by rows it is its transpose by columns
+    for (unsigned int j = 0; j < n_interior && interior_loads; ++j)
+      element->factor.insert(element->factor.end(), &K[std::size_t(j) * n],
+                             &K[std::size_t(j) * n] + n_interior);
   }
-  element->condensed.reinit(n_boundary, n_boundary, /*omit_default_initialization=*/true);
+  element->condensed = PooledMatrix(n_boundary, n_boundary, pool);
   for (unsigned int j = 0; j < n_boundary; ++j)
-    for (unsigned int i = j; i < n_boundary; ++i)
-      element->condensed(j, i) = element->condensed(i, j) = K_bb[std::size_t(j) * n + i];
+  {
+    const double *const column = K_bb + std::size_t(j) * n;
+    std::copy(column + j, column + n_boundary, element->condensed.row(j) + j);
+    for (unsigned int i = j + 1; i < n_boundary; ++i)
+      element->condensed.row(i)[j] = column[i];
+  }
   return element;
 }
 
@@ -154,13 +135,13 @@ namespace
 {
 /** T' K T, first its rows, then its columns: T is nearly the identity. */
 FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsigned int n_targets,
-                              const FullMatrix<double> &K)
+                              const PooledMatrix &K)
 {
   FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
   for (const ConstraintEntry &entry : T)
   {
     double *const sum = &rows(entry.target, 0);
-    const double *const row = &K(entry.local, 0);
+    const double *const row = K.row(entry.local);
     for (unsigned int j = 0; j < K.n(); ++j)
       sum[j] += entry.weight * row[j];
   }
@@ -229,7 +210,7 @@ void Condensation<dim>::for_each_extension(const F &f) const
   for (unsigned int cell = 0; cell < elements.size(); ++cell)
     if (elements[cell] && elements[cell]->extension.m() > 0)
     {
-      const FullMatrix<double> &extension = elements[cell]->extension;
+      const PooledMatrix &extension = elements[cell]->extension;
       inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
       boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
       f(extension, space.cell_dofs(cell), inside, boundary);
@@ -316,7 +297,8 @@ void Condensation<dim>::add_interior(const Vector<double> &forces, Vector<double
 {
   solve_inside(
       forces,
-      [](const CondensedElement &element, Vector<double> &inside) { element.K_ii.solve(inside); },
+      [](const CondensedElement &element, Vector<double> &inside)
+      { solve_by_cholesky(inside.size(), element.factor, inside.begin()); },
       u);
 }
 

@@ -42,10 +42,10 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
           reduce(condensation.element(index), space.cell_dofs(index), unknowns, elements));
     }
   std::vector<std::shared_ptr<const CondensedElement>> springs; // until they are summed up
-  for (SpringFace &face : spring_faces(scene, space, tables))
+  for (const SpringFace &face : spring_faces(scene, space, tables))
   {
     const auto element = std::make_shared<CondensedElement>();
-    element->condensed = std::move(face.matrix);
+    element->condensed = PooledMatrix(face.matrix);
     springs.push_back(element);
     contributions.push_back(reduce(element, face.dofs, unknowns, elements));
   }
@@ -68,7 +68,7 @@ ElasticSystem<dim>::reduce(const std::shared_ptr<const CondensedElement> &elemen
                            const ArrayView<const types::global_dof_index> dofs,
                            const Unknowns<dim> &unknowns, CondensedElements<dim> &elements)
 {
-  const FullMatrix<double> &K = element->condensed;
+  const PooledMatrix &K = element->condensed;
   const unsigned int n = K.m();
   Contribution result;
   std::vector<ConstraintEntry> T;
@@ -90,11 +90,11 @@ ElasticSystem<dim>::reduce(const std::shared_ptr<const CondensedElement> &elemen
     prescribed[i] = unknowns.prescribed(dofs[i]);
     has_prescribed = has_prescribed || prescribed[i] != 0.;
   }
-  result.matrix = &K;
+  result.values = K.row(0);
   if (!is_identity)
   {
     constrained.push_back(elements.constrained(element, T, result.targets.size()));
-    result.matrix = constrained.back().get();
+    result.values = &(*constrained.back())(0, 0);
   }
   if (has_prescribed)
   {
@@ -159,7 +159,8 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     for (unsigned int place = first[column]; place < first[column + 1]; ++place)
     {
       const Contribution &contribution = *places[place].contribution;
-      const double *const values = &(*contribution.matrix)(places[place].local, 0);
+      const double *const values =
+          contribution.values + std::size_t(places[place].local) * contribution.targets.size();
       // Half of all targets are, in no order that a processor could guess: they are selected without a branch.
       const unsigned int *const targets = contribution.targets.data();
       unsigned int n_upper = 0;

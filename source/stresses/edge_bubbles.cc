@@ -41,7 +41,7 @@ typename EdgeBubbles<dim>::Energies EdgeBubbles<dim>::energies(const Traces &tra
       elements[ElementMatrices<dim>(scene, tables).congruence_class(face.map, q, material)];
   if (!element)
     element = CondensedElements<dim>(scene, tables).get(face.map, q, material);
-  const FullMatrix<double> &K = element->condensed;
+  const FullMatrix<double> K = element->condensed.full();
   FullMatrix<double> b(K.m(), n), forces(K.m(), n);
   unsigned int first = 0;
   for (const auto &[on_face, columns] : traces)

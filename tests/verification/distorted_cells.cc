@@ -222,17 +222,51 @@ TEST_P(DistortedCells, AreCondensedAsByDenseElimination)
                   {
                     CondensedElements<2> elements(*each, tables);
                     const auto element = elements.get(map, degree, 0);
-                    EXPECT_LE(largest_difference(element->condensed, condensed),
+                    EXPECT_LE(largest_difference(element->condensed.full(), condensed),
                               1e-12 * K.linfty_norm());
                     ASSERT_EQ(element->extension.m(), n_i);
                     if (n_i > 0)
                     {
-                      EXPECT_LE(largest_difference(element->extension, extension),
+                      EXPECT_LE(largest_difference(element->extension.full(), extension),
                                 1e-11 * extension.linfty_norm());
                     }
-                    EXPECT_EQ(element->K_ii.m(), each == &scene ? 0 : n_i);
+                    EXPECT_EQ(element->factor.size(), each == &scene ? 0 : n_i * n_i);
                   }
                 });
+}
+
+/** Blocks of columns, the last of them narrower, and rows below: a factor where there is one, else word of it. */
+TEST(BlockCholesky, FactorsWhatIsPositiveDefinite)
+{
+  constexpr unsigned int n = 19, rows = 24;
+  for (const unsigned int bad : {n, 0U, 7U, 8U, 18U}) // which pivot is negative, n for none
+  {
+    std::vector<double> L(rows * n), A(rows * n);
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = j; i < rows; ++i)
+        L[j * rows + i] = i == j ? 2 + 0.1 * j : std::cos(3. * i + 5. * j) / 3;
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = j; i < rows; ++i)
+        for (unsigned int k = 0; k <= j; ++k)
+          A[j * rows + i] += (k == bad ? -1. : 1.) * L[k * rows + i] * L[k * rows + j];
+    BlockCholesky cholesky;
+    ASSERT_EQ(cholesky.factor(rows, n, A.data(), rows), bad == n) << bad;
+    if (bad != n)
+      continue;
+    std::vector<double> E((rows - n) * n);
+    cholesky.extend(E.data());
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = j; i < rows; ++i)
+        EXPECT_NEAR(A[j * rows + i], L[j * rows + i], 1e-14) << i << ' ' << j;
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < rows - n; ++i)
+      {
+        double W = 0;
+        for (unsigned int k = j; k < n; ++k)
+          W -= E[k * (rows - n) + i] * L[j * rows + k];
+        EXPECT_NEAR(W, L[j * rows + n + i], 1e-14) << i << ' ' << j;
+      }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, DistortedCells,

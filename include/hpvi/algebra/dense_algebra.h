@@ -29,13 +29,8 @@ void require_regular(bool is_positive_definite, const char *what);
 void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L, double *B,
                       unsigned int stride);
 
-/** `B := B op(L)^-1` with L lower triangular of size n, B rows x n. */
-void solve_from_right(char op, unsigned int rows, unsigned int n, DensePart L, double *B,
-                      unsigned int stride);
-
-/** `C := C - A A'` in the lower triangle of C, n x n, of which entries above it are lost; A n x inner. */
-void subtract_square(unsigned int n, unsigned int inner, DensePart A, double *C,
-                     unsigned int stride);
+/** `x := A^-1 x` with `A = L L'`, n x n. */
+void solve_by_cholesky(unsigned int n, const std::vector<double> &L, double *x);
 
 /**
  * Cholesky with pivots of a positive semidefinite matrix (n x n, both triangles given): rows and

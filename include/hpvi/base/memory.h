@@ -2,6 +2,7 @@
 #ifndef hpvi_memory_h
 #define hpvi_memory_h
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -29,6 +30,11 @@ AvailableMemory available_memory(const std::filesystem::path &root = "/");
  * they are asked for: Linux grants what it does not have, and ends the process when it is used.
  */
 void require_memory(double bytes, const std::string &purpose);
+
+constexpr std::size_t large_page = std::size_t(1) << 21;
+
+/** Ask the kernel for large pages under @p bytes of memory that nobody has touched yet; it may decline. */
+void want_large_pages(void *memory, std::size_t bytes);
 
 /** Does RLIMIT_AS or RLIMIT_DATA limit the memory that the process may map? */
 bool mapping_is_limited();

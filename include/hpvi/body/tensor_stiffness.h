@@ -20,8 +20,9 @@ namespace hpvi
 
  * with A and B products of l and l' at Gauss points and C_rs, r and s directions of the reference cell, from the moduli
  * and the map. C_rs of two components is symmetric in r and s but for a part that the map does not change, so that pairs
- * i1 <= j1 are enough and one matrix product serves all components. `O(p^5)` operations, where shape functions at
- * all points would need `O(p^6)`.
+ * i1 <= j1 are enough and one matrix product serves all components. What changes its sign when i2 and j2 are swapped is
+ * summed apart from what does not: pairs i2 <= j2 are enough, too. `O(p^5)` operations, where shape functions at all
+ * points would need `O(p^6)`.
  */
 class TensorStiffness
 {
@@ -41,21 +42,25 @@ public:
   static constexpr unsigned int n_blocks = 3;
 
 private:
-  /** Products of two polynomials at the Gauss points, by which of both are derived: both, the first, the second, none. */
+  /** Products of two polynomials i <= j at the Gauss points: n(n+1)/2 x 4 points, by which of both are derived. */
   struct Products
   {
-    std::vector<double> pairs; ///< n(n+1)/2 x 4 points, with pairs i <= j
-    std::vector<double> all;   ///< 4 points x n^2, none, second, first, both: the other direction
+    std::vector<double> along;  ///< both, none, sum and difference of the first and the second
+    std::vector<double> across; ///< what belongs to these in the other direction
     const std::vector<dealii::Point<1>> &points;
     const std::vector<double> &weights;
   };
 
-  /** Where the pairs (i1 <= j1, i2, j2) of shape functions stand in K. */
-  struct Places
+  /** Where pairs (i1 <= j1, i2 <= j2) of shape functions stand in K, as they are or with i2 and j2 swapped. */
+  struct Half
   {
     /** Of components (0,0), (1,1), (0,1), and of those with i and j swapped. */
     std::array<std::vector<unsigned int>, 4> of;
     std::vector<double> rotations; ///< int d_0 phi_i d_1 phi_j - d_1 phi_i d_0 phi_j
+  };
+  struct Places
+  {
+    std::array<Half, 2> halves;
   };
 
   const Products &products(unsigned int degree, unsigned int n_points);
@@ -63,7 +68,7 @@ private:
   void tabulate_coefficients(const Scene<2> &scene, const CellMap<2> &map, const HookesLaw<2> &law,
                              const Products &x, const Products &y);
   void sum_rotations(const Scene<2> &scene, const CellMap<2> &map, const Products &x,
-                     const Products &y, unsigned int n_pairs, unsigned int n_shapes);
+                     const Products &y, unsigned int n_pairs);
 
   const ShapeTables<2> &tables;
   std::map<std::array<unsigned int, 2>, Products> known_products;
@@ -72,7 +77,8 @@ private:
   // Scratch, which keeps its memory from cell to cell.
   std::array<std::vector<double>, 3>
       coefficients; ///< C_rs of (0,0), (0,1), (1,1): points x (blocks x points)
-  std::vector<double> sums, result, rotations;
+  std::vector<double> sums, symmetric, skew;
+  std::array<std::vector<double>, 2> rotations;
 };
 } // namespace hpvi
 

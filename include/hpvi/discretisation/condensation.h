@@ -4,6 +4,8 @@
 
 #include <boost/functional/hash.hpp>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/algebra/block_cholesky.h>
+#include <hpvi/algebra/pooled_matrix.h>
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/element_matrices.h>
 
@@ -21,9 +23,10 @@ namespace hpvi
  */
 struct CondensedElement
 {
-  dealii::FullMatrix<double> condensed;  ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
-  dealii::FullMatrix<double> extension;  ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
-  dealii::LAPACKFullMatrix<double> K_ii; ///< factored; empty unless loads act in the interior
+  PooledMatrix condensed; ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
+  PooledMatrix extension; ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
+  std::vector<double>
+      factor; ///< of K_ii by columns, n_i x n_i; empty unless loads act in the interior
 };
 
 /** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
@@ -84,11 +87,13 @@ private:
 
   /** The same of ElementMatrices::triangle(), in its place. */
   std::shared_ptr<CondensedElement> condense(std::vector<double> &K, unsigned int n,
-                                             unsigned int n_boundary) const;
+                                             unsigned int n_boundary);
 
   const ElementMatrices<dim> matrices;
   const bool interior_loads;
+  MatrixPool pool;              ///< of cells that are no parallelograms: each has its own matrices
   std::vector<double> triangle; ///< keeps its memory from cell to cell
+  BlockCholesky cholesky;       ///< likewise
   std::map<typename ElementMatrices<dim>::Class, std::weak_ptr<const CondensedElement>> known;
 
   using ConstrainedKey =

@@ -40,7 +40,7 @@ private:
   struct Contribution
   {
     std::vector<unsigned int> targets;
-    const dealii::FullMatrix<double> *matrix = nullptr; ///< targets x targets
+    const double *values = nullptr; ///< targets x targets
 
     unsigned int add_target(unsigned int unknown); ///< its place among the targets
   };
