@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Errors on bodies with curved edges over the degree, and those that a mesh file makes with polygons, splines and circles.
+"""Errors on bodies with curved edges over the degree, those that a mesh file makes with polygons, splines and circles, and how
+far the residual indicator is above the error on curved cells and on straight ones.
 
 Runs a ring and a plate with a hole by uniform p and writes the tables of doc/curves.md, between its marker comments.
 """
@@ -12,7 +13,9 @@ import pathlib
 import subprocess
 import sys
 
-from stability import number, progress, put_table
+import numpy as np
+
+from stability import number, plain, progress, put_table
 
 PAGE = "curves"
 DEGREES = (2, 3, 4, 5, 6, 8, 10, 12)
@@ -79,9 +82,19 @@ def run(program, home, scene):
                           stderr=subprocess.PIPE, env={**os.environ, "OMP_NUM_THREADS": "1"})
     if done.returncode:
         sys.exit(f"{home}: {done.stderr}")
+    return {int(row["p_max"]): float(row["energy"]) for row in rows_of(home)}
+
+
+def rows_of(home):
     with open(home / "out/convergence.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {int(row["p_max"]): float(row["energy"]) for row in rows}
+        return list(csv.DictReader(file))
+
+
+def effectivities(program, home, scene, J):
+    """By degree: the indicator over the error, both over the norm of the solution."""
+    energies = run(program, home, scene)
+    estimates = {int(row["p_max"]): float(row["estimate_relative"]) for row in rows_of(home)}
+    return {p: estimates[p] / error for p, error in norms(energies, J).items() if error > FLOOR}
 
 
 def norms(energies, J):
@@ -96,23 +109,26 @@ def shown(error):
 def pressures(home):
     """The largest error of the pressure by degree, over the pressure."""
     errors = {}
-    with open(home / "out/convergence.csv", newline="") as file:
-        degrees = {int(row["step"]): int(row["p_max"]) for row in csv.DictReader(file)}
+    degrees = {int(row["step"]): int(row["p_max"]) for row in rows_of(home)}
     for step, p in degrees.items():
         with open(home / f"out/contact-{step:02}.csv", newline="") as file:
             errors[p] = max(abs(float(row["normal_traction"]) / PRESSURE + 1) for row in csv.DictReader(file))
     return errors
 
 
-def mesh(path, n):
-    """A quarter of the ring, 2 x n cells, by vertices alone."""
+def mesh(path, n, each_edge=False):
+    """A quarter of the ring, 2 x n cells, by vertices alone; the arcs are one boundary each, or as many as they have edges."""
     nodes = [(r * math.cos(math.pi / 2 * j / n), r * math.sin(math.pi / 2 * j / n)) for r in (1, 1.5, 2) for j in range(n + 1)]
     at = [[i * (n + 1) + j + 1 for j in range(n + 1)] for i in range(3)]
-    edges = [(1, at[0][j], at[0][j + 1]) for j in range(n)] + [(2, at[2][j], at[2][j + 1]) for j in range(n)] + \
-        [(3, at[i][0], at[i + 1][0]) for i in range(2)] + [(4, at[i][n], at[i + 1][n]) for i in range(2)]
+    arcs = {f"{name}{j}" if each_edge else name: None for name in ("inner", "outer") for j in range(n)}
+    number_of = {name: k for k, name in enumerate((*arcs, "start", "end", "ring"), 1)}
+    edges = [(number_of[f"{name}{j}" if each_edge else name], at[i][j], at[i][j + 1])
+             for i, name in ((0, "inner"), (2, "outer")) for j in range(n)]
+    edges += [(number_of[name], at[i][j], at[i + 1][j]) for name, j in (("start", 0), ("end", n)) for i in range(2)]
     cells = [(at[i][j], at[i + 1][j], at[i + 1][j + 1], at[i][j + 1]) for i in range(2) for j in range(n)]
-    elements = [f"1 2 {g} {g} {a} {b}" for g, a, b in edges] + [f"3 2 5 5 {' '.join(map(str, cell))}" for cell in cells]
-    names = ['1 1 "inner"', '1 2 "outer"', '1 3 "start"', '1 4 "end"', '2 5 "ring"']
+    group = number_of["ring"]
+    elements = [f"1 2 {g} {g} {a} {b}" for g, a, b in edges] + [f"3 2 {group} {group} {' '.join(map(str, cell))}" for cell in cells]
+    names = [f'{2 if name == "ring" else 1} {k} "{name}"' for name, k in number_of.items()]
     sections = {"MeshFormat": ["2.2 0 8"], "PhysicalNames": [len(names), *names],
                 "Nodes": [len(nodes), *(f"{k} {x!r} {y!r} 0" for k, (x, y) in enumerate(nodes, 1))],
                 "Elements": [len(elements), *(f"{k} {line}" for k, line in enumerate(elements, 1))]}
@@ -123,9 +139,61 @@ def mesh(path, n):
 
 def from_file(curve):
     said = f"  set Curve = {curve}\n" if curve else ""
-    scene = "subsection Geometry\n  set Shape = file\n  set File = ring.msh\nend\n" + RING[RING.index("subsection Boundary"):]
+    scene = FILE + RING[RING.index("subsection Boundary"):]
     scene = scene.replace("  set Pressure = 1\n", "  set Pressure = 1\n" + said)
     return scene + (f"subsection Boundary outer\n{said}end\n" if curve else "")
+
+
+# Lame's stress is S + T/r^2 (1 - 2 e_r e_r'), u_r = U r + V/r.
+S, T = 1 / 3, 4 / 3
+U, V = 0.13 * 0.4 * S, 0.13 * T
+FILE = "subsection Geometry\n  set Shape = file\n  set File = ring.msh\nend\n"
+
+
+def polygon(n):
+    """The tractions of Lame's field on the edges of a quarter of 2 x n straight cells, and J of its body."""
+    scene, J = FILE + RING[RING.index("subsection Boundary start"):], 0.
+    points, weights = np.polynomial.legendre.leggauss(30)
+    for name, r, side in (("inner", 1, -1), ("outer", 2, 1)):
+        for j in range(n):
+            ends = [r * np.array((math.cos(t), math.sin(t))) for t in (math.pi / 2 * j / n, math.pi / 2 * (j + 1) / n)]
+            normal = side * (ends[0] + ends[1]) / np.linalg.norm(ends[0] + ends[1])
+            traction = "; ".join(f"{S * c!r}+{T!r}/(x^2+y^2)*({c!r}-2*({normal[0]:.17g}*x+({normal[1]:.17g})*y)*{x}/(x^2+y^2))"
+                                 for c, x in zip(map(float, normal), "xy"))
+            scene += f"subsection Boundary {name}{j}\n  set Traction = {traction}\nend\n"
+            for s, weight in zip(points, weights):
+                x = ends[0] + (1 + s) / 2 * (ends[1] - ends[0])
+                rr = x @ x
+                force = S * normal + T / rr * (normal - 2 * (normal @ x) * x / rr)
+                J -= weight / 4 * np.linalg.norm(ends[1] - ends[0]) * (force @ x) * (U + V / rr)
+    return scene, J
+
+
+def rectangles(n):
+    """The ring rolled out: 2 x n rectangles as long as its cells in the middle, u_x = U x + V/x, u_y = 0, and J."""
+    length, M = 0.75 * math.pi, LAMBDA + 2 * MU
+    scene = f"""subsection Geometry
+  set Lower corner = 1, 0
+  set Upper corner = 2, {length!r}
+  set Subdivisions = 2, {n}
+end
+subsection Boundary left
+  set Traction = {M * (V - U)!r}; 0
+end
+subsection Boundary right
+  set Displacement = 0; free
+end
+subsection Boundary bottom
+  set Symmetry = true
+end
+subsection Boundary top
+  set Symmetry = true
+end
+subsection Body force
+  set Expression = {-2 * M * V!r}/x^3; 0
+end
+"""
+    return scene, -length * M / 2 * (U**2 - U * V + 7 * V**2 / 24)
 
 
 def main():
@@ -155,7 +223,16 @@ def main():
             row[name] = number(abs(energy - J_FREE) / abs(J_FREE), 2)
         rows.append(row)
     put_table("files", rows, page=PAGE)
-    progress("doc/curves.md, doc/curves/degrees.csv, doc/curves/files.csv")
+    columns = {}
+    for n, turn in ((4, "22.5"), (2, "45")):
+        mesh(output / f"polygon-{n}-tractions/ring.msh", n, each_edge=True)
+        for name, scene, J in ((f"ring, cells of {turn} degrees", RING.replace("2, 4", f"2, {n}"), J_FREE),
+                               (f"2 x {n} rectangles", *rectangles(n)), (f"polygon, 2 x {n}", *polygon(n))):
+            home = output / f"polygon-{n}-tractions" if "polygon" in name else output / name.replace(" ", "-").replace(",", "")
+            columns[name] = effectivities(program, home, scene, J)
+    put_table("effectivity", [{"p": p, **{name: plain(values[p], 1) for name, values in columns.items()}} for p in range(2, 7)],
+              page=PAGE)
+    progress("doc/curves.md, doc/curves/*.csv")
 
 
 if __name__ == "__main__":

@@ -325,4 +325,53 @@ TEST(Curves, ConvergeAtTheRateOfTheDegree)
     EXPECT_NEAR(std::log2(error[0] / error[1]), p, 0.15) << p;
   }
 }
+/** By degree from 2 on: the indicator over the error, whose square is what J_N is above J. */
+std::vector<double> effectivities(const Overrides &entries, const double J)
+{
+  const Scene<2> scene = scene_of(with(entries, {{"Material/Young's modulus", "10"},
+                                                 {"Material/Poisson's ratio", "0.3"},
+                                                 {"Adaptivity/Method", "pu"},
+                                                 {"Adaptivity/Start degree", "2"},
+                                                 {"Adaptivity/Maximum steps", "5"},
+                                                 {"Adaptivity/Tolerance", "0"}}));
+  std::vector<double> result;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      { result.push_back(step.relative_estimate / std::sqrt(1 - step.energies.energy / J)); });
+  return result;
+}
+
+/**
+ * The indicator on Lame's ring, u_r = U r + V/r, beside that on the ring rolled out: rectangles as long as its cells in the
+ * middle, with u_x = U x + V/x.
+ */
+TEST(Curves, HaveTheEffectivityOfStraightCells)
+{
+  const double mu = 10 / 2.6, M = 10 * 0.3 / (1.3 * 0.4) + 2 * mu, U = 0.13 * 0.4 / 3,
+               V = 0.13 * 4 / 3, length = 0.75 * numbers::PI;
+  for (const std::string subdivisions : {"2, 4", "2, 2"})
+  {
+    const auto curved = effectivities(ring({{"Geometry/Subdivisions", subdivisions},
+                                            {"Boundary start/Symmetry", "true"},
+                                            {"Boundary end/Symmetry", "true"},
+                                            {"Boundary inner/Pressure", "1"}}),
+                                      -(U + V) * numbers::PI / 4);
+    const auto straight = effectivities({{"Geometry/Lower corner", "1, 0"},
+                                         {"Geometry/Upper corner", "2, " + text(length)},
+                                         {"Geometry/Subdivisions", subdivisions},
+                                         {"Boundary bottom/Symmetry", "true"},
+                                         {"Boundary top/Symmetry", "true"},
+                                         {"Boundary right/Displacement", "0; free"},
+                                         {"Boundary left/Traction", text(M * (V - U)) + "; 0"},
+                                         {"Body force/Expression", text(-2 * M * V) + "/x^3; 0"}},
+                                        -length * M / 2 * (U * U - U * V + 7 * V * V / 24));
+    ASSERT_EQ(curved.size(), 5U);
+    ASSERT_EQ(straight.size(), 5U);
+    for (unsigned int k = 0; k < curved.size(); ++k)
+    {
+      EXPECT_LT(curved[k], 1.5 * straight[k]) << subdivisions << " p=" << k + 2;
+      EXPECT_GT(curved[k], straight[k] / 1.5) << subdivisions << " p=" << k + 2;
+    }
+  }
+}
 } // namespace
