@@ -7,29 +7,70 @@
 #include <cstdlib>
 #include <new>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+constexpr std::size_t piece_size = 2 * large_page / sizeof(double);
+
+/** Aligned for large pages, @p n numbers or some more. */
+std::unique_ptr<double, decltype(&std::free)> allocate(const std::size_t n)
+{
+  const std::size_t bytes = (n * sizeof(double) + large_page - 1) / large_page * large_page;
+  void *const memory = std::aligned_alloc(large_page, bytes);
+  if (!memory)
+    throw std::bad_alloc();
+  want_large_pages(memory, bytes);
+  return {static_cast<double *>(memory), std::free};
+}
+} // namespace
+
+/** Those that are empty. */
+class MatrixPool::Pieces
+{
+public:
+  static std::shared_ptr<double> take(const std::shared_ptr<Pieces> &all)
+  {
+    if (all->empty.empty())
+      all->empty.push_back(allocate(piece_size));
+    std::unique_ptr<double, decltype(&std::free)> one = std::move(all->empty.back());
+    all->empty.pop_back();
+    all->empty.reserve(all->empty.size() + ++all->n_taken); // to give it back cannot fail
+    return {one.release(), [all](double *const entries)
+            {
+              all->empty.emplace_back(entries, std::free);
+              --all->n_taken;
+            }};
+  }
+
+private:
+  std::vector<std::unique_ptr<double, decltype(&std::free)>> empty;
+  std::size_t n_taken = 0;
+};
+
+MatrixPool::MatrixPool() : pieces(std::make_shared<Pieces>())
+{
+}
+
 std::shared_ptr<double> MatrixPool::take(const std::size_t n)
 {
   constexpr std::size_t line = 8; // numbers in a line of the cache
   const std::size_t needed = (n + line - 1) / line * line;
-  if (used + needed > size)
+  taken += needed;
+  if (taken < piece_size || needed > piece_size / 4)
+    return {new double[needed], std::default_delete<double[]>()};
+  if (needed > left)
   {
-    constexpr std::size_t least = large_page / sizeof(double) * 2;
-    size = std::max(least, needed);
-    const std::size_t bytes = (size * sizeof(double) + large_page - 1) / large_page * large_page;
-    void *const memory = std::aligned_alloc(large_page, bytes);
-    if (!memory)
-      throw std::bad_alloc();
-    piece = std::shared_ptr<double>(static_cast<double *>(memory), std::free);
-    want_large_pages(memory, bytes);
-    used = 0;
+    piece = Pieces::take(pieces);
+    left = piece_size;
   }
-  used += needed;
-  return std::shared_ptr<double>(piece, piece.get() + used - needed);
+  left -= needed;
+  return {piece, piece.get() + left};
 }
 
 PooledMatrix::PooledMatrix(const FullMatrix<double> &matrix)

@@ -11,17 +11,22 @@ namespace hpvi
 {
 /**
  * Memory of many matrices, in pieces of megabytes that Linux may map by large pages: to touch small ones for the first time
- * takes as long as half of what is done with them. A piece lives as long as anything in it.
+ * takes as long as half of what is done with them. Few matrices have no piece. One that nothing is in any more is taken again, and
+ * goes when the pool and all that is in its pieces have gone.
  */
 class MatrixPool
 {
 public:
+  MatrixPool();
+
   /** Room for @p n numbers, which are not set. */
   std::shared_ptr<double> take(std::size_t n);
 
 private:
+  class Pieces;
+  const std::shared_ptr<Pieces> pieces;
   std::shared_ptr<double> piece;
-  std::size_t size = 0, used = 0;
+  std::size_t taken = 0, left = 0;
 };
 
 /** A dense matrix by rows, in memory of its own or beside others. Copies share it. */
