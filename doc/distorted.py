@@ -50,9 +50,10 @@ def main():
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     runs = measure(parser.parse_args().program)
     (HERE / PAGE).mkdir(exist_ok=True)
-    raised = runs["raised"]
-    put_table("raised", [{"p": int(p), "N": int(n), "bound / step": plain(c, 2)} for p, n, c in
-                         zip(raised["degree"], raised["dofs_free"], cost(raised))], page=PAGE)
+    raised = {name: cost(runs[f"raised {name}"]) for name in ("block", "field", "bracket")}
+    put_table("raised", [{"p": int(p), "block": plain(raised["block"][k], 2), "stick-slip": plain(raised["field"][k], 2),
+                          "bracket": plain(raised["bracket"][k], 2)}
+                         for k, p in enumerate(runs["raised block"]["degree"])], page=PAGE)
     rows = []
     for method in METHODS:
         block, field = runs[f"block {method}"], runs[f"field {method}"]

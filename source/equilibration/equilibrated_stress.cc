@@ -198,7 +198,7 @@ void EquilibratedStress::add_tractions(const unsigned int index, double *const a
       for (unsigned int row = 0; row < 2; ++row)
       {
         const StressEdge::Component &component = edge.components[c];
-        const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
+        const double weight = geometry.weight(face, edge, component, row);
         if (weight == 0.)
           continue;
         const std::vector<double> &t = sums[geometry.edges[face]][c];

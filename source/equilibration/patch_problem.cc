@@ -112,7 +112,7 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
       for (unsigned int row = 0; row < 2; ++row)
       {
         const StressEdge::Component &component = edge.components[c];
-        const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
+        const double weight = cell.cell->weight(face, edge, component, row);
         if (std::abs(weight) < 1e-12)
           continue;
         result.push_back({cell.element.edge_entry(face, row), component.n, weight,
@@ -129,7 +129,8 @@ void PatchProblem::add_places(const PatchCell &cell, EquilibrationCache::Signatu
   for (unsigned int face = 0; face < 4; ++face)
   {
     const unsigned int e = place(cell.cell->edges[face]);
-    key.push_back(e == none ? -1 : 4 * e + (cell.cell->parts[face] + 1));
+    key.push_back(
+        e == none ? -1 : 8 * e + 2 * (cell.cell->parts[face] + 1) + (cell.cell->turns[face] < 0));
   }
 }
 

@@ -162,7 +162,7 @@ TractionSystem::Faces TractionSystem::faces_of(const PatchCell &cell,
         std::vector<double> column(n_edges);
         for (const unsigned int row : {0, 1})
         {
-          const double weight = component.direction * (row == 0 ? edge.normal : edge.tangent);
+          const double weight = cell.cell->weight(face, edge, component, row);
           double *const target = &column[cell.element.edge_entry(face, row)];
           if (std::abs(weight) < 1e-12)
             continue; // and no room, where it has one mode more

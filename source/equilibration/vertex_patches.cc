@@ -11,6 +11,9 @@ using namespace dealii;
 
 bool has_distorted_cells(const Solution<2> &solution)
 {
+  // Stresses of parallelograms share shears at corners, and know rows and columns of them alone.
+  if (solution.scene.geometry.has_mesh())
+    return true;
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
     if (!map_of<2>(cell).is_affine())
       return true;
@@ -73,12 +76,13 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
       else if (cell->face(f)->has_children())
       {
         for (unsigned int part = 0; part < 2; ++part)
-          edge.sides.push_back(
-              {cell->neighbor_child_on_subface(f, part)->active_cell_index(), f ^ 1u, part});
+          edge.sides.push_back({cell->neighbor_child_on_subface(f, part)->active_cell_index(),
+                                cell->neighbor_face_no(f), part});
         hanging[cell->face(f)->child(0)->vertex_index(1)] = edge.vertices;
       }
       else
-        edge.sides.push_back({cell->neighbor(f)->active_cell_index(), f ^ 1u, whole_edge});
+        edge.sides.push_back(
+            {cell->neighbor(f)->active_cell_index(), cell->neighbor_face_no(f), whole_edge});
       const Tensor<1, 2> along = cell->face(f)->vertex(1) - cell->face(f)->vertex(0);
       edge.tangent = along / along.norm();
       const double turn = f < 2 ? 1. : -1.;
@@ -93,6 +97,7 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
         edge.degree = std::max(edge.degree, degrees[side.cell] + 2);
         all_cells[side.cell].edges[side.face] = all_edges.size();
         all_cells[side.cell].parts[side.face] = side.part;
+        all_cells[side.cell].turns[side.face] = (side.face < 2) == (f < 2) ? 1. : -1.;
       }
       all_edges.push_back(edge);
     }

@@ -315,8 +315,8 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Error", "Bound", "true", one_of({"true", "false"}), "true or false",
         "Compute the guaranteed bound of the error, where there is one (doc/bound.md)."},
        {"Error", "Bound on distorted cells", "false", boolean, yes_no,
-        "Compute it where cells are no parallelograms, too: that takes longer than the step "
-        "itself."},
+        "Compute it where cells are no parallelograms, and on meshes of files, too: that takes "
+        "longer than the step itself."},
        {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
         "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
         "against it. Without effect where an exact solution is named."}});

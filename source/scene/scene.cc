@@ -323,7 +323,9 @@ std::string Scene<dim>::no_error_bound() const
     return "cells have degree 1";
   if (geometry.has_curves())
     return "cells have curved edges, and stresses in equilibrium are known on straight ones";
-  if (!geometry.has_affine_cells() && !bound_on_distorted_cells)
+  if (!bound_on_distorted_cells && geometry.has_mesh())
+    return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
+  if (!bound_on_distorted_cells && !geometry.has_affine_cells())
     return "cells are no parallelograms, and Error/Bound on distorted cells is false";
   return {};
 }

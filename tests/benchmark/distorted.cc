@@ -67,10 +67,18 @@ try
     entries.insert(entries.end(), more.begin(), more.end());
     return entries;
   };
-  run("raised", "han-6-12",
-      with(block, {{"Adaptivity/Method", "pu"},
-                   {"Adaptivity/Start degree", "2"},
-                   {"Adaptivity/Maximum steps", "9"}}));
+  const Overrides raised = {{"Adaptivity/Method", "pu"},
+                            {"Adaptivity/Start degree", "2"},
+                            {"Adaptivity/Tolerance", "0"},
+                            {"Adaptivity/Maximum unknowns", "1000000"},
+                            {"Adaptivity/Maximum steps", "9"}};
+  run("raised block", "han-6-12", with(block, raised));
+  run("raised field", "stick-slip", with(with(field, {{"Geometry/Subdivisions", "6, 6"}}), raised));
+  run("raised bracket", "bracket",
+      with({{"Boundary fillet/Curve", ""},
+            {"Boundary sole/Friction coefficient", "0"},
+            {"Boundary sole/Friction bound", "12"}},
+           raised));
   for (const std::string method : {"hup2", "hap4", "hpa3"})
   {
     const Overrides settings = {{"Adaptivity/Method", method},

@@ -5,7 +5,11 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/summary.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <random>
 
 namespace
 {
@@ -236,5 +240,62 @@ TEST(SmallBump, BetweenTheNodesCounts)
             EXPECT_GT(step.bound->data, 5e-8 * norm);
             EXPECT_LT(step.bound->data, 50 * 5e-8 * norm);
           });
+}
+/**
+ * Three cells around the middle of a hexagon, held at one edge and pulled at the opposite one, with contact beside it: what is
+ * along xi for one of them is along eta for its neighbour. Rhombi, or cells that are no parallelograms.
+ */
+Scene<2> hexagon(const Tensor<1, 2> &shift, const Overrides &entries)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-" + std::to_string(std::random_device()()) + ".msh");
+  std::ofstream mesh(file);
+  mesh << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"foot\"\n1 2 \"head\"\n"
+          "1 3 \"floor\"\n$EndPhysicalNames\n$Nodes\n7\n";
+  for (unsigned int k = 0; k < 6; ++k)
+    mesh << k + 1 << ' ' << std::cos(k * numbers::PI / 3) << ' ' << std::sin(k * numbers::PI / 3)
+         << " 0\n";
+  mesh << "7 " << shift[0] << ' ' << shift[1] << " 0\n$EndNodes\n$Elements\n6\n"
+       << "1 1 2 1 1 1 2\n2 1 2 2 2 4 5\n3 1 2 3 3 5 6\n"
+       << "4 3 2 9 9 7 1 2 3\n5 3 2 9 9 7 3 4 5\n6 3 2 9 9 7 5 6 1\n$EndElements\n";
+  mesh.close();
+  const Scene<2> scene = scene_of(with({{"Geometry/Shape", "file"},
+                                        {"Geometry/File", file.string()},
+                                        {"Material/Young's modulus", "10"},
+                                        {"Material/Poisson's ratio", "0.3"},
+                                        {"Error/Bound on distorted cells", "true"},
+                                        {"Boundary foot/Displacement", "0; 0"},
+                                        {"Boundary head/Traction", "-1; -1"},
+                                        {"Boundary floor/Contact", "bilateral"},
+                                        {"Boundary floor/Friction bound", "0.1"},
+                                        {"Adaptivity/Tolerance", "0"}},
+                                       entries));
+  std::filesystem::remove(file);
+  return scene;
+}
+
+TEST(MeshOfAFile, HasABoundWhereCellsTurn)
+{
+  for (const auto &shift : {Tensor<1, 2>(), Tensor<1, 2>({0.11, 0.07})})
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::pair<double, double>> energies; // of each step, with the bound
+    for (const auto &[method, steps] : {std::pair("pu", "6"), std::pair("hpa3", "9")})
+      AdaptiveSolver<2>(hexagon(shift, {{"Adaptivity/Method", method},
+                                        {"Adaptivity/Start degree", "2"},
+                                        {"Adaptivity/Maximum steps", steps}}))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                ASSERT_TRUE(step.bound) << step.no_bound;
+                EXPECT_LT(step.bound_imbalance, 1e-9);
+                EXPECT_LT(step.bound->total, step.scaled_estimate) << method << step.number;
+                energies.emplace_back(step.energies.energy, step.bound->total);
+                least = std::min(least, step.energies.energy);
+              });
+    ASSERT_EQ(energies.size(), 15U);
+    for (const auto &[energy, bound] : energies)
+      EXPECT_GE(bound, std::sqrt(2 * (energy - least)));
+  }
 }
 } // namespace

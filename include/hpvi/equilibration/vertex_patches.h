@@ -85,6 +85,16 @@ public:
     dealii::DoFHandler<2>::active_cell_iterator iterator;
     std::array<unsigned int, 4> edges, parts; ///< by face
     std::vector<Hat> hats;
+    /** 1, or -1 where one of the cells at an edge has it along xi and the other along eta: its own normal is that of the edge turned. */
+    std::array<double, 4> turns{{1., 1., 1., 1.}};
+
+    /** Of a component in the normal (0) or tangential (1) traction in the cell's own frame; a turned normal turns the traction, too. */
+    double weight(unsigned int face, const StressEdge &edge, const StressEdge::Component &component,
+                  unsigned int row) const
+    {
+      return row == 0 ? component.direction * edge.normal
+                      : turns[face] * (component.direction * edge.tangent);
+    }
   };
 
   const std::vector<StressEdge> &edges() const;
