@@ -10,6 +10,7 @@ import csv
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -74,10 +75,10 @@ A = -1 / (2 * (LAMBDA + MU) + 8 * MU)             # outside held by a rigid ring
 J_HELD, PRESSURE = 3 * A * math.pi / 4, -A * (2 * (LAMBDA + MU) + 2 * MU)
 
 
-def run(program, home, scene):
+def run(program, home, scene, rest=REST):
     """Energy by degree."""
     home.mkdir(parents=True, exist_ok=True)
-    (home / "scene.prm").write_text(scene + REST)
+    (home / "scene.prm").write_text(scene + rest)
     done = subprocess.run([program, "--output", home / "out", home / "scene.prm"], text=True, stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, env={**os.environ, "OMP_NUM_THREADS": "1"})
     if done.returncode:
@@ -196,6 +197,53 @@ end
     return scene, -length * M / 2 * (U**2 - U * V + 7 * V**2 / 24)
 
 
+DRAWING = """Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {3.6, 3.4, 0}; Point(4) = {0.3, 4, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Curve("floor") = {1}; Physical Curve("right") = {2}; Physical Curve("roof") = {3};
+Physical Surface("body") = {1};
+Mesh.Algorithm = 6; Mesh.RecombineAll = 1; Mesh.RecombinationAlgorithm = 3;
+Mesh.CharacteristicLengthMin = 0.0935; Mesh.CharacteristicLengthMax = 0.0935;
+"""
+PLATE_OF_FILE = FILE.replace("ring", "plate") + """subsection Boundary floor
+  set Contact        = bilateral
+  set Friction bound = 0.1
+end
+subsection Boundary roof
+  set Pressure = 1
+end
+subsection Boundary right
+  set Displacement = 0; 0
+end
+"""
+
+
+def assembly(program, home):
+    """Microseconds of each cell and percent of the step, the least of ten runs: of a first step, and where p is raised from 2."""
+    home.mkdir(parents=True, exist_ok=True)
+    (home / "plate.geo").write_text(DRAWING)
+    subprocess.run(["gmsh", "-2", "-format", "msh41", home / "plate.geo", "-o", home / "plate.msh"], check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    result = {}
+    for name, degrees, scene in [("first step", (p,), PLATE_OF_FILE.replace("subsection Geometry", f"subsection Adaptivity\n  set Start degree = {p}\nend\n"
+                                                                           "subsection Geometry")) for p in (4, 6, 8)] + \
+                                [("p raised from 2", (4, 6, 8), PLATE_OF_FILE)]:
+        rest = REST.replace("Maximum steps     = 13", f"Maximum steps     = {1 if name == 'first step' else 7}")
+        least = {}
+        for _ in range(10):
+            run(program, home, scene, rest + "subsection Error\n  set Bound = false\nend\n")
+            for row in rows_of(home):
+                if int(row["p_max"]) in degrees:
+                    for stage in [stage for stage in row if stage.startswith("seconds_")]:
+                        key = int(row["p_max"]), stage
+                        least[key] = min(least.get(key, math.inf), float(row[stage] or 0) / int(row["elements"]))
+        for p in degrees:
+            own = least[p, "seconds_assemble"]
+            share = own / sum(value for (degree, _), value in least.items() if degree == p)
+            result.setdefault(p, {"p": p})[name] = f"{1e6 * own:.0f} us, {100 * share:.0f} %"
+    return list(result.values())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi", type=pathlib.Path)
@@ -232,6 +280,8 @@ def main():
             columns[name] = effectivities(program, home, scene, J)
     put_table("effectivity", [{"p": p, **{name: plain(values[p], 1) for name, values in columns.items()}} for p in range(2, 7)],
               page=PAGE)
+    if shutil.which("gmsh"):
+        put_table("assembly", assembly(program, output / "plate"), page=PAGE)
     progress("doc/curves.md, doc/curves/*.csv")
 
 
