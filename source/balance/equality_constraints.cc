@@ -13,7 +13,9 @@ using namespace dealii;
 
 namespace
 {
-using Force = Tensor<1, 3>; ///< of the equations there are, the others 0
+constexpr unsigned int most_equations = 24; ///< three of each of eight bodies
+
+using Force = Tensor<1, most_equations>; ///< of the equations there are, the others 0
 
 /** What counts as nothing beside e. */
 constexpr double negligible = 1e-12;
@@ -35,17 +37,20 @@ public:
   Force resultant(const Vector<double> &z) const;
 
   const FeasibleSet &feasible_set;
+  const unsigned int n_equations;
   Force length, e; ///< of the columns; scaled right hand side
   std::vector<Force> rows;
 };
 
 Resultants::Resultants(const FeasibleSet &feasible_set, const EqualityConstraints &constraints)
-    : feasible_set(feasible_set), rows(feasible_set.size())
+    : feasible_set(feasible_set), n_equations(std::max<unsigned int>(3, constraints.e.size())),
+      rows(feasible_set.size())
 {
   const FullMatrix<double> &G = constraints.G;
   AssertDimension(G.m(), feasible_set.size());
   AssertDimension(G.n(), constraints.e.size());
-  AssertThrow(G.n() <= Force::dimension, ExcMessage("There are at most three equations."));
+  AssertThrow(G.n() <= most_equations,
+              ExcMessage("There are at most three equations of eight bodies."));
   for (unsigned int j = 0; j < G.n(); ++j)
   {
     for (unsigned int i = 0; i < G.m(); ++i)
@@ -133,7 +138,7 @@ bool Nearest::add_corner()
     if (gain <= distance * std::max(1e-9 * distance, 1e-15 * size))
       return false;
   }
-  if (corners.size() > Force::dimension)
+  if (corners.size() > resultants.n_equations)
     return false; // their span is all there is: what remains is round-off
   corners.push_back({extreme, 0.});
   minimise();

@@ -95,7 +95,7 @@ std::string fingerprint(const std::string &file)
 std::string without_path(const std::string &section, const std::string &setting)
 {
   const std::string file = "File = ";
-  return section == "Geometry" && setting.rfind(file, 0) == 0
+  return (section == "Geometry" || section.rfind("Body ", 0) == 0) && setting.rfind(file, 0) == 0
              ? file + fingerprint(setting.substr(file.size()))
              : setting;
 }

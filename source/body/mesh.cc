@@ -109,16 +109,26 @@ bool touches(const typename Triangulation<dim>::cell_iterator &cell, const Point
              cell->real_to_unit_cell_affine_approximation(point)) < 1e-8;
 }
 
+/** Each of several bodies towards points of its own. */
 template <int dim>
 void grade_towards_points(const Geometry<dim> &geometry, Triangulation<dim> &triangulation)
 {
-  for (unsigned int level = 0; level < geometry.grading_levels; ++level)
+  const std::vector<Body<dim>> bodies =
+      geometry.bodies.empty()
+          ? std::vector<Body<dim>>{{"", {}, geometry.graded_towards, geometry.grading_levels}}
+          : geometry.bodies;
+  unsigned int n_levels = 0;
+  for (const Body<dim> &body : bodies)
+    n_levels = std::max(n_levels, body.grading_levels);
+  for (unsigned int level = 0; level < n_levels; ++level)
   {
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
-        for (const Point<dim> &point : geometry.graded_towards)
-          if (touches<dim>(cell, point))
-            cell->set_refine_flag();
+        if (const Body<dim> &body = bodies[body_of<dim>(geometry, cell)];
+            level < body.grading_levels)
+          for (const Point<dim> &point : body.graded_towards)
+            if (touches<dim>(cell, point))
+              cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
   }
 }
@@ -175,6 +185,16 @@ void make_cells(const CoarseMesh &mesh, Triangulation<2> &triangulation)
 } // namespace
 
 template <int dim>
+unsigned int body_of(const Geometry<dim> &geometry, typename Triangulation<dim>::cell_iterator cell)
+{
+  if (geometry.bodies.empty())
+    return 0;
+  while (cell->level() > 0)
+    cell = cell->parent();
+  return geometry.mesh->cells[cell->index()].body;
+}
+
+template <int dim>
 void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
 {
   const Geometry<dim> &geometry = scene.geometry;
@@ -218,6 +238,8 @@ Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
   return new_degrees;
 }
 
+template unsigned int body_of(const Geometry<2> &, Triangulation<2>::cell_iterator);
+template unsigned int body_of(const Geometry<3> &, Triangulation<3>::cell_iterator);
 template void make_mesh(const Scene<2> &, Triangulation<2> &);
 template void make_mesh(const Scene<3> &, Triangulation<3> &);
 template Degrees refine_mesh(Triangulation<2> &, const Degrees &, const Refinement &);

@@ -142,14 +142,19 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &si
 
 /** Conditions at the corners of each piece, for a rigid-body motion is linear along it. */
 template <int dim>
-Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const double length)
+Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<dim> &centre,
+                  const double length)
 {
+  const auto is_other = [&](const BoundaryCondition<dim> &boundary)
+  { return boundary.pair || scene.geometry.body_of_side(boundary.side) != body; };
   const std::vector<Side<dim>> sides = sides_of(scene);
   Rows<dim> rows;
   for (unsigned int f = 0; f < sides.size(); ++f)
     for (const auto &[end, normal] : places_on(sides[f]))
     {
       const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+      if (is_other(boundary))
+        continue;
       const Tensor<1, dim> arm = (end - centre) / length;
       for (const PointCondition<dim> &condition : conditions_at(
                boundary, normal, boundary.symmetry || boundary.contact == Contact::bilateral, end))
@@ -167,7 +172,7 @@ Rows<dim> rows_of(const Scene<dim> &scene, const Point<dim> &centre, const doubl
     }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-      if (boundary.plate)
+      if (boundary.plate && !is_other(boundary))
         add_plate(scene, boundary, centre, length, rows.held);
   if constexpr (dim == 2)
     if (scene.is_axisymmetric()) // strains around the axis: the way along it alone is rigid
@@ -189,6 +194,43 @@ RigidBodyMotion<2> motion_about(const Point<2> &centre, const double length,
   }
   return free;
 }
+/** The free motions of each of several bodies by itself; whether contact can hold them together is seen when it is solved. */
+std::vector<RigidBodyMotion<2>> motions_of_bodies(const Scene<2> &scene, const Point<2> &centre,
+                                                  const double length)
+{
+  const unsigned int n_bodies = scene.geometry.bodies.size(), most = 8;
+  std::vector<RigidBodyMotion<2>> rest(n_bodies), result;
+  for (unsigned int b = 0; b < n_bodies; ++b)
+    rest[b] = {{}, 0, centre, scene.geometry.bodies[b].name, {}};
+  unsigned int n_floating = 0;
+  for (unsigned int b = 0; b < n_bodies; ++b)
+  {
+    const auto motions = motions_of(rows_of(scene, b, centre, length).held);
+    n_floating += motions.empty() ? 0 : 1;
+    const bool touches = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                                     [&](const BoundaryCondition<2> &boundary) {
+                                       return boundary.has_contact() &&
+                                              scene.geometry.body_of_side(boundary.side) == b;
+                                     });
+    if (!motions.empty() && (!touches || n_floating > most))
+      throw InputError(printable(scene.origin(), 400) + ": Body " + rest[b].name +
+                       ": its supports leave a rigid-body motion free, " +
+                       describe(motions.front(), centre, length) +
+                       (touches ? ", and no more than " + std::to_string(most) +
+                                      " bodies may be held by contact alone"
+                                : ", and it touches nothing") +
+                       "; prescribe a displacement component of it");
+    for (const RigidMotion<2> &motion : motions)
+    {
+      std::vector<RigidBodyMotion<2>> all = rest;
+      all[b] = motion_about(centre, length, motion);
+      all[b].name = rest[b].name;
+      result.push_back(all[0]);
+      result.back().others.assign(all.begin() + 1, all.end());
+    }
+  }
+  return result;
+}
 } // namespace
 
 /** In space none may be left, for no contact may resist it there. */
@@ -197,7 +239,10 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 {
   const Point<dim> centre = geometry.centre();
   const double length = geometry.radius();
-  const Rows<dim> rows = rows_of(*this, centre, length);
+  if constexpr (dim == 2)
+    if (!geometry.bodies.empty())
+      return motions_of_bodies(*this, centre, length);
+  const Rows<dim> rows = rows_of(*this, 0, centre, length);
   // Unilateral contact holds some motions one way, and what none holds may be in balance.
   const bool may_rest_on_contact = dim == 2 && has_unilateral_contact();
   std::string names;

@@ -73,6 +73,13 @@ void check_finite(const Scene<dim> &scene, const EntryFunctions<dim> &functions)
                    "; give a function that is finite everywhere it applies");
 }
 
+/** Where a file says what kind of contact it is. */
+template <int dim>
+std::string law_entry(const BoundaryCondition<dim> &boundary)
+{
+  return boundary.pair ? "Law" : "Contact";
+}
+
 template <int dim>
 void check_friction(const Scene<dim> &scene, const std::string &section,
                     const BoundaryCondition<dim> &boundary, const std::vector<Point<dim>> &points)
@@ -81,18 +88,19 @@ void check_friction(const Scene<dim> &scene, const std::string &section,
   if (law && !boundary.has_contact())
     reject(scene, section, law.entry(), friction_needs_contact);
   if (law.knows_pressure() && boundary.contact == Contact::tangential)
-    reject(
-        scene, section, "Friction coefficient",
-        "needs a pressure, which Contact = tangential has not; give Friction bound or set Contact "
-        "= unilateral");
+    reject(scene, section, "Friction coefficient",
+           "needs a pressure, which " + law_entry(boundary) +
+               " = tangential has not; give Friction bound or set " + law_entry(boundary) +
+               " = unilateral");
   if (const auto problem = law.problem(points))
     reject(scene, section, problem->entry, problem->words);
   if (boundary.contact == Contact::tangential &&
       std::all_of(points.begin(), points.end(),
                   [&](const Point<dim> &x) { return law.at(x).vanishes(); }))
-    reject(scene, section, "Contact",
+    reject(scene, section, law_entry(boundary),
            "has friction nowhere to act, for Friction bound is 0 all along the boundary; give "
-           "Friction bound > 0 or set Contact = none",
+           "Friction bound > 0 or " +
+               std::string(boundary.pair ? "remove the section" : "set Contact = none"),
            name_of(boundary.contact));
 }
 

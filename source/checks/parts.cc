@@ -53,6 +53,13 @@ std::vector<Point<dim>> points_on(const CoarseFace<dim> &face)
   return points_between<dim - 1, dim>(face.corners);
 }
 
+/** Which entry says where it is. */
+template <int dim>
+std::string place_entry(const BoundaryCondition<dim> &part)
+{
+  return part.pair ? "Between" : "Where";
+}
+
 /** Rejects @p part where its Where begins or ends inside a face of the coarse mesh. */
 template <int dim>
 void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
@@ -69,14 +76,14 @@ void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
   for (const std::vector<Point<dim>> &points : faces)
     for (const Point<dim> &x : points)
       if (is_inside(x) != is_inside(points.back()))
-        reject(scene, section_of(part), "Where",
+        reject(scene, section_of(part), place_entry(part),
                "changes its sign inside a face of the coarse mesh, at " + to_string(x) +
                    "; end the part where " +
                    (scene.geometry.has_mesh() ? "the mesh has a vertex"
                                               : "Geometry/Subdivisions has a grid line"));
   if (std::none_of(faces.begin(), faces.end(),
                    [&](const auto &points) { return is_inside(points.back()); }))
-    reject(scene, section_of(part), "Where",
+    reject(scene, section_of(part), place_entry(part),
            "is positive nowhere on " + scene.boundaries[part.side].name +
                "; give a function that is positive on the part");
 }
@@ -96,9 +103,9 @@ void check_parts(const Scene<dim> &scene)
       for (const BoundaryCondition<dim> &other : scene.boundaries)
         if (other.id > first.id && other.side == side && other.where && other.where->value(x) > 0 &&
             first.where)
-          reject(scene, section_of(other), "Where",
-                 "overlaps " + mention(scene, section_of(first), "Where") + " at " + to_string(x) +
-                     "; let each face belong to one part");
+          reject(scene, section_of(other), place_entry(other),
+                 "overlaps " + mention(scene, section_of(first), place_entry(first)) + " at " +
+                     to_string(x) + "; let each face belong to one part");
     }
 }
 

@@ -40,7 +40,7 @@ void check_value(const Scene<dim> &scene, const std::string &section, const std:
 
 std::string name_of(const Contact contact)
 {
-  return contact_names[static_cast<unsigned int>(contact)];
+  return contact == Contact::tied ? "tied" : contact_names[static_cast<unsigned int>(contact)];
 }
 
 template std::string mention(const Scene<2> &, const std::string &, const std::string &,

@@ -44,6 +44,7 @@ void Scene<dim>::check(const SceneUse use) const
     check_space(*this, use);
   if (has_load_history())
     check_load_history(*this, use);
+  check_bodies(*this);
   check_body();
   check_material_places(*this);
   check_axisymmetry(*this);

@@ -113,6 +113,8 @@ void check_grading(const Scene<dim> &scene)
 template <int dim>
 void check_geometry(const Scene<dim> &scene)
 {
+  if (scene.geometry.shape == Shape::bodies)
+    return; // each has been checked by itself
   const ShapeKind<dim> *const kind = find_shape<dim>(scene.geometry.shape);
   if (kind == nullptr)
     reject(scene, "Geometry", "Shape",

@@ -154,6 +154,15 @@ void check_beside_plate(const Scene<2> &scene, const BoundaryCondition<2> &bound
 }
 } // namespace
 
+namespace
+{
+template <int dim>
+unsigned int body_of(const Scene<dim> &scene, const types::boundary_id boundary)
+{
+  return scene.geometry.body_of_side(scene.boundaries[boundary].side);
+}
+} // namespace
+
 template <int dim>
 void check_supports(const Scene<dim> &scene)
 {
@@ -161,12 +170,17 @@ void check_supports(const Scene<dim> &scene)
   const double tolerance = support_tolerance(scene);
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)
+    {
+      if (body_of(scene, a) != body_of(scene, b))
+        continue; // bodies may touch there, and share no point
       for (const Point<dim> &point : common_points(sides[a], sides[b]))
       {
         std::vector<PointCondition<dim>> conditions, limits;
         for (const unsigned int f : {a, b})
         {
           const BoundaryCondition<dim> &boundary = scene.boundaries[f];
+          if (boundary.pair)
+            continue; // what is opposite may move
           for (const PointCondition<dim> &condition :
                conditions_at(boundary, sides[f].normal(point),
                              boundary.symmetry || boundary.contact == Contact::bilateral, point))
@@ -178,10 +192,11 @@ void check_supports(const Scene<dim> &scene)
         check_meeting(scene, point, conditions, limits, tolerance);
         if constexpr (dim == 2)
           for (const auto &[one, other] : {std::pair{a, b}, std::pair{b, a}})
-            if (scene.boundaries[one].plate)
+            if (scene.boundaries[one].plate && !scene.boundaries[other].pair)
               check_beside_plate(scene, scene.boundaries[one], scene.boundaries[other],
                                  sides[other].normal(point), point, tolerance);
       }
+    }
 }
 
 template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &,

@@ -56,6 +56,14 @@ double ContactFace<dim>::basis_integral(const QGauss<1> &points, const unsigned 
 }
 
 template <int dim>
+const ContactSegment<dim> &ContactFace<dim>::segment(const double s) const
+{
+  const auto last = std::find_if(segments.begin(), segments.end() - 1,
+                                 [s](const ContactSegment<dim> &one) { return s <= one.end; });
+  return *last;
+}
+
+template <int dim>
 double ContactFace<dim>::friction_bound(const Point<dim> &x) const
 {
   return condition->friction.bound_at(x);

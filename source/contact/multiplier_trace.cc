@@ -19,10 +19,46 @@ MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
                       face.point(1.) - face.point(0.),
                       {first, first + face.n_multipliers},
                       face.normal_points,
-                      {}});
+                      {},
+                      face.condition->pair});
     for (const unsigned int i : face.pressures)
       pieces.back().pressures.push_back(z[i]);
   }
+}
+
+/** Pressure and friction are the same numbers in the frames of both sides. */
+template <int dim>
+void MultiplierTrace<dim>::take_opposite(const ContactFace<dim> &face,
+                                         const ContactSpace<dim> &finer,
+                                         const ShapeTables<dim> &tables,
+                                         Vector<double> &result) const
+{
+  const auto take = [&](const unsigned int unknown, const bool is_pressure)
+  {
+    for (const Piece &piece : pieces)
+    {
+      const double s =
+          (finer.multipliers()[unknown].x - piece.begin) * piece.edge / piece.edge.norm_square();
+      if (piece.pair != face.condition->pair || s < 0 || s > 1)
+        continue;
+      const std::vector<double> &values = is_pressure ? piece.pressures : piece.values;
+      std::vector<double> points = piece.normal_points;
+      if (!is_pressure)
+      {
+        points.clear();
+        for (const Point<1> &point : tables.gauss(values.size()).get_points())
+          points.push_back(point[0]);
+      }
+      const std::vector<double> basis = lagrange_basis(points, s);
+      if (!values.empty())
+        result[unknown] = std::inner_product(basis.begin(), basis.end(), values.begin(), 0.);
+      return;
+    }
+  };
+  for (const unsigned int unknown : face.pressures)
+    take(unknown, true);
+  for (unsigned int i = 0; i < face.n_multipliers; ++i)
+    take(face.first_multiplier + i, false);
 }
 
 template <int dim>
@@ -40,6 +76,11 @@ Vector<double> MultiplierTrace<dim>::values(const ContactSpace<dim> &finer,
   };
   for (const ContactFace<dim> &face : finer.faces())
   {
+    if (face.condition->pair)
+    {
+      take_opposite(face, finer, tables, result);
+      continue;
+    }
     while (piece != pieces.end() && !holds(face))
       ++piece;
     if (piece == pieces.end())

@@ -26,12 +26,15 @@ struct Tractions
   std::vector<Point<dim>> x;
   std::vector<Tensor<1, dim>> direction; ///< of the displacement that it works on
   std::vector<unsigned int> cell;        ///< of its face; none for a part of a multiplier
+  std::vector<TouchingBodies> bodies;
+  TouchingBodies here; ///< of what is added next
   FeasibleSet factors;
 
   void add(const Point<dim> &point, const Tensor<1, dim> &traction, const double lower,
            const double upper, const unsigned int at = none)
   {
     x.push_back(point);
+    bodies.push_back(here);
     direction.push_back(traction);
     cell.push_back(at);
     factors.add_interval(lower, upper);
@@ -58,7 +61,9 @@ Tractions<dim> on_this_mesh(const ContactSpace<dim> &contact_space)
   using Kind = typename ContactMultiplier<dim>::Kind;
   Tractions<dim> result;
   for (const ContactMultiplier<dim> &unknown : contact_space.multipliers())
-    if (unknown.kind == Kind::pressure)
+  {
+    result.here = unknown.bodies;
+    if (unknown.is_bilateral || unknown.kind == Kind::pressure)
       result.add(unknown.x, unknown.direction, unknown.is_bilateral ? -infinity : 0., infinity);
     else if (unknown.partner == none)
       result.add(unknown.x, unknown.weight * unknown.direction, -unknown.friction.limit(0.),
@@ -72,6 +77,7 @@ Tractions<dim> on_this_mesh(const ContactSpace<dim> &contact_space)
                       unknown.direction, friction.coefficient,
                       unknown.weight * (friction.most - friction.limit(0.)));
     }
+  }
   return result;
 }
 
@@ -86,11 +92,14 @@ Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space, const bool ca
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     const ContactFrame<dim> middle = face.frame(0.5);
+    result.here = face.bodies;
     double most = 0;
     for (const PointLimit &point : face.limits)
       most += face.length * point.weight * point.friction.most;
     const bool is_capped = capped && std::isfinite(most);
-    const double friction = is_capped ? most : face.friction_without_pressure();
+    const double friction = face.condition->is_tied() ? infinity
+                            : is_capped               ? most
+                                                      : face.friction_without_pressure();
     result.add(middle.x, middle.tangent, -friction, friction);
     if (!face.condition->has_pressure())
       continue;
@@ -122,11 +131,14 @@ bool has_cap(const ContactSpace<dim> &contact_space)
 
 /** What @p traction does along a motion; round-off of a point where the motion ought to vanish is zero. */
 template <int dim>
-double work(const Tensor<1, dim> &traction, const RigidBodyMotion<dim> &motion, const Point<dim> &x)
+double work(const Tractions<dim> &tractions, const unsigned int i,
+            const RigidBodyMotion<dim> &motion)
 {
-  const double product = traction * motion.at(x),
-               terms = motion.translation.norm() +
-                       std::abs(motion.rotation) * x.distance(motion.centre);
+  const Point<dim> &x = tractions.x[i];
+  const Tensor<1, dim> &traction = tractions.direction[i];
+  const double product = traction * motion.jump(x, tractions.bodies[i]),
+               terms = motion.largest_translation() +
+                       motion.largest_rotation() * x.distance(motion.centre);
   return std::abs(product) <= 1e-13 * traction.norm() * terms ? 0. : product;
 }
 
@@ -139,7 +151,7 @@ std::optional<Imbalance> imbalance_of(const Tractions<dim> &tractions,
   EqualityConstraints balance{FullMatrix<double>(tractions.x.size(), m), loaded.loads};
   for (unsigned int i = 0; i < tractions.x.size(); ++i)
     for (unsigned int j = 0; j < n; ++j)
-      balance.G(i, j) = work(tractions.direction[i], loaded.motions[j], tractions.x[i]);
+      balance.G(i, j) = work(tractions, i, loaded.motions[j]);
   return find_imbalance(tractions.factors, balance);
 }
 
@@ -149,7 +161,7 @@ double fastest_turn(const LoadedMotions<dim> &loaded)
 {
   double turn = 0;
   for (const RigidBodyMotion<dim> &motion : loaded.motions)
-    turn = std::max(turn, std::abs(motion.rotation));
+    turn = std::max(turn, motion.largest_rotation());
   return turn;
 }
 
@@ -160,9 +172,26 @@ double bounded_resistance(const Tractions<dim> &tractions, const RigidBodyMotion
   double sum = 0;
   for (unsigned int i = 0; i < tractions.x.size(); ++i)
     if (std::isfinite(tractions.factors.upper_side(i)))
-      sum += tractions.factors.upper_side(i) *
-             std::abs(work(tractions.direction[i], motion, tractions.x[i]));
+      sum += tractions.factors.upper_side(i) * std::abs(work(tractions, i, motion));
   return sum;
+}
+
+/** Of several bodies what moves less than a thousandth of the fastest rests; a rotation by @p turn moves as much as a translation by one. */
+template <int dim>
+void forget_small(RigidBodyMotion<dim> &motion, const double turn)
+{
+  const double least = 1e-3 * std::max(motion.largest_translation(),
+                                       turn > 0 ? motion.largest_rotation() / turn : 0.);
+  const auto forget = [&](RigidBodyMotion<dim> &one)
+  {
+    if (std::abs(one.rotation) < least * turn)
+      one.rotation = 0;
+    if (one.translation.norm() < least)
+      one.translation = 0;
+  };
+  forget(motion);
+  for (RigidBodyMotion<dim> &other : motion.others)
+    forget(other);
 }
 
 /** As in "the loads turn the body about (1 0) with 2, contact can resist with 1". */
@@ -172,15 +201,18 @@ std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalanc
 {
   RigidBodyMotion<dim> motion = loaded.sum(imbalance.motion);
   // A rotation about a far point is one more to read than a sliding body.
-  if (std::abs(motion.rotation) < 0.1 * fastest_turn(loaded) * motion.translation.norm())
+  if (motion.others.empty() &&
+      std::abs(motion.rotation) < 0.1 * fastest_turn(loaded) * motion.translation.norm())
     motion.rotation = 0;
+  if (!motion.others.empty())
+    forget_small(motion, fastest_turn(loaded));
   const bool pushes = motion.is_translation();
   // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
-  const double unit = pushes ? motion.translation.norm() : std::abs(motion.rotation);
+  const double unit = pushes ? motion.largest_translation() : motion.largest_rotation();
   std::ostringstream line;
   line.precision(10);
-  line << "the loads " << (pushes ? "push" : "turn") << " the body " << motion.direction()
-       << " with " << imbalance.load / unit << ", contact can resist with "
+  line << "the loads " << (pushes ? "push" : "turn") << (motion.others.empty() ? " the body " : " ")
+       << motion.direction() << " with " << imbalance.load / unit << ", contact can resist with "
        << imbalance.resistance / unit;
   if (std::isfinite(otherwise))
     line << " there and " << otherwise / unit << " on a fine one";
@@ -191,13 +223,7 @@ std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalanc
 template <int dim>
 RigidBodyMotion<dim> LoadedMotions<dim>::sum(const Vector<double> &coefficients) const
 {
-  RigidBodyMotion<dim> result{{}, 0, motions.front().centre};
-  for (unsigned int j = 0; j < motions.size(); ++j)
-  {
-    result.translation += coefficients[j] * motions[j].translation;
-    result.rotation += coefficients[j] * motions[j].rotation;
-  }
-  return result;
+  return hpvi::sum(motions, coefficients);
 }
 
 /** By Gram and Schmidt, in coordinates of one length. */
@@ -273,7 +299,7 @@ std::optional<MissingContact> missing_contact(const ContactSpace<dim> &contact_s
   double most = 0;
   Point<dim> where;
   for (unsigned int i = 0; i < tractions.x.size(); ++i)
-    if (const double resistance = work(tractions.direction[i], motion, tractions.x[i]);
+    if (const double resistance = work(tractions, i, motion);
         tractions.cell[i] != none && resistance > 0.)
     {
       cells.insert(tractions.cell[i]);

@@ -33,6 +33,11 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
   {
     if (face.condition->id != boundary)
       continue;
+    if (!face.segments.empty())
+    {
+      add_jump(face, displacement_space, tables, u);
+      continue;
+    }
     const auto dofs = displacement_space.cell_dofs(face.cell->active_cell_index());
     const std::vector<unsigned int> &on_edge = tables.numbering(face.degree).edge[face.face_no];
     const QGaussLobatto<1> &rule = tables.gauss_lobatto(face.degree + 1);
@@ -60,6 +65,61 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
     }
     pieces.push_back(piece);
   }
+}
+
+namespace
+{
+/** u at @p s of an edge by the nodal values there. */
+template <int dim>
+Tensor<1, dim> edge_value(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                          const unsigned int face_no, const unsigned int degree, const double s,
+                          const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
+                          const Vector<double> &u)
+{
+  std::vector<double> nodes;
+  for (const Point<1> &node : tables.gauss_lobatto(degree + 1).get_points())
+    nodes.push_back(node[0]);
+  const std::vector<double> basis = lagrange_basis(nodes, s);
+  const auto dofs = space.cell_dofs(cell->active_cell_index());
+  const std::vector<unsigned int> &edge = tables.numbering(degree).edge[face_no];
+  Tensor<1, dim> result;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int j = 0; j <= degree; ++j)
+      result[c] += basis[j] * u[dofs[edge[c * (degree + 1) + j]]];
+  return result;
+}
+} // namespace
+
+/** Of two bodies the jump of u_t, a polynomial on each segment. */
+template <int dim>
+void TangentialTrace<dim>::add_jump(const ContactFace<dim> &face,
+                                    const DisplacementSpace<dim> &space,
+                                    const ShapeTables<dim> &tables, const Vector<double> &u)
+{
+  for (const ContactSegment<dim> &segment : face.segments)
+  {
+    const QGaussLobatto<1> &rule = tables.gauss_lobatto(std::max(face.degree, segment.degree) + 1);
+    const std::array<Point<dim>, 2> ends{{face.point(segment.begin), face.point(segment.end)}};
+    Piece piece{(ends[0] - origin) * tangent, (ends[1] - origin) * tangent, {}, {}, ends, {}};
+    for (const Point<1> &node : rule.get_points())
+    {
+      const double s = segment.begin + node[0] * (segment.end - segment.begin);
+      piece.nodes.push_back(node[0]);
+      piece.u_t.push_back(tangent *
+                          (edge_value(face.cell, face.face_no, face.degree, s, space, tables, u) -
+                           edge_value(segment.cell, segment.face_no, segment.degree,
+                                      segment.opposite(s), space, tables, u)));
+    }
+    if (piece.begin > piece.end)
+    {
+      std::swap(piece.begin, piece.end);
+      std::swap(piece.ends[0], piece.ends[1]);
+      std::reverse(piece.u_t.begin(), piece.u_t.end());
+    }
+    pieces.push_back(piece);
+  }
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece &a, const Piece &b) { return a.begin < b.begin; });
 }
 
 template <int dim>
@@ -124,8 +184,14 @@ PastSlip<dim> past_slip(const ContactSpace<dim> &contact_space,
   PastSlip<dim> result;
   for (const ContactFace<dim> &face : contact_space.faces())
     if (face.condition->friction && result.count(face.condition->id) == 0)
-      result[face.condition->id] = std::make_shared<const TangentialTrace<dim>>(
+    {
+      const auto trace = std::make_shared<const TangentialTrace<dim>>(
           contact_space, displacement_space, tables, u, face.condition->id);
+      result[face.condition->id] = trace;
+      if (!face.segments
+               .empty()) // the other side may have the multipliers next; the jump is the same from there
+        result[face.segments.front().boundary()] = trace;
+    }
   return result;
 }
 

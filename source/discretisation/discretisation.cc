@@ -55,7 +55,7 @@ motions_of(const Scene<dim> &scene, const Spaces<dim> &spaces, const Unknowns<di
   const std::vector<RigidBodyMotion<dim>> basis = scene.free_motions();
   if (basis.empty())
     return std::nullopt;
-  return RigidMotions<dim>(basis, spaces.displacement_space, unknowns, rows,
+  return RigidMotions<dim>(basis, scene.geometry, spaces.displacement_space, unknowns, rows,
                            spaces.contact_space.multipliers(), system);
 }
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/mesh.h>
 #include <hpvi/discretisation/rigid_motion.h>
 
 #include <algorithm>
@@ -58,18 +59,20 @@ Stabilisation stabilise(const SymmetricMatrix &A, const Vector<double> &R,
 
 /** The motion as a displacement of the space. */
 template <int dim>
-Vector<double> interpolate(const RigidBodyMotion<dim> &motion, const DisplacementSpace<dim> &space)
+Vector<double> interpolate(const RigidBodyMotion<dim> &motion, const Geometry<dim> &geometry,
+                           const DisplacementSpace<dim> &space)
 {
   Vector<double> u(space.n_dofs());
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const CellMap<dim> map = map_of<dim>(cell);
+      const unsigned int body = body_of<dim>(geometry, cell);
       const auto dofs = space.cell_dofs(cell->active_cell_index());
       const auto &nodes = cell->get_fe().get_unit_support_points();
       for (unsigned int i = 0; i < dofs.size(); ++i)
         u[dofs[i]] =
-            motion.at(map.point(nodes[i]))[cell->get_fe().system_to_component_index(i).first];
+            motion.at(map.point(nodes[i]), body)[cell->get_fe().system_to_component_index(i).first];
     }
   return u;
 }
@@ -87,8 +90,8 @@ Vector<double> apply(const ConditionRows &rows, const Vector<double> &x)
 
 template <int dim>
 RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
-                                const DisplacementSpace<dim> &space, const Unknowns<dim> &unknowns,
-                                const ConditionRows &rows,
+                                const Geometry<dim> &geometry, const DisplacementSpace<dim> &space,
+                                const Unknowns<dim> &unknowns, const ConditionRows &rows,
                                 const std::vector<ContactMultiplier<dim>> &multipliers,
                                 const ElasticSystem<dim> &system)
     : basis(basis)
@@ -97,7 +100,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
   std::vector<Vector<double>> columns, B_columns;
   for (const RigidBodyMotion<dim> &motion : basis)
   {
-    columns.push_back(unknowns.coordinates(interpolate(motion, space)));
+    columns.push_back(unknowns.coordinates(interpolate(motion, geometry, space)));
     B_columns.push_back(apply(rows, columns.back()));
   }
   double contact = 0;
@@ -248,14 +251,7 @@ const std::vector<Stabilisation> &RigidMotions<dim>::stabilisation() const
 template <int dim>
 RigidBodyMotion<dim> RigidMotions<dim>::motion(const Vector<double> &amounts) const
 {
-  const Vector<double> coefficients = in_basis(amounts);
-  RigidBodyMotion<dim> result{{}, 0, basis.front().centre};
-  for (unsigned int j = 0; j < basis.size(); ++j)
-  {
-    result.translation += coefficients[j] * basis[j].translation;
-    result.rotation += coefficients[j] * basis[j].rotation;
-  }
-  return result;
+  return sum(basis, in_basis(amounts));
 }
 
 template <int dim>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/turned_nodes.h>
 #include <hpvi/discretisation/unknowns.h>
 
 #include <algorithm>
@@ -12,71 +13,6 @@ namespace
 {
 constexpr unsigned int none = numbers::invalid_unsigned_int;
 
-using Line = std::vector<std::pair<unsigned int, double>>;
-
-/** A node with two displacements that are unknowns, `u = sum_k x_k d_k` from now on. */
-struct TurnedNode
-{
-  std::array<unsigned int, 2> unknowns; ///< of components 0 and 1
-  std::array<types::global_dof_index, 2> dofs;
-  std::array<Tensor<1, 2>, 2>
-      directions; ///< tangent and normal, so that d_k has most of component k
-};
-
-/**
- * Nodes of slanted contact edges where both components of u are unknowns, by either of these. Tangent and normal in their
- * place make a scene that is turned the same.
- */
-std::map<unsigned int, TurnedNode> turned_nodes(const ContactOperator<2> &contact_operator,
-                                                const Unknowns<2> &unknowns)
-{
-  std::map<unsigned int, TurnedNode> result;
-  for (const ContactOperator<2>::Rows &rows : contact_operator.rows())
-  {
-    const ContactFrame<2> frame = rows.face->frame(0.5);
-    const Tensor<1, 2> &t = frame.tangent, &n = frame.normal;
-    const bool along_x = std::abs(t[0]) >= std::abs(t[1]);
-    const Tensor<1, 2> first = along_x ? t : n, second = along_x ? n : t;
-    const unsigned int n_nodes = rows.dofs.size() / 2;
-    for (unsigned int node = 0; node < n_nodes && std::abs(t[0] * t[1]) > 1e-12; ++node)
-    {
-      const std::array<types::global_dof_index, 2> dofs{
-          {rows.dofs[node], rows.dofs[n_nodes + node]}};
-      if (!unknowns.is_plain(dofs[0]) || !unknowns.is_plain(dofs[1]))
-        continue;
-      const std::array<unsigned int, 2> own{
-          {unknowns.terms(dofs[0])[0].first, unknowns.terms(dofs[1])[0].first}};
-      const TurnedNode turned{
-          own, dofs, {{first[0] < 0 ? -first : first, second[1] < 0 ? -second : second}}};
-      for (const unsigned int unknown : own)
-        result.emplace(unknown, turned);
-    }
-  }
-  return result;
-}
-
-/** A row of T by the unknowns of turned nodes. */
-Line turned(const Terms &terms, const std::map<unsigned int, TurnedNode> &nodes)
-{
-  std::map<unsigned int, double> sum;
-  double largest = 0;
-  for (const auto &[unknown, weight] : terms)
-  {
-    largest = std::max(largest, std::abs(weight));
-    const auto found = nodes.find(unknown);
-    if (found == nodes.end())
-      sum[unknown] += weight;
-    else
-      for (unsigned int k = 0; k < 2; ++k)
-        sum[found->second.unknowns[k]] +=
-            weight * found->second.directions[k][unknown == found->second.unknowns[0] ? 0 : 1];
-  }
-  Line result;
-  for (const auto &[unknown, weight] : sum)
-    if (std::abs(weight) > 1e-14 * largest) // the other direction of a slanted edge cancels
-      result.emplace_back(unknown, weight);
-  return result;
-}
 } // namespace
 
 template <int dim>
@@ -195,6 +131,26 @@ Unknowns<dim>::edges_with_moments(const std::vector<unsigned int> &numbers)
   return lines;
 }
 
+/** `sum_i N_ji m'_i`, m' the moments of the body opposite: the unknowns are those of the jump. */
+template <int dim>
+typename Unknowns<dim>::Line
+Unknowns<dim>::moments_opposite(const EdgeRows &rows, const FullMatrix<double> &N,
+                                const unsigned int j, const std::vector<unsigned int> &numbers,
+                                double &offset) const
+{
+  Line line;
+  const auto &multipliers = contact_operator.contact_space().multipliers();
+  for (unsigned int k = 0; k < rows.master_dofs.size(); ++k)
+  {
+    double weight = 0;
+    for (unsigned int i = 0; i < rows.multipliers.size(); ++i)
+      weight += N(j, i) * rows.master(i, k) / multipliers[rows.multipliers[i]].weight;
+    if (weight != 0.)
+      add_terms(rows.master_dofs[k], weight, numbers, line, offset);
+  }
+  return line;
+}
+
 /**
  * Add to the rows of T of the nodes inside an edge the displacement along @p direction, whose unknowns
  * are those that @p component would have: `u += d (N (m, u_d(0), u_d(1)))` with moments, or where
@@ -229,6 +185,8 @@ void Unknowns<dim>::express(const EdgeRows *rows,
       const FullMatrix<double> &N = *rows->nodes;
       for (unsigned int i = 0; i < n; ++i)
         u_d[moments[rows->multipliers[i]]] = N(j, i);
+      for (const auto &[unknown, weight] : moments_opposite(*rows, N, j, numbers, offset))
+        u_d[unknown] += weight;
       for (const unsigned int end : {0U, 1U})
         for (unsigned int c = 0; c < dim; ++c)
           if (direction[c] != 0.)
@@ -356,6 +314,12 @@ ConditionRows Unknowns<dim>::contact_rows() const
         if (std::abs(rows.B(i, j)) > negligible * rows.B.linfty_norm())
           for (const auto &[unknown, weight] : terms(rows.dofs[j]))
             sum[unknown] += rows.B(i, j) * weight;
+      }
+      for (unsigned int j = 0; j < rows.master.n(); ++j)
+      {
+        result.prescribed[row] -= rows.master(i, j) * offsets[rows.master_dofs[j]];
+        for (const auto &[unknown, weight] : terms(rows.master_dofs[j]))
+          sum[unknown] -= rows.master(i, j) * weight;
       }
     }
   for (const auto &[row, sum] : sums)

@@ -71,7 +71,11 @@ void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &
   {
     const MultiplierPoint<dim> &multiplier = multipliers[q];
     const FaceFrame<dim> frame = face.frame(multiplier.reference);
-    const Tensor<1, dim> u = traces.displacement(q);
+    const Tensor<1, dim> u = traces.displacement(q),
+                         u_opposite = field.opposite(face, multiplier.reference),
+                         jump = u - u_opposite;
+    // Jumps and tractions are the same from either side; the displacement is that of the first.
+    const bool is_first = state.boundary == face.condition->id;
     const double g = multiplier.bound;
     const Tangential<dim> z = frame.tangential(multiplier.traction.friction);
     ContactPoint<dim> point;
@@ -80,21 +84,25 @@ void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &
     point.face_length = dim == 2 ? area : std::sqrt(area);
     point.friction_bound = g;
     point.lambda = g == 0. ? Tangential<dim>() : Tangential<dim>(z / g);
-    point.slips = g == 0. || size_of(point.lambda) >= 1. - slip_tolerance;
+    point.slips =
+        !face.condition->is_tied() && (g == 0. || size_of(point.lambda) >= 1. - slip_tolerance);
     point.is_open = multiplier.is_open;
-    point.gap = face.condition->gap_at(frame.x) - frame.normal * u;
-    point.normal_displacement = frame.normal * u;
-    point.tangential_displacement = frame.tangential(u);
+    point.gap = face.condition->gap_at(frame.x) - frame.normal * jump;
+    point.normal_displacement = frame.normal * (is_first ? u : -u_opposite);
+    point.tangential_displacement = frame.tangential(is_first ? u : -u_opposite);
+    point.normal_jump = frame.normal * jump;
+    point.tangential_jump = frame.tangential(jump);
     point.normal_traction = face.condition->has_pressure() ? 0. - multiplier.traction.pressure
                                                            : traces.normal_traction(q);
     point.tangential_traction = Tangential<dim>() - z; // never -0
-    point.slip = point.tangential_displacement - field.past_slip(face, frame.x);
+    point.slip = point.tangential_jump - field.past_slip(face, frame.x);
     points.push_back(point);
 
     const Tangential<dim> force = multiplier.area * z;
     state.friction_resultant -= force;
     for (unsigned int s = 0; s < dim - 1; ++s)
-      state.friction_force -= multiplier.area * multiplier.traction.friction[s] * frame.tangents[s];
+      state.friction_force -= (is_first ? 1 : -1) * multiplier.area *
+                              multiplier.traction.friction[s] * frame.tangents[s];
     state.absolute_friction += size_of(force);
     state.open_friction += point.is_open ? size_of(force) : 0.;
     state.open_area += point.mode() == ContactMode::open ? point.area : 0.;
@@ -134,7 +142,8 @@ void OwnContact<dim>::add_normal_traction(const FieldFace<dim> &face,
     state.normal_resultant += table.weights[q] * frame.measure * traction;
     state.tension += table.weights[q] * frame.measure * std::max(traction, 0.);
     compare(traction, frame.x, no_stress, state.highest_tension, state.highest_tension_point);
-    const double u_n = frame.normal * traces.displacement(q),
+    const double u_n = frame.normal *
+                       (traces.displacement(q) - field.opposite(face, table.points[q])),
                  depth = face.condition->is_unilateral()  ? u_n - face.condition->gap_at(frame.x)
                          : face.condition->has_pressure() ? std::abs(u_n)
                                                           : 0.;
@@ -146,6 +155,20 @@ void OwnContact<dim>::add_normal_traction(const FieldFace<dim> &face,
             state.highest_pressure_point);
 }
 
+/** The same in the order in which it is met along the other side. */
+template <int dim>
+void turn_round(ContactState<dim> &state)
+{
+  std::reverse(state.points.begin(), state.points.end());
+  std::swap(state.begin, state.end);
+  std::reverse(state.chains.begin(), state.chains.end());
+  for (ContactChain<dim> &chain : state.chains)
+  {
+    const unsigned int n_points = state.points.size(), last = n_points - chain.first_point;
+    chain = {chain.end, chain.begin, n_points - chain.last_point, last};
+  }
+}
+
 /** One for each boundary that this process has faces of. */
 template <int dim>
 std::vector<ContactState<dim>> OwnContact<dim>::states() const
@@ -153,9 +176,14 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
   std::vector<ContactState<dim>> states;
   for (const FieldFace<dim> &face : field.faces())
   {
-    const bool is_new = states.empty() || states.back().boundary != face.condition->id;
+    const bool is_new = states.empty() || states.back().slave != face.condition->id;
     if (is_new)
-      states.emplace_back().boundary = face.condition->id;
+    {
+      states.emplace_back().slave = face.condition->id;
+      states.back().boundary = face.condition->pair
+                                   ? field.scene.pairs[*face.condition->pair].parts[0]
+                                   : face.condition->id;
+    }
     ContactState<dim> &state = states.back();
     if constexpr (dim == 2)
     {
@@ -181,6 +209,9 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
       state.chains.back().last_point = state.points.size();
     add_normal_traction(face, state);
   }
+  for (ContactState<dim> &state : states)
+    if (state.slave != state.boundary)
+      turn_round(state);
   return states;
 }
 

@@ -101,6 +101,18 @@ void Field<dim>::add_face(const Cell &cell, const unsigned int face_no)
 }
 
 template <int dim>
+std::vector<ContactSegment<dim>> Field<dim>::segments(const FieldFace<dim> &) const
+{
+  return {};
+}
+
+template <int dim>
+Tensor<1, dim> Field<dim>::opposite(const FieldFace<dim> &, const Point<dim> &) const
+{
+  return {};
+}
+
+template <int dim>
 const std::vector<FieldFace<dim>> &Field<dim>::faces() const
 {
   return contact_faces;

@@ -17,6 +17,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/body/load_quadrature.h>
 #include <hpvi/body/second_derivatives.h>
+#include <hpvi/evaluation/contact_residuals.h>
 #include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/evaluation/turned_divergence.h>
 
@@ -47,7 +48,13 @@ private:
   void add_jump(const Cell &cell, unsigned int face);
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const FieldFace<dim> &face);
-  double penetration(const FieldFace<dim> &face) const;
+  void add_opposite(const FieldFace<dim> &face);
+  Tractions<dim> traction_of() const
+  {
+    return [this](const Cell &cell, const ShapeTable<dim> &table,
+                  const std::vector<Tensor<1, dim>> &normals)
+    { return tractions(cell, table, normals); };
+  }
 
   /** Outer normals and weights times ds at the points of a table on a face. */
   struct FacePoints
@@ -324,31 +331,21 @@ void Residuals<dim>::add_contact(const FieldFace<dim> &face)
   result.tension[index] += weight(index) * tension;
   if (condition.friction.knows_pressure())
     result.excess[index] += weight(index) * excess;
-  result.penetration[index] +=
-      penetration(face) * softness[index] / (sizes[index] / degrees[index]);
+  result.penetration[index] += penetration(face, field) / (sizes[index] / degrees[index]);
+  add_opposite(face);
 }
 
-/** `weight^2 |max(u_n - u_0, 0)|^2`, seen at twice as many points in a direction as u_N has nodes. */
+// Where another body lies opposite, its traction is compared with the multiplier, too, on each of its
+// edges by itself: a body is refined for what it misses.
 template <int dim>
-double Residuals<dim>::penetration(const FieldFace<dim> &face) const
+void Residuals<dim>::add_opposite(const FieldFace<dim> &face)
 {
-  const ShapeTable<dim> &table = tables.face(face.degree(), face.face_no, 2 * (face.degree() + 1));
-  const unsigned int n = table.points.size();
-  const double weight = scene.material_of(face.cell).weight();
-  const std::vector<double> u =
-      evaluate(table.values, coefficients[face.cell->active_cell_index()]);
-  double sum = 0;
-  for (unsigned int q = 0; q < n; ++q)
+  for (const OppositeResidual &residual : opposite_residuals<dim>(face, field, traction_of()))
   {
-    const FaceFrame<dim> frame = face.frame(table.points[q]);
-    double depth = -face.condition->gap_at(frame.x);
-    for (unsigned int c = 0; c < dim; ++c)
-      depth += frame.normal[c] * u[c * n + q];
-    if (face.condition->is_unilateral())
-      depth = std::max(depth, 0.);
-    sum += table.weights[q] * frame.measure * std::pow(weight * depth, 2);
+    result.contact[residual.cell] += weight(residual.cell) * residual.tangential;
+    (face.condition->has_pressure() ? result.normal : result.neumann)[residual.cell] +=
+        weight(residual.cell) * residual.normal;
   }
-  return sum;
 }
 
 template <int dim>
@@ -372,6 +369,10 @@ ErrorEstimate Residuals<dim>::compute()
   }
   for (const FieldFace<dim> &face : field.faces())
     add_contact(face);
+  if (scene.has_pairs()) // where edges reach beyond the other body they are free
+    for (const OppositeResidual &residual : free_residuals<dim>(field, traction_of()))
+      result.neumann[residual.cell] +=
+          weight(residual.cell) * (residual.tangential + residual.normal);
   return std::move(result);
 }
 } // namespace

@@ -90,10 +90,49 @@ Tangential<dim> SolutionField<dim>::past_slip(const FieldFace<dim> &face, const 
 }
 
 template <int dim>
+std::vector<ContactSegment<dim>> SolutionField<dim>::segments(const FieldFace<dim> &face) const
+{
+  return contact_face(face).segments;
+}
+
+template <int dim>
+Tensor<1, dim> SolutionField<dim>::opposite(const FieldFace<dim> &face,
+                                            const Point<dim> &reference) const
+{
+  Tensor<1, dim> result;
+  if (contact_face(face).segments.empty())
+    return result;
+  const double s = coordinate(face, reference);
+  const ContactSegment<dim> &segment = contact_face(face).segment(s);
+  const unsigned int n = segment.degree + 1;
+  std::vector<double> nodes;
+  for (const Point<1> &node : solution.tables.gauss_lobatto(n).get_points())
+    nodes.push_back(node[0]);
+  const std::vector<double> basis = lagrange_basis(nodes, segment.opposite(s));
+  const auto dofs = solution.displacement_space.cell_dofs(segment.cell->active_cell_index());
+  const std::vector<unsigned int> &edge =
+      solution.tables.numbering(segment.degree).edge[segment.face_no];
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int j = 0; j < n; ++j)
+      result[c] += basis[j] * solution.u[dofs[edge[c * n + j]]];
+  return result;
+}
+
+/** A jump has kinks where edges of the other body end. */
+template <int dim>
 std::vector<double> SolutionField<dim>::friction_cuts(const FieldFace<dim> &face) const
 {
   const ContactFace<dim> &own = contact_face(face);
-  return own.n_multipliers > 0 ? own.friction.cuts : std::vector<double>();
+  if (own.n_multipliers == 0 || face.condition->is_tied())
+    return {};
+  std::vector<double> cuts = own.friction.cuts;
+  if (own.segments.empty())
+    return cuts;
+  for (const ContactSegment<dim> &segment : own.segments)
+    cuts.push_back(segment.begin);
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
 }
 
 namespace

@@ -29,7 +29,9 @@ bool belongs_to_problem(const std::string &section, const std::string &entry)
 {
   return section == "Material" || section.rfind("Material ", 0) == 0 || section == "Body force" ||
          section == "Exact solution" || section.rfind("Boundary ", 0) == 0 ||
-         (section == "Geometry" && entry != "Graded towards" && entry != "Grading levels");
+         section.rfind("Contact ", 0) == 0 ||
+         ((section == "Geometry" || section.rfind("Body ", 0) == 0) && entry != "Graded towards" &&
+          entry != "Grading levels");
 }
 
 std::string content_of(const std::string &file)

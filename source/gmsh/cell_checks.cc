@@ -152,36 +152,11 @@ void check_hanging_nodes(const CoarseMesh &mesh, const CellEdges &edges,
                " of another cell; give both surfaces one curve there, Coherence in the drawing "
                "makes it");
 }
-
-/** How many parts cells make that are connected through edges. */
-unsigned int n_parts(const CoarseMesh &mesh, const CellEdges &edges)
-{
-  std::vector<unsigned int> parent(mesh.cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](unsigned int c)
-  {
-    while (parent[c] != c)
-      c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  unsigned int n = mesh.cells.size();
-  for (const CellEdge &edge : edges.all())
-    if (!edge.is_on_boundary() && root(edge.cells[0]) != root(edge.cells[1]))
-    {
-      parent[root(edge.cells[0])] = root(edge.cells[1]);
-      --n;
-    }
-  return n;
-}
 } // namespace
 
 void check_connection(const CoarseMesh &mesh, const CellEdges &edges, const MeshComplaint &complain)
 {
   check_angles(mesh, complain);
   check_hanging_nodes(mesh, edges, complain);
-  if (const unsigned int n = n_parts(mesh, edges); n > 1)
-    complain("the cells make " + std::to_string(n) +
-             " parts that no edge connects, and a body is one part; save a file for each, or let "
-             "them share a curve");
 }
 } // namespace hpvi

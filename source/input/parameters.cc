@@ -143,12 +143,12 @@ const std::string &Parameters::file_name() const
 
 bool Parameters::is_named(const std::string &section, const std::string &name) const
 {
-  return origins.count(section.empty() ? name : section + "/" + name) > 0;
+  return origins.count(section.empty() ? name : own(section) + "/" + name) > 0;
 }
 
 std::string Parameters::text(const std::string &section, const std::string &name) const
 {
-  return section.empty() ? prm.get(name) : prm.get({section}, name);
+  return section.empty() ? prm.get(name) : prm.get({own(section)}, name);
 }
 
 namespace
@@ -169,12 +169,40 @@ double Parameters::number(const std::string &section, const std::string &name) c
 
 unsigned int Parameters::integer(const std::string &section, const std::string &name) const
 {
-  return prm.get_integer({section}, name);
+  return prm.get_integer({own(section)}, name);
 }
 
 bool Parameters::boolean(const std::string &section, const std::string &name) const
 {
-  return prm.get_bool({section}, name);
+  return prm.get_bool({own(section)}, name);
+}
+
+bool Parameters::has(const std::string &section, const std::string &name) const
+{
+  return std::any_of(entries.begin(), entries.end(),
+                     [&](const Entry &entry)
+                     { return entry.section == own(section) && entry.name == name; });
+}
+
+const std::string &Parameters::own(const std::string &section) const
+{
+  return section == replaced.first ? replaced.second : section;
+}
+
+std::string Parameters::standing_for(const std::string &section) const
+{
+  return section == replaced.first ? replaced.second : "";
+}
+
+std::shared_ptr<const Parameters> Parameters::with_section(const std::string &section,
+                                                           const std::string &other) const
+{
+  const auto result = std::make_shared<Parameters>(entries, hints, file);
+  for (const Entry &entry : entries)
+    result->set(entry.section, entry.name, text(entry.section, entry.name));
+  result->origins = origins;
+  result->replaced = {section, other};
+  return result;
 }
 
 template <int dim>
@@ -193,7 +221,7 @@ std::vector<Point<dim>> Parameters::points(const std::string &section,
 
 std::string Parameters::place(const std::string &section, const std::string &name) const
 {
-  const std::string path = section.empty() ? name : section + "/" + name;
+  const std::string path = section.empty() ? name : own(section) + "/" + name;
   const auto origin = origins.find(path);
   return (origin == origins.end() ? shown : origin->second) + ": " +
          printable(path + " = " + text(section, name));
@@ -202,7 +230,7 @@ std::string Parameters::place(const std::string &section, const std::string &nam
 void Parameters::reject(const std::string &section, const std::string &name,
                         const std::string &problem) const
 {
-  const std::string path = section.empty() ? name : section + "/" + name;
+  const std::string path = section.empty() ? name : own(section) + "/" + name;
   const auto origin = origins.find(path);
   fail(origin == origins.end() ? shown : origin->second, path + " = " + text(section, name),
        problem);

@@ -180,6 +180,10 @@ std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary
   const auto found =
       std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
                    [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
+  if (std::any_of(found, scene.boundaries.end(),
+                  [&](const BoundaryCondition<dim> &one)
+                  { return one.pair && one.name == boundary; }))
+    return "contact " + boundary;
   const std::string kind = found->plate                                  ? "plate "
                            : is_axis(scene, *found)                      ? "axis "
                            : found->symmetry                             ? "symmetry "
@@ -209,6 +213,15 @@ std::string friction_in_words(const Scene<dim> &scene, const FrictionLaw<dim> &f
              : "friction " + bound + " and " + coefficient + " times the pressure";
 }
 
+/** Of a pair the other side. */
+template <int dim>
+std::string opposite_name(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  const auto &parts = scene.pairs[*boundary.pair].parts;
+  const types::boundary_id other = boundary.id == parts[0] ? parts[1] : parts[0];
+  return scene.boundaries[scene.boundaries[other].side].name;
+}
+
 template <int dim>
 std::string gap_in_words(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
                          const std::vector<Point<dim>> &points)
@@ -232,10 +245,15 @@ std::vector<std::string> contact_phrases(const Scene<dim> &scene,
   std::vector<std::string> phrases;
   if (!boundary.has_contact())
     return phrases;
+  if (boundary.is_tied())
+    return {"tied to " + opposite_name(scene, boundary)};
+  const std::string with = boundary.pair ? " with " + opposite_name(scene, boundary) : "";
   if (boundary.is_unilateral())
-    phrases = {"unilateral contact", gap_in_words(scene, boundary, points)};
+    phrases = {"unilateral contact" + with, gap_in_words(scene, boundary, points)};
   else
-    phrases = {boundary.contact == Contact::bilateral ? "bilateral contact" : "tangential contact"};
+    phrases = {
+        (boundary.contact == Contact::bilateral ? "bilateral contact" : "tangential contact") +
+        with};
   if (const auto &d = boundary.contact_direction)
   {
     std::string components;

@@ -21,10 +21,21 @@ void add(Record &record, const std::string &name, const Tensor<1, 3> &vector)
     record.emplace_back(name + '_' + "xyz"[d], text(vector[d]));
 }
 
+/** Of two bodies the side without multipliers; of a foundation nothing. */
 template <int dim>
-Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundary,
-           const bool has_history)
+std::string master_name(const ContactState<dim> &state, const Scene<dim> &scene)
 {
+  const auto &pair = scene.boundaries[state.boundary].pair;
+  if (!pair)
+    return "";
+  const auto &parts = scene.pairs[*pair].parts;
+  return scene.boundaries[state.slave == parts[0] ? parts[1] : parts[0]].name;
+}
+
+template <int dim>
+Record row(const ContactPoint<dim> &point, const ContactState<dim> &state, const Scene<dim> &scene)
+{
+  const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   Record record;
   for (unsigned int d = 0; d < dim; ++d)
     record.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
@@ -34,10 +45,17 @@ Record row(const ContactPoint<dim> &point, const BoundaryCondition<dim> &boundar
   record.emplace_back("normal_traction", text(point.normal_traction));
   add(record, "tangential_traction", point.tangential_traction);
   record.emplace_back("state", mode_name(point.mode()));
-  record.emplace_back("boundary", boundary.name);
+  record.emplace_back("boundary",
+                      boundary.pair ? scene.boundaries[boundary.side].name : boundary.name);
   record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(point.gap));
-  if (has_history)
+  if (scene.has_load_history())
     add(record, "slip", point.slip);
+  if (!scene.has_pairs())
+    return record;
+  record.emplace_back("contact", boundary.pair ? scene.pairs[*boundary.pair].name : "");
+  record.emplace_back("master", master_name(state, scene));
+  record.emplace_back("jump_normal", text(point.normal_jump));
+  add(record, "jump_tangential", point.tangential_jump);
   return record;
 }
 } // namespace
@@ -48,7 +66,7 @@ std::string contact_table(const Scene<dim> &scene, const std::vector<ContactStat
   std::vector<Record> rows;
   for (const ContactState<dim> &state : contact)
     for (const ContactPoint<dim> &point : state.points)
-      rows.push_back(row(point, scene.boundaries[state.boundary], scene.has_load_history()));
+      rows.push_back(row(point, state, scene));
   return csv(rows);
 }
 

@@ -225,7 +225,7 @@ double draw_support(SceneSheet &sheet, const MarkedPart &marked, double band)
 double gap_magnification(const SceneSheet &sheet, const MarkedPart &marked)
 {
   double widest = 0;
-  if (marked.condition.is_unilateral())
+  if (marked.condition.is_unilateral() && !marked.condition.pair)
     for (const Station &place : sheet.stations(marked.part, 2., true))
       widest = std::max(widest, sheet.scale * std::abs(marked.condition.gap_at(place.x)));
   const double wanted = widest == 0 || (widest >= 12. && widest <= 90.) ? 1.
@@ -258,6 +258,16 @@ double draw_foundation(SceneSheet &sheet, const MarkedPart &marked, double band)
   if (!condition.has_contact())
     return band;
   Drawing &drawing = sheet.drawing;
+  if (condition.pair) // the other body takes the place of a foundation
+  {
+    drawing.begin("pair " + condition.pair_name, condition.name);
+    std::vector<PagePoint> side;
+    for (const Station &place : sheet.stations(marked.part, 3., true))
+      side.push_back(place.at);
+    drawing.line(side, "class=\"contact\" " + stroke(mark_colours::contact, 2.5));
+    drawing.end();
+    return band;
+  }
   const bool is_bilateral = condition.contact == Contact::bilateral;
   const double clearance = band + (is_bilateral ? 8. : 4.),
                magnification = gap_magnification(sheet, marked);
@@ -324,6 +334,9 @@ std::vector<TextLine> words_of(const SceneSheet &sheet, const MarkedPart &marked
 
 double draw_words(SceneSheet &sheet, const MarkedPart &marked, const double band)
 {
+  const auto &pair = marked.condition.pair;
+  if (pair && sheet.scene.pairs[*pair].parts[0] != marked.condition.id)
+    return band; // what the first of two sides says holds for both
   const Station middle = sheet.station(marked.part, 0.5);
   sheet.drawing.add({middle.at + band * middle.normal, middle.normal,
                      0.4 * sheet.length(marked.part), words_of(sheet, marked), "boundary",

@@ -200,12 +200,15 @@ void draw_key(SceneSheet &sheet)
   const double left = 0;
   double y = drawing.extent().bottom + 12.;
   drawing.begin("key");
-  for (std::size_t k = 0; k < scene.materials.size(); ++k, y += 20.)
+  for (std::size_t k = 0; k < scene.materials.size(); ++k)
   {
+    if (!is_anywhere(scene, k))
+      continue;
     drawing.area({{left, y}, {left + 24., y}, {left + 24., y + 14.}, {left, y + 14.}},
                  "fill=\"" + material_colour(k) + "\" " + stroke("#333", 0.8));
     drawing.text_at({left + 32., y + 11.}, {name_in_words(scene, k) + ": " +
                                             material_in_words(scene, scene.materials[k])});
+    y += 20.;
   }
   drawing.end();
 }

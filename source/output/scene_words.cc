@@ -67,6 +67,23 @@ Scene<dim> at_the_end(const Scene<dim> &scene)
   return load_step(scene, loading.steps, past);
 }
 
+bool is_anywhere(const Scene<2> &scene, const std::size_t material)
+{
+  if (scene.geometry.bodies.empty() || material > 0)
+    return true; // a named one is
+  const CoarseMesh &mesh = *scene.geometry.mesh;
+  const EdgeCurves curves(mesh);
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    if (scene.material_of_coarse_cell(BlendedCell(curves, c).point(0.5, 0.5), c) == material)
+      return true;
+  return false;
+}
+
+bool is_anywhere(const Scene<3> &, std::size_t)
+{
+  return true;
+}
+
 template <int dim>
 std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
 {
@@ -129,7 +146,8 @@ namespace
 template <int dim>
 std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
-  const std::string shape = scene.parameters ? scene.parameters->text("Geometry", "Shape") : "",
+  const bool has_shape = scene.parameters && scene.parameters->has("Geometry", "Shape");
+  const std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "",
                     unit = unit_name(scene.length_unit);
   const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
   const auto ends = box.get_boundary_points();
@@ -142,6 +160,34 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
                     (scene.geometry.graded_towards.size() == 1 ? " point" : " points")
               : "") +
          "\n";
+}
+
+/** Of several bodies each, as in "body punch: from (0 0) to (1 1) mm, 4 coarse cells, material steel". */
+template <int dim>
+std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
+{
+  std::string lines;
+  const std::string unit = unit_name(scene.length_unit);
+  for (unsigned int b = 0; b < scene.geometry.bodies.size(); ++b)
+  {
+    std::vector<Point<dim>> vertices;
+    unsigned int n = 0;
+    std::size_t material = 0;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (body_of<dim>(scene.geometry, cell) == b)
+      {
+        ++n;
+        material = cell->material_id();
+        for (const unsigned int v : cell->vertex_indices())
+          vertices.push_back(cell->vertex(v));
+      }
+    const auto ends = BoundingBox<dim>(vertices).get_boundary_points();
+    lines += "body " + scene.geometry.bodies[b].name + ": from " + place<dim>(ends.first) + " to " +
+             place<dim>(ends.second) + (unit.empty() ? "" : " " + unit) + ", " + text(n) +
+             (n == 1 ? " coarse cell" : " coarse cells") +
+             (scene.materials.size() > 1 ? ", " + name_in_words(scene, material) : "") + "\n";
+  }
+  return lines;
 }
 
 /** What a mesh file holds. */
@@ -160,7 +206,8 @@ std::string materials_in_words(const Scene<dim> &scene)
 {
   std::string lines;
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
-    lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
+    if (is_anywhere(scene, k))
+      lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
   const std::string temperature = temperature_in_words(scene);
   return lines + (temperature.empty() ? "" : temperature + "\n");
 }
@@ -186,8 +233,8 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
     const std::vector<Point<dim>> points = points_on(mesh, boundary.id);
-    if (points.empty())
-      continue;
+    if (points.empty() || (boundary.pair && scene.pairs[*boundary.pair].parts[0] != boundary.id))
+      continue; // the first of two sides speaks for both
     const std::string words = joined(phrases_of(scene, boundary, points));
     if (words.empty())
       free.push_back(boundary.name.empty() ? "edges without a name" : boundary.name);
@@ -247,7 +294,8 @@ std::string scene_in_words(const Scene<dim> &scene)
   std::string remarks;
   for (const std::string &remark : scene.remarks)
     remarks += remark + "\n";
-  return body_in_words(last, mesh) + mesh_in_words(last) + remarks + materials_in_words(last) +
+  return (last.geometry.bodies.empty() ? body_in_words(last, mesh) : bodies_in_words(last, mesh)) +
+         mesh_in_words(last) + remarks + materials_in_words(last) +
          (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
                                          " load steps; what follows is at t = 1\n"
                                    : "") +

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/scene/boundary_parts.h>
@@ -113,6 +114,15 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
   if (scene.geometry.shape == Shape::file)
     surfaces = scene.geometry.mesh->surfaces;
   scene.material_of_surface = materials_of_surfaces(surfaces, scene.materials);
+  if constexpr (dim == 2)
+    if (scene.geometry.shape == Shape::bodies)
+      scene.material_of_surface = materials_of_bodies(parameters, scene);
+  const auto is_of_body = [&](const types::material_id m)
+  {
+    return scene.geometry.shape == Shape::bodies &&
+           std::find(scene.material_of_surface.begin(), scene.material_of_surface.end(),
+                     std::optional<types::material_id>(m)) != scene.material_of_surface.end();
+  };
   std::vector<Expression<dim>> wheres{nullptr};
   bool has_where = false;
   for (unsigned int m = 1; m < scene.materials.size(); ++m)
@@ -125,7 +135,7 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
       parameters.reject(section, "Where",
                         "stands beside a surface of the mesh that has this name; keep one of the "
                         "two");
-    if (is_surface)
+    if (is_surface || (is_of_body(m) && parameters.text(section, "Where").empty()))
       continue;
     if (!surfaces.empty() && parameters.text(section, "Where").empty())
       parameters.reject(section, "Where",
@@ -169,13 +179,19 @@ void read_part(const Parameters &parameters, const std::string &name, Scene<dim>
 template <int dim>
 void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene)
 {
-  scene.geometry = read_geometry<dim>(parameters);
-  scene.name_boundaries();
+  if (names.bodies.empty())
+  {
+    scene.geometry = read_geometry<dim>(parameters);
+    scene.geometry.grading_levels = parameters.integer("Geometry", "Grading levels");
+    scene.name_boundaries();
+  }
+  else if constexpr (dim == 2)
+    read_bodies(parameters, names, scene);
   if constexpr (dim == 2)
-    if (scene.geometry.shape == Shape::file)
-      scene.remarks = remarks_on_polygons(*scene.geometry.mesh);
+    if (scene.geometry.shape == Shape::file || scene.geometry.shape == Shape::bodies)
+      for (const std::string &remark : remarks_on_polygons(*scene.geometry.mesh))
+        scene.remarks.push_back(remark);
   read_materials(parameters, names.materials, scene);
-  scene.geometry.grading_levels = parameters.integer("Geometry", "Grading levels");
   const std::vector<Material> materials = scene.materials;
   scene.materials.resize(1); // the shape must be sound before functions are tried on it
   scene.check_body();

@@ -10,7 +10,8 @@ namespace hpvi
 {
 namespace
 {
-const std::string material = "Material ", boundary = "Boundary ";
+const std::string material = "Material ", boundary = "Boundary ", body = "Body ",
+                  contact = "Contact ";
 
 bool begins_with(const std::string &text, const std::string &start)
 {
@@ -46,15 +47,58 @@ void add(std::vector<std::string> &names, const Found &found, const std::string 
 }
 } // namespace
 
-FreeNames free_names(const std::string &file,
-                     const std::vector<std::pair<std::string, std::string>> &overrides,
-                     const std::vector<std::string> &sides)
+namespace
+{
+std::vector<Assignment>
+all_assignments(const std::string &file,
+                const std::vector<std::pair<std::string, std::string>> &overrides)
 {
   std::vector<Assignment> all = read_parameter_file(file);
   for (const auto &[path, value] : overrides)
     if (const std::size_t slash = path.rfind('/'); slash != std::string::npos)
       all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
                      value, printable(file, 400) + " (--set)"});
+  return all;
+}
+} // namespace
+
+std::vector<std::string>
+body_names(const std::string &file,
+           const std::vector<std::pair<std::string, std::string>> &overrides)
+{
+  std::vector<std::string> result;
+  const std::vector<Assignment> all = all_assignments(file, overrides);
+  for (const Assignment &one : all)
+    if (begins_with(one.section, body) && one.section != "Body force")
+    {
+      if (lower_case(one.section) == "body force")
+        fail(one.where, one.section,
+             "is no name of a body: it differs from the subsection Body force in case alone; "
+             "choose another name");
+      add(result, {one.section.substr(body.size()), one.where}, body);
+    }
+  for (const Assignment &one : all)
+    if (!result.empty() && one.section == "Geometry")
+      fail(one.where, one.section,
+           "is that of a single body, and this scene has " + listed(result, "and") +
+               "; write its entries in the subsection Body NAME");
+    else if (result.empty() && begins_with(one.section, contact))
+      fail(one.where, one.section,
+           "stands between bodies, and this scene has none; open a subsection Body NAME for each, "
+           "or write Contact in a Boundary for a rigid foundation");
+    else if (const std::size_t dot = one.section.find('.');
+             result.empty() && begins_with(one.section, boundary) && dot != std::string::npos)
+      fail(one.where, one.section,
+           "names a body, and this scene has no bodies; write " + boundary +
+               one.section.substr(dot + 1));
+  return result;
+}
+
+FreeNames free_names(const std::string &file,
+                     const std::vector<std::pair<std::string, std::string>> &overrides,
+                     const std::vector<std::string> &sides)
+{
+  const std::vector<Assignment> all = all_assignments(file, overrides);
   FreeNames result;
   result.sides = sides;
   std::vector<std::string> known = sides;
@@ -62,6 +106,8 @@ FreeNames free_names(const std::string &file,
   {
     if (begins_with(one.section, material))
       add(result.materials, {one.section.substr(material.size()), one.where}, material);
+    if (begins_with(one.section, contact))
+      add(result.pairs, {one.section.substr(contact.size()), one.where}, contact);
     if (!begins_with(one.section, boundary) || one.name != "On")
       continue;
     const Found part{one.section.substr(boundary.size()), one.where};

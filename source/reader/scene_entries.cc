@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
+#include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
@@ -61,7 +62,7 @@ void add(std::vector<Entry> &entries, const std::vector<Entry> &more)
 }
 
 void add_problem_entries(std::vector<Entry> &entries, const int dim,
-                         const std::vector<std::string> &materials)
+                         const std::vector<std::string> &materials, const FreeNames &names)
 {
   const auto text = matching(Patterns::Anything());
 
@@ -72,7 +73,12 @@ void add_problem_entries(std::vector<Entry> &entries, const int dim,
         "2: the plane. 3: space, a box with entries of three components."},
        {"Units", "Length", "", text, "a label", "Label of lengths; nothing is converted."},
        {"Units", "Stress", "", text, "a label", "Label of stresses; nothing is converted."}});
-  add(entries, dim == 2 ? geometry_entries<2>() : geometry_entries<3>());
+  if (names.bodies.empty())
+    add(entries, dim == 2 ? geometry_entries<2>() : geometry_entries<3>());
+  for (const std::string &body : names.bodies)
+    add(entries, body_entries(body));
+  for (const std::string &pair : names.pairs)
+    add(entries, pair_entries(pair));
   for (const std::string &material : materials)
     add(entries, material_entries(dim, material));
   entries.insert(
@@ -365,7 +371,7 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
   std::vector<Entry> entries;
   std::vector<std::string> materials{""};
   materials.insert(materials.end(), names.materials.begin(), names.materials.end());
-  add_problem_entries(entries, dim, materials);
+  add_problem_entries(entries, dim, materials, names);
   add(entries, closed_form_entries());
   const std::vector<std::string> &sides = names.sides;
   for (const std::string &side : sides)

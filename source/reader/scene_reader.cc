@@ -7,6 +7,7 @@
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/scene_entries.h>
@@ -47,7 +48,8 @@ struct ReadValue
   template <class Integer>
   void operator()(const char *section, const char *name, Integer &value) const
   {
-    value = parameters.integer(section, name);
+    if (parameters.has(section, name)) // several bodies have each their own
+      value = parameters.integer(section, name);
   }
 };
 
@@ -222,8 +224,15 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
                             ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t),
                                                 remark_on_constants(scene.materials[0])),
                             scene);
+  if constexpr (dim == 2)
+    check_covered_sides(*parameters, scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (!boundary.name.empty()) // edges of a mesh in no group
+    if (boundary.pair)
+    {
+      if constexpr (dim == 2)
+        read_pair(*parameters, t, scene, boundary);
+    }
+    else if (!boundary.name.empty()) // edges of a mesh in no group
       read_boundary(*parameters, t, scene, boundary);
   scene.reference_solution = parameters->text("Error", "Reference solution");
   return scene;
@@ -255,8 +264,26 @@ template <int dim>
 FreeNames names_in(const std::string &file,
                    const std::vector<std::pair<std::string, std::string>> &overrides)
 {
-  const SideNames sides = names_of_sides<dim>(file, overrides);
+  const std::vector<std::string> bodies = body_names(file, overrides);
+  if (dim == 3 && !bodies.empty())
+    throw InputError(printable(file, 400) +
+                     ": Dimension = 3: several bodies are offered in the plane alone; set 2, or "
+                     "describe one body in the subsection Geometry");
+  SideNames sides;
+  if (bodies.empty())
+    sides = names_of_sides<dim>(file, overrides);
+  for (const std::string &body : bodies)
+  {
+    const SideNames own = names_of_sides<dim>(file, overrides, "Body " + body);
+    for (const std::string &side : own.sides)
+      sides.sides.push_back(side.empty() ? "" : body + "." + side);
+    for (const std::vector<std::string> &curves : {own.sides, own.interfaces})
+      for (const std::string &curve : curves)
+        if (own.is_from_file && !curve.empty())
+          sides.interfaces.push_back(body + "." + curve);
+  }
   FreeNames names = free_names(file, overrides, sides.sides);
+  names.bodies = bodies;
   names.is_from_file = sides.is_from_file;
   names.interfaces = sides.interfaces;
   return names;
@@ -277,12 +304,16 @@ Scene<dim> read_scene(const std::string &file,
                        "is not that of the program; set Dimension = " + std::to_string(dim));
   const std::string name = std::filesystem::path(file).stem().string();
   complete(*parameters, name);
-  if (names.is_from_file && !parameters->text("Geometry", "File").empty())
-    // scene.prm lies in another directory
-    parameters->set("Geometry", "File",
-                    std::filesystem::absolute(beside(file, parameters->text("Geometry", "File")))
-                        .lexically_normal()
-                        .string());
+  std::vector<std::string> bodies{"Geometry"};
+  for (const std::string &body : names.bodies)
+    bodies.push_back("Body " + body);
+  for (const std::string &section : bodies)
+    if (parameters->has(section, "File") && !parameters->text(section, "File").empty())
+      // scene.prm lies in another directory
+      parameters->set(section, "File",
+                      std::filesystem::absolute(beside(file, parameters->text(section, "File")))
+                          .lexically_normal()
+                          .string());
   const bool is_default_tolerance = choose_tolerance(*parameters, use);
   const Loading<dim> loading = read_loading<dim>(parameters, names, name);
   Scene<dim> scene = loading.at ? loading.at(loading.time(1))
@@ -310,7 +341,9 @@ int scene_dimension(const std::string &file,
 std::string default_parameters()
 {
   std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
-  entries.push_back(curve_entry("NAME")); // of a mesh file alone
+  entries.push_back(curve_entry("NAME"));                               // of a mesh file alone
+  for (const auto &some : {body_entries("NAME"), pair_entries("NAME")}) // of several bodies
+    entries.insert(entries.end(), some.begin(), some.end());
   return Parameters(entries, {}, "").print(true);
 }
 

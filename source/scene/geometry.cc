@@ -91,6 +91,15 @@ Point<dim> Geometry<dim>::point(const Point<dim> &unit) const
 }
 
 template <int dim>
+unsigned int Geometry<dim>::body_of_side(const unsigned int side) const
+{
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (std::find(bodies[b].sides.begin(), bodies[b].sides.end(), side) != bodies[b].sides.end())
+      return b;
+  return 0;
+}
+
+template <int dim>
 std::vector<double> Geometry<dim>::grid_lines(const unsigned int direction) const
 {
   std::vector<double> lines(subdivisions[direction] + 1);
@@ -300,51 +309,6 @@ std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
   return points;
 }
 
-template <int dim>
-Tensor<1, dim> RigidBodyMotion<dim>::at(const Point<dim> &x) const
-{
-  static_assert(dim == 2, "a rotation is a number");
-  const Tensor<1, dim> arm = x - centre;
-  return translation + rotation * Tensor<1, dim>({-arm[1], arm[0]});
-}
-
-template <int dim>
-bool RigidBodyMotion<dim>::is_translation() const
-{
-  return rotation == 0.;
-}
-
-template <int dim>
-std::string RigidBodyMotion<dim>::direction() const
-{
-  std::ostringstream text;
-  if (is_translation())
-    text << "along (" << translation / translation.norm() << ')';
-  else
-    text << "about (" << centre + Tensor<1, dim>({-translation[1], translation[0]}) / rotation
-         << ')';
-  return text.str();
-}
-
-template <int dim>
-RigidBodyMotion<dim> combined(const std::vector<RigidBodyMotion<dim>> &motions,
-                              const Vector<double> &coefficients)
-{
-  RigidBodyMotion<dim> result{{}, 0, motions.front().centre};
-  for (unsigned int j = 0; j < motions.size(); ++j)
-  {
-    // A rotation by round-off would be one about a far point.
-    if (std::abs(coefficients[j]) < 1e-10 * coefficients.linfty_norm())
-      continue;
-    result.translation += coefficients[j] * motions[j].translation;
-    result.rotation += coefficients[j] * motions[j].rotation;
-  }
-  return result;
-}
-
-template struct RigidBodyMotion<2>;
-template RigidBodyMotion<2> combined(const std::vector<RigidBodyMotion<2>> &,
-                                     const Vector<double> &);
 template Corners<2> box_corners(const Point<2> &, const Point<2> &);
 template Corners<3> box_corners(const Point<3> &, const Point<3> &);
 template struct Geometry<2>;

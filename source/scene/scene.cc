@@ -62,15 +62,22 @@ bool BoundaryCondition<dim>::is_unilateral() const
 }
 
 template <int dim>
+bool BoundaryCondition<dim>::is_tied() const
+{
+  return contact == Contact::tied;
+}
+
+template <int dim>
 bool BoundaryCondition<dim>::holds_normal() const
 {
-  return symmetry || (contact == Contact::bilateral && !friction.knows_pressure());
+  return symmetry || (contact == Contact::bilateral && !pair && !friction.knows_pressure());
 }
 
 template <int dim>
 bool BoundaryCondition<dim>::has_pressure() const
 {
-  return is_unilateral() || (contact == Contact::bilateral && friction.knows_pressure());
+  return is_unilateral() || is_tied() ||
+         (contact == Contact::bilateral && (pair || friction.knows_pressure()));
 }
 
 template <int dim>
@@ -270,6 +277,12 @@ bool Scene<dim>::has_load_history() const
 }
 
 template <int dim>
+bool Scene<dim>::has_pairs() const
+{
+  return !pairs.empty();
+}
+
+template <int dim>
 bool Scene<dim>::has_contact() const
 {
   return std::any_of(boundaries.begin(), boundaries.end(),
@@ -317,6 +330,8 @@ std::string Scene<dim>::no_error_bound() const
   if (const BoundaryCondition<dim> *const oblique = oblique_contact(*this))
     return "contact of " + printable(oblique->name) +
            " acts along its Contact direction, which is not the normal";
+  if (has_pairs())
+    return "bodies touch each other, and the bound knows rigid foundations alone";
   if (is_axisymmetric())
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (adaptivity.start_degree < 2)
@@ -359,7 +374,7 @@ NormalContact Scene<dim>::normal_contact() const
     return solver.normal_contact;
   // Nodes on the axis would have no weight.
   const bool has_nodes = dim == 2 && !is_axisymmetric() && solver.path != SolutionPath::primal &&
-                         !has_coulomb_friction();
+                         !has_coulomb_friction() && !has_pairs();
   return has_nodes ? NormalContact::nodes : NormalContact::multiplier;
 }
 

@@ -5,7 +5,11 @@
 #include <hpvi/gmsh/mesh_file.h>
 #include <hpvi/shapes/curve_fit.h>
 #include <hpvi/shapes/mesh_from_file.h>
+#include <hpvi/shapes/mesh_surfaces.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
 #include <filesystem>
 
 namespace hpvi
@@ -41,17 +45,46 @@ void bend(const Parameters &parameters, const std::string &name,
                                                 : "; take more edges there, or remove it"));
 }
 
+std::vector<std::string> words_in(const std::string &list)
+{
+  return Utilities::split_string_list(list, ',');
+}
+
+/** Those that a body takes. */
+std::vector<std::string> surfaces_in(const Parameters &parameters, const CoarseMesh &mesh)
+{
+  const std::vector<std::string> result = words_in(parameters.text("Geometry", "Surfaces"));
+  for (const std::string &surface : result)
+    if (std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) == mesh.surfaces.end())
+      parameters.reject("Geometry", "Surfaces",
+                        "names " + printable(surface) + ", which the mesh has not; it has " +
+                            listed(mesh.surfaces, "and"));
+  return result;
+}
+
 void read(const Parameters &parameters, Geometry<2> &geometry)
 {
   const std::string file = parameters.text("Geometry", "File");
   if (file.empty())
     parameters.reject("Geometry", "File", "names no mesh; give a file of Gmsh, as body.msh");
-  CoarseMesh mesh = read_mesh_file(beside(parameters.file_name(), file));
+  const std::string path = beside(parameters.file_name(), file);
+  CoarseMesh mesh = read_mesh_file(path);
+  if (parameters.has("Geometry", "Surfaces"))
+    mesh = surfaces_of(mesh, surfaces_in(parameters, mesh));
+  if (const unsigned int n = n_parts(mesh); n > 1)
+    throw InputError(printable(path, 400) + ": the cells make " + std::to_string(n) +
+                     " parts that no edge connects, and a body is one part; save a file for each, "
+                     "let them share a curve, or open a subsection Body NAME for each with its "
+                     "Surfaces");
+  const std::string body = parameters.standing_for("Geometry");
+  const auto prefix = body.empty() ? "" : body.substr(body.find(' ') + 1) + ".";
   for (unsigned int b = 0; b < mesh.boundaries.size(); ++b)
     if (!mesh.boundaries[b].empty())
-      bend(parameters, mesh.boundaries[b], edges_of(mesh, &CoarseMesh::Edge::boundary, b), mesh);
+      bend(parameters, prefix + mesh.boundaries[b], edges_of(mesh, &CoarseMesh::Edge::boundary, b),
+           mesh);
   for (unsigned int i = 0; i < mesh.interfaces.size(); ++i)
-    bend(parameters, mesh.interfaces[i], edges_of(mesh, &CoarseMesh::Edge::interface, i), mesh);
+    bend(parameters, prefix + mesh.interfaces[i], edges_of(mesh, &CoarseMesh::Edge::interface, i),
+         mesh);
   geometry.mesh = std::make_shared<const CoarseMesh>(std::move(mesh));
 }
 } // namespace
@@ -111,7 +144,9 @@ ShapeKind<2> mesh_from_file()
         const std::string file = text("File");
         if (file.empty())
           return SideNames();
-        const CoarseMesh mesh = read_mesh_file(file);
+        CoarseMesh mesh = read_mesh_file(file);
+        if (const std::string surfaces = text("Surfaces"); !surfaces.empty())
+          mesh = surfaces_of(mesh, words_in(surfaces));
         return SideNames{mesh.boundaries, mesh.interfaces, true};
       },
       false};

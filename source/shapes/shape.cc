@@ -208,7 +208,8 @@ Corners<2> corners_around(const CoarseMesh &mesh)
 
 template <int dim>
 SideNames names_of_sides(const std::string &file,
-                         const std::vector<std::pair<std::string, std::string>> &overrides)
+                         const std::vector<std::pair<std::string, std::string>> &overrides,
+                         const std::string &section)
 {
   std::map<std::string, std::string> values;
   for (const Entry &entry : geometry_entries<dim>())
@@ -216,15 +217,24 @@ SideNames names_of_sides(const std::string &file,
   std::vector<std::string> opened; // sections of boundaries
   const std::string boundary = "Boundary ";
   for (const Assignment &one : read_parameter_file(file))
-    if (one.section == "Geometry")
+    if (one.section == section)
       values[one.name] = one.value;
     else if (one.section.rfind(boundary, 0) == 0 && one.name != "On")
       opened.push_back(one.section.substr(boundary.size()));
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
   for (const auto &[path, value] : overrides)
-    if (const std::string entry = single_spaced(path); entry.rfind("Geometry/", 0) == 0)
-      values[single_spaced(entry.substr(9))] = Utilities::trim(value);
+    if (const std::string entry = single_spaced(path); entry.rfind(section + "/", 0) == 0)
+      values[single_spaced(entry.substr(section.size() + 1))] = Utilities::trim(value);
+  if (const std::string prefix = section.substr(section.find(' ') + 1) + "."; section != "Geometry")
+  {
+    // Of one of several bodies, without its name.
+    std::vector<std::string> own;
+    for (const std::string &name : opened)
+      if (name.rfind(prefix, 0) == 0)
+        own.push_back(name.substr(prefix.size()));
+    opened = own;
+  }
   const ShapeKind<dim> *const kind = shape_called<dim>(values["Shape"]);
   if (kind == nullptr || (kind->shape == Shape::file && values["File"].empty()))
     return {opened, {}, true}; // Shape or File is what is wrong
@@ -238,7 +248,7 @@ SideNames names_of_sides(const std::string &file,
   }
   catch (const InputError &error) // of a mesh, whose file it names
   {
-    throw InputError(printable(file, 400) + ": Geometry/File: " + error.what());
+    throw InputError(printable(file, 400) + ": " + section + "/File: " + error.what());
   }
 }
 
@@ -282,9 +292,11 @@ template Entry lower_corner_entry<3>();
 template Entry upper_corner_entry<2>();
 template Entry upper_corner_entry<3>();
 template SideNames names_of_sides<2>(const std::string &,
-                                     const std::vector<std::pair<std::string, std::string>> &);
+                                     const std::vector<std::pair<std::string, std::string>> &,
+                                     const std::string &);
 template SideNames names_of_sides<3>(const std::string &,
-                                     const std::vector<std::pair<std::string, std::string>> &);
+                                     const std::vector<std::pair<std::string, std::string>> &,
+                                     const std::string &);
 template std::vector<Entry> geometry_entries<2>();
 template std::vector<Entry> geometry_entries<3>();
 template Geometry<2> read_geometry(const Parameters &);

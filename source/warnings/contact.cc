@@ -81,13 +81,16 @@ Warnings penetration(const Scene<dim> &scene, const std::vector<ContactState<dim
       worst = &state;
   if (!worst || !(worst->deepest_penetration > 0.01 * body.deformation))
     return {};
-  return {{WarningKind::penetration, worst->deepest_penetration,
-           line("the body penetrates the foundation of ", scene.boundaries[worst->boundary].name,
-                " by up to ", labelled(worst->deepest_penetration, scene.length_unit), " at (",
-                worst->deepest_penetration_point, "), more than 1 % of the ",
-                labelled(body.deformation, scene.length_unit),
-                " by which it deforms; refine there, or put a vertex where Gap has a kink or a "
-                "jump")}};
+  return {
+      {WarningKind::penetration, worst->deepest_penetration,
+       line(scene.boundaries[worst->boundary].pair ? "the bodies penetrate each other or part at "
+                                                   : "the body penetrates the foundation of ",
+            scene.boundaries[worst->boundary].name, " by up to ",
+            labelled(worst->deepest_penetration, scene.length_unit), " at (",
+            worst->deepest_penetration_point, "), more than 1 % of the ",
+            labelled(body.deformation, scene.length_unit),
+            " by which it deforms; refine there, or put a vertex where Gap has a kink or a "
+            "jump")}};
 }
 } // namespace
 

@@ -30,7 +30,8 @@ Warnings overshooting_multiplier(const Solution<dim> &solution)
   Point<dim> where;
   std::string limit;
   for (const ContactFace<dim> &face : solution.contact_space.faces())
-    for (unsigned int k = 0; face.n_multipliers > 1 && k <= 4 * face.n_multipliers; ++k)
+    for (unsigned int k = 0;
+         face.n_multipliers > 1 && !face.condition->is_tied() && k <= 4 * face.n_multipliers; ++k)
     {
       const double s = k / (4. * face.n_multipliers);
       const double g = solution.contact_space.bound(face, solution.z, s),
@@ -127,7 +128,7 @@ Warnings whole_body_slips(const Solution<dim> &solution,
                           const std::vector<ContactState<dim>> &contact)
 {
   const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
-  if (motions.empty() || solution.scene.has_pressure())
+  if (motions.empty() || solution.scene.has_pressure() || solution.scene.has_pairs())
     return {};
   Tensor<1, dim> friction;
   for (const ContactState<dim> &state : contact)
@@ -150,7 +151,7 @@ template <int dim>
 Warnings free_place(const Solution<dim> &solution, const std::vector<ContactState<dim>> &contact)
 {
   const std::vector<RigidBodyMotion<dim>> motions = solution.scene.free_motions();
-  if (motions.empty() || !solution.scene.has_pressure())
+  if (motions.empty() || !(solution.scene.has_pressure() || solution.scene.has_pairs()))
     return {};
   double largest = 0, size = 0;
   for (const ContactState<dim> &state : contact)
@@ -160,23 +161,25 @@ Warnings free_place(const Solution<dim> &solution, const std::vector<ContactStat
   {
     const ContactMultiplier<dim> &multiplier = solution.contact_space.multipliers()[i];
     size += multiplier.weight;
-    const bool holds = multiplier.kind == ContactMultiplier<dim>::Kind::pressure
-                           ? multiplier.is_bilateral || solution.z[i] > slip_tolerance * largest
+    const bool holds = multiplier.is_bilateral ? true
+                       : multiplier.kind == ContactMultiplier<dim>::Kind::pressure
+                           ? solution.z[i] > slip_tolerance * largest
                            : std::abs(solution.z[i]) <
                                  (1 - slip_tolerance) * solution.contact_space.bound(i, solution.z);
     for (unsigned int j = 0; j < motions.size() && holds; ++j)
       for (unsigned int k = 0; k < motions.size(); ++k)
-        gram(j, k) += multiplier.weight * (multiplier.direction * motions[j].at(multiplier.x)) *
-                      (multiplier.direction * motions[k].at(multiplier.x));
+        gram(j, k) += multiplier.weight *
+                      (multiplier.direction * motions[j].jump(multiplier.x, multiplier.bodies)) *
+                      (multiplier.direction * motions[k].jump(multiplier.x, multiplier.bodies));
   }
   const auto [eigenvalue, combination] = eigenpairs(gram).back();
   if (eigenvalue > 1e-14 * size)
     return {};
   const std::string entry = friction_entry(solution.contact_space);
   return {{WarningKind::free_body, 0.,
-           line("contact does not hold the body ", combined(motions, combination).direction(),
-                ": its place is not unique; ", entry.empty() ? "" : "raise " + entry + ", ",
-                "lower the loads or add a support")}};
+           line("contact does not hold ", solution.scene.has_pairs() ? "" : "the body ",
+                combined(motions, combination).direction(), ": its place is not unique; ",
+                entry.empty() ? "" : "raise " + entry + ", ", "lower the loads or add a support")}};
 }
 
 } // namespace

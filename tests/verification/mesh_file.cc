@@ -213,8 +213,6 @@ std::vector<Flaw> flaws_of_elements()
            "three cells have the edge from (1, 1) to (1, 0)"),
       flaw("same side", "5 3 2 1 1 1 2 5 4", "5 3 2 1 1 2 7 8 5",
            "two cells lie on the same side of the edge from (1, 1) to (1, 0)"),
-      flaw("two parts", "4 1 2 7 3 3 6", "4 3 2 1 1 9 10 11 12",
-           "the cells make 2 parts that no edge connects"),
       flaw("point", "4 1 2 7 3 3 6", "4 3 2 1 1 6 13 14 15",
            "cells touch each other at the point (2, 1) alone"),
       flaw("hanging", "5 3 2 1 1 1 2 5 4", "5 3 2 1 1 1 16 17 4",

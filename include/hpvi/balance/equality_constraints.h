@@ -10,7 +10,7 @@
 
 namespace hpvi
 {
-/** `G'z = e`: one to three equations, whose columns of G may have different units. */
+/** `G'z = e`: up to three equations of each of eight bodies, whose columns of G may have different units. */
 struct EqualityConstraints
 {
   dealii::FullMatrix<double> G;          ///< n x m

@@ -21,6 +21,11 @@ using Degrees = std::vector<unsigned int>;
 template <int dim>
 void make_mesh(const Scene<dim> &scene, dealii::Triangulation<dim> &triangulation);
 
+/** The number of the body that has @p cell: 0 where there is one. */
+template <int dim>
+unsigned int body_of(const Geometry<dim> &geometry,
+                     typename dealii::Triangulation<dim>::cell_iterator cell);
+
 /** A pointer to a mesh that somebody else owns, for those that want to share one. */
 template <int dim>
 std::shared_ptr<const dealii::Triangulation<dim>>

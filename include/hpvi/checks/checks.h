@@ -39,6 +39,10 @@ void check_axisymmetry(const Scene<dim> &scene);
 template <int dim>
 void check_method(const Scene<dim> &scene, SceneUse use);
 
+/** Several bodies ask for nothing that is offered for one alone. */
+template <int dim>
+void check_bodies(const Scene<dim> &scene);
+
 /** @p scene asks for nothing that the primal path does not offer. */
 template <int dim>
 void check_primal_path(const Scene<dim> &scene);

@@ -29,7 +29,7 @@ void check_value(const Scene<dim> &scene, const std::string &section, const std:
 template <int dim>
 std::string section_of(const BoundaryCondition<dim> &boundary)
 {
-  return "Boundary " + boundary.name;
+  return boundary.pair ? "Contact " + boundary.pair_name : "Boundary " + boundary.name;
 }
 
 std::string name_of(Contact contact);

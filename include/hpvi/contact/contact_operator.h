@@ -17,6 +17,9 @@ namespace hpvi
  * hang. There the moments `m_i = B_i u / w_i`, w_i = int psi_i the Gauss weight times length, take the
  * place of the nodal values: as unknowns of the linear system they make B diagonal,
  * `b(u, z) = sum w_i m_i z_i`.
+ *
+ * Where another body lies opposite, B has the jump [u] = u - u' in the place of u, integrated segment by segment, and the
+ * unknowns are moments of the jump: the linear system is that of bodies glued together where these vanish.
  */
 template <int dim>
 class ContactOperator
@@ -47,6 +50,9 @@ public:
     /** Displacement unknowns of its edge, component by component, each along the edge. */
     std::vector<dealii::types::global_dof_index> dofs;
     dealii::FullMatrix<double> B; ///< multipliers x dofs
+    /** The same of the body opposite, whose displacement is subtracted: none of a rigid foundation. */
+    std::vector<dealii::types::global_dof_index> master_dofs;
+    dealii::FullMatrix<double> master; ///< multipliers x master_dofs
     /**
      * The displacement in this direction at the p-1 interior nodes by the p-1 moments and that at both
      * ends, `u_t = N (m, u_t(0), u_t(1))`; null where the nodal values stay the unknowns.

@@ -9,6 +9,7 @@
 #include <hpvi/cones/friction_cones.h>
 #include <hpvi/contact/contact_frame.h>
 #include <hpvi/contact/friction_rule.h>
+#include <hpvi/contact/pairing.h>
 
 #include <map>
 #include <string>
@@ -57,6 +58,13 @@ struct ContactFace
   Expression<dim> past = nullptr; ///< of PastSlip
   bool at_nodes = false;          ///< are the normal points Gauss-Lobatto points?
   bool is_turned = false; ///< around the axis: measures hold 2 pi x, and so do weights of limits
+  /** Of the other body, where there is one: u_n and u_t stand for jumps [u] = u - u' then. */
+  std::vector<ContactSegment<dim>> segments = {};
+
+  TouchingBodies bodies = {{0, no_body}}; ///< its own and the one opposite
+
+  /** Which of the segments lies at s in [0,1]. */
+  const ContactSegment<dim> &segment(double s) const;
 
   /** At reference coordinate s in [0,1] of the face. */
   ContactFrame<dim>
@@ -84,8 +92,8 @@ struct ContactMultiplier
 {
   enum class Kind
   {
-    friction, ///< along the tangent: |z| <= limit(z_n) with its partner z_n, if it has one
-    pressure  ///< along the normal: z >= 0, or of any sign where contact is bilateral
+    friction, ///< along the tangent: |z| <= limit(z_n) with its partner z_n, if it has one; tied: any
+    pressure ///< along the normal: z >= 0, or of any sign where contact is bilateral
   };
 
   Kind kind;
@@ -97,7 +105,8 @@ struct ContactMultiplier
   /** int psi u_0 with its basis function psi; of friction that of the past slip [length^dim]. */
   double gap = 0;
   unsigned int partner = dealii::numbers::invalid_unsigned_int; ///< its pressure there; else none
-  bool is_bilateral = false;                                    ///< a pressure of any sign
+  bool is_bilateral = false;                                    ///< a traction of any sign
+  TouchingBodies bodies = {{0, no_body}};                       ///< of its face
 };
 
 /** A jump of g, or of mu_f, inside an edge, which no polynomial of the discrete problem follows. */

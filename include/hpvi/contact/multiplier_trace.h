@@ -4,6 +4,9 @@
 
 #include <hpvi/contact/contact_space.h>
 
+#include <optional>
+#include <vector>
+
 namespace hpvi
 {
 /** A multiplier that outlives its mesh: the starting value of the next, finer one. */
@@ -18,7 +21,7 @@ public:
 
   /**
    * z_N at the Gauss points of @p finer, whose faces are faces of the old mesh or parts of
-   * them; zero where the old face had no multipliers.
+   * them; zero where the old face had no multipliers. Between bodies the side that has them may have changed.
    */
   dealii::Vector<double> values(const ContactSpace<dim> &finer,
                                 const ShapeTables<dim> &tables) const;
@@ -32,7 +35,11 @@ private:
     std::vector<double> values;        ///< of friction at its Gauss points
     std::vector<double> normal_points; ///< as in ContactFace, along the edge
     std::vector<double> pressures;     ///< there
+    std::optional<unsigned int> pair;  ///< of bodies, on either side
   };
+
+  void take_opposite(const ContactFace<dim> &face, const ContactSpace<dim> &finer,
+                     const ShapeTables<dim> &tables, dealii::Vector<double> &result) const;
 
   std::vector<Piece> pieces; ///< in the order of the faces
 };

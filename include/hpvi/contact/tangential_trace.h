@@ -7,7 +7,7 @@
 namespace hpvi
 {
 /**
- * u_t along one contact boundary as a function of x [length], which outlives its mesh: where a
+ * u_t along one contact boundary, between bodies [u]_t, as a function of x [length], which outlives its mesh: where a
  * load step begins to count slip. On every face of a mesh that descends from its own it is one
  * polynomial, of no higher degree, so that quadrature there loses nothing.
  */
@@ -38,6 +38,8 @@ private:
     double value(double s) const;
   };
 
+  void add_jump(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                const ShapeTables<dim> &tables, const dealii::Vector<double> &u);
   const Piece &piece_at(const dealii::Point<dim> &x) const;
 
   bool is_straight = true; ///< all along one line

@@ -8,7 +8,7 @@
 namespace hpvi
 {
 /**
- * The motions R that strain nothing and that no support resists, up to three in the plane. Those that
+ * The motions R that strain nothing and that no support resists, up to three of each body in the plane. Those that
  * contact sees, `G = B R != 0`, are held by forces in balance with the loads, `R'(f - B' z) = 0`; A is
  * stabilised by `c P P'`, where P'u is the mean displacement along R over the contact. Those that no
  * contact sees are unknowns of their own: A is stabilised by a spring at one unknown, which carries no
@@ -22,9 +22,9 @@ class RigidMotions
 {
 public:
   /** @p basis of the motions. Throws NumericalFailure where loads push along one that no contact sees. */
-  RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis, const DisplacementSpace<dim> &space,
-               const Unknowns<dim> &unknowns, const ConditionRows &rows,
-               const std::vector<ContactMultiplier<dim>> &multipliers,
+  RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis, const Geometry<dim> &geometry,
+               const DisplacementSpace<dim> &space, const Unknowns<dim> &unknowns,
+               const ConditionRows &rows, const std::vector<ContactMultiplier<dim>> &multipliers,
                const ElasticSystem<dim> &system);
 
   unsigned int n_seen() const; ///< by contact

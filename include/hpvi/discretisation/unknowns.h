@@ -70,6 +70,8 @@ private:
                const dealii::Tensor<1, dim> &direction, unsigned int component,
                const std::vector<unsigned int> &numbers,
                std::map<dealii::types::global_dof_index, Line> &lines);
+  Line moments_opposite(const EdgeRows &rows, const dealii::FullMatrix<double> &N, unsigned int j,
+                        const std::vector<unsigned int> &numbers, double &offset) const;
   void add_terms(dealii::types::global_dof_index dof, double weight,
                  const std::vector<unsigned int> &numbers, Line &line, double &offset) const;
 

@@ -33,16 +33,18 @@ struct ContactPoint
   Tangential<dim> lambda{};  ///< z_N/g, 0 where g is, dimensionless
   bool slips = true;         ///< |lambda| = 1 or g = 0
   bool is_open = false; ///< no pressure acts: of the multiplier here, or of the nodes on both sides
-  double gap = 0;       ///< u_0 - u_n of unilateral contact [length], else -u_n
-  double normal_displacement = 0;            ///< u_n [length]
-  Tangential<dim> tangential_displacement{}; ///< u_t [length]
+  double gap = 0; ///< u_0 - u_n of unilateral contact [length], else -u_n; of jumps between bodies
+  double normal_displacement = 0;            ///< u_n [length], of two bodies that of the first side
+  Tangential<dim> tangential_displacement{}; ///< u_t [length], likewise
+  double normal_jump = 0;                    ///< [u]_n between bodies, else u_n [length]
+  Tangential<dim> tangential_jump{};         ///< [u]_t likewise
   /**
    * T_n [stress], positive where it pulls: -lambda_n where contact has a multiplier for it, else
    * n.(sigma(u_N) n - G).
    */
   double normal_traction = 0;
   Tangential<dim> tangential_traction{}; ///< T_t = -z_N [stress]
-  Tangential<dim> slip{}; ///< u_t, in a load history less that of the load step before [length]
+  Tangential<dim> slip{}; ///< [u]_t, in a load history less that of the load step before [length]
 
   ContactMode mode() const
   {
@@ -53,7 +55,8 @@ struct ContactPoint
   void serialize(Archive &archive, unsigned int)
   {
     archive &x &area &face_length &friction_bound &lambda &slips &is_open &gap &normal_displacement
-        &tangential_displacement &normal_traction &tangential_traction &slip;
+        &tangential_displacement &normal_jump &tangential_jump &normal_traction &tangential_traction
+            &slip;
   }
 };
 
@@ -85,11 +88,13 @@ struct ContactChain
 template <int dim>
 struct ContactState
 {
-  dealii::types::boundary_id boundary = 0;
-  double area = 0;               ///< [length^(dim-1)]: in the plane its length
-  double open_area = 0;          ///< of points in this mode, likewise
-  double slipping_area = 0;      ///< likewise
-  dealii::Point<dim> begin, end; ///< in the plane its ends, along the tangent
+  dealii::types::boundary_id boundary =
+      0;                                ///< of two bodies the first of `Between`, whose frame it is
+  dealii::types::boundary_id slave = 0; ///< that with the multipliers: the same, or the other one
+  double area = 0;                      ///< [length^(dim-1)]: in the plane its length
+  double open_area = 0;                 ///< of points in this mode, likewise
+  double slipping_area = 0;             ///< likewise
+  dealii::Point<dim> begin, end;        ///< in the plane its ends, along the tangent
   /**
    * In the plane along the tangent, in space by x, y, z; a face without multipliers has one in each direction.
    * On the first process alone, as transitions and zones, which are those of the plane.
@@ -120,7 +125,7 @@ struct ContactState
   template <class Archive>
   void serialize(Archive &archive, unsigned int)
   {
-    archive &boundary &area &open_area &slipping_area &begin &end &chains &normal_resultant
+    archive &boundary &slave &area &open_area &slipping_area &begin &end &chains &normal_resultant
         &friction_resultant &friction_force &absolute_friction &open_friction &tension
             &highest_tension &highest_tension_point &highest_pressure &highest_pressure_point
                 &deepest_penetration &deepest_penetration_point;

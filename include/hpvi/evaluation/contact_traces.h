@@ -121,7 +121,10 @@ std::vector<PressurePoint<dim>> pressure_points(const FieldFace<dim> &face, cons
   return result;
 }
 
-/** u_N in one direction along a straight contact face: the polynomial through its values at p+1 Gauss points. */
+/**
+ * u_N in one direction along a straight contact face, the polynomial through its values at p+1 Gauss points; where another
+ * body lies opposite, less what that one does.
+ */
 template <int dim>
 class EdgeDisplacement
 {
@@ -129,7 +132,8 @@ public:
   /** Along the tangent, or along the normal. */
   EdgeDisplacement(const FieldFace<dim> &face, const Field<dim> &field, const bool is_tangential)
       : table(field.tables.face(face.degree(), face.face_no, face.degree() + 1)),
-        basis(field.tables.gauss_lagrange(face.degree() + 1)), nodal(face.degree() + 1)
+        basis(field.tables.gauss_lagrange(face.degree() + 1)), nodal(face.degree() + 1), face(face),
+        field(field), is_tangential(is_tangential)
   {
     static_assert(dim == 2, "one coordinate along a face");
     const std::vector<double> values = evaluate(table.values, field.coefficients(face.cell));
@@ -155,13 +159,22 @@ public:
     double sum = 0;
     for (unsigned int k = 0; k < nodal.size(); ++k)
       sum += nodal[k] * basis[k].value(s);
-    return sum;
+    if (!face.condition->pair)
+      return sum;
+    const dealii::Point<dim> reference =
+        point_on_face<dim>(face.face_no, dealii::Point<dim - 1>(s));
+    const FaceFrame<dim> frame = face.frame(reference);
+    return sum -
+           (is_tangential ? frame.tangents[0] : frame.normal) * field.opposite(face, reference);
   }
 
 private:
   const ShapeTable<dim> &table;
   const std::vector<dealii::Polynomials::Polynomial<double>> &basis;
   std::vector<double> nodal;
+  const FieldFace<dim> &face;
+  const Field<dim> &field;
+  const bool is_tangential;
 };
 } // namespace hpvi
 

@@ -7,6 +7,7 @@
 #include <deal.II/numerics/data_out.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/shape_tables.h>
+#include <hpvi/contact/pairing.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>
@@ -159,6 +160,13 @@ public:
   /** u_t of the load step before, at @p x, from which slip is counted [length]. */
   virtual Tangential<dim> past_slip(const FieldFace<dim> &face,
                                     const dealii::Point<dim> &x) const = 0;
+
+  /** Where another body lies opposite to @p face, its faces; none of a rigid foundation. */
+  virtual std::vector<ContactSegment<dim>> segments(const FieldFace<dim> &face) const;
+
+  /** u' of the other body opposite; of a rigid foundation 0: slip and gaps are those of the jump u - u' [length]. */
+  virtual dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
+                                          const dealii::Point<dim> &reference) const;
 
   /** In the plane the places in [0,1] where integrals that hold g are cut, its ends included; none: no friction. */
   virtual std::vector<double> friction_cuts(const FieldFace<dim> &face) const = 0;

@@ -26,6 +26,9 @@ public:
                                 const dealii::Point<dim> &reference) const override;
   double bound(const FieldFace<dim> &face, const dealii::Point<dim> &reference) const override;
   Tangential<dim> past_slip(const FieldFace<dim> &face, const dealii::Point<dim> &x) const override;
+  std::vector<ContactSegment<dim>> segments(const FieldFace<dim> &face) const override;
+  dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
+                                  const dealii::Point<dim> &reference) const override;
   std::vector<double> friction_cuts(const FieldFace<dim> &face) const override;
   std::vector<MultiplierPoint<dim>> multiplier_points(const FieldFace<dim> &face,
                                                       double negligible) const override;

@@ -16,7 +16,7 @@ double degrees_between(const dealii::Tensor<1, 2> &one, const dealii::Tensor<1, 
 void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &lines,
                   const MeshComplaint &complain);
 
-/** Throws InputError where cells are not one part connected through edges, overlap, or have hanging nodes. */
+/** Throws InputError where cells overlap, or have hanging nodes. */
 void check_connection(const CoarseMesh &mesh, const CellEdges &edges,
                       const MeshComplaint &complain);
 } // namespace hpvi

@@ -71,6 +71,14 @@ public:
   unsigned int integer(const std::string &section, const std::string &name) const;
   bool boolean(const std::string &section, const std::string &name) const;
 
+  bool has(const std::string &section, const std::string &name) const; ///< is there such an entry?
+
+  /** The same with @p other wherever @p section is asked for: each body has a section with the entries of Geometry. */
+  std::shared_ptr<const Parameters> with_section(const std::string &section,
+                                                 const std::string &other) const;
+
+  std::string standing_for(const std::string &section) const; ///< that @p other; empty: none
+
   /** Points "x, y; x, y; ..." */
   template <int dim>
   std::vector<dealii::Point<dim>> points(const std::string &section, const std::string &name) const;
@@ -97,7 +105,8 @@ private:
   std::string names_of_kind(const std::string &section) const;
   std::string instead_of_section(const std::string &section) const;
   std::string instead_of_entry(const std::string &section, const std::string &name) const;
-  std::string hint(const std::string &word) const; ///< empty: there is none
+  std::string hint(const std::string &word) const;          ///< empty: there is none
+  const std::string &own(const std::string &section) const; ///< with_section()
   std::vector<std::string> sections() const;
   std::vector<std::string> names_in(const std::string &section) const;
   /** The quoted paths of all entries called @p name, "a", "b" or "c". */
@@ -108,6 +117,7 @@ private:
   const std::string file, shown; ///< as it is, and as messages name it
   dealii::ParameterHandler prm;
   std::map<std::string, std::string> origins;
+  std::pair<std::string, std::string> replaced; ///< a section and what stands in its place
 };
 } // namespace hpvi
 

@@ -26,6 +26,10 @@ std::string temperature_in_words(const Scene<dim> &scene);
 template <int dim>
 std::string name_in_words(const Scene<dim> &scene, std::size_t number);
 
+/** Has any body the unnamed material, where several name theirs? */
+bool is_anywhere(const Scene<2> &scene, std::size_t material);
+bool is_anywhere(const Scene<3> &scene, std::size_t material);
+
 /**
  * What a scene says, a line each: body, materials, each boundary that is not free, the resultant of all loads. Throws
  * InputError where an expression has no value.

@@ -17,7 +17,14 @@ struct FreeNames
                                     "top"}; ///< of the body, by boundary id: each has a section
   bool is_from_file = false; ///< is the mesh one of a file, whose edges may follow curves?
   std::vector<std::string> interfaces = {}; ///< of such a mesh, curves inside
+  std::vector<std::string> bodies = {};     ///< `Body NAME`
+  std::vector<std::string> pairs = {};      ///< `Contact NAME`
 };
+
+/** The bodies that @p file and @p overrides open; of one body none. Throws as free_names(). */
+std::vector<std::string>
+body_names(const std::string &file,
+           const std::vector<std::pair<std::string, std::string>> &overrides);
 
 /**
  * What @p file and @p overrides, pairs "Section/Entry" and value, open. Throws InputError for names of other

@@ -16,13 +16,17 @@
 
 namespace hpvi
 {
-/** What a plane below a boundary asks of it. */
+/**
+ * What a plane below a boundary asks of it. Where another body takes the place of the plane, u stands for the jump
+ * [u] = u - u', u' the displacement of the other body opposite.
+ */
 enum class Contact
 {
   none,
   bilateral,  ///< u_n = 0
   unilateral, ///< u_n <= u_0, T_n <= 0, (u_n - u_0) T_n = 0
-  tangential  ///< nothing in the normal direction; friction alone acts
+  tangential, ///< nothing in the normal direction; friction alone acts
+  tied        ///< of two bodies: u = 0, glued
 };
 
 /** An elastic foundation, glued to the body: the traction -k_n u_n n - k_t u_t on it, whichever way it moves. */
@@ -61,12 +65,15 @@ struct BoundaryCondition
   FrictionLaw<dim> friction;
   /** A unit vector d out of the body along which contact is measured, in the plane; nothing: the normal. */
   std::optional<dealii::Tensor<1, dim>> contact_direction;
+  std::optional<unsigned int> pair; ///< where it meets another body: the index into Scene::pairs
+  std::string pair_name;            ///< its name
 
   bool has_displacement() const; ///< is any component prescribed?
   bool has_traction() const;     ///< is any component given?
   bool exerts_forces() const;    ///< a support, plate, contact or springs?
-  bool has_contact() const;
+  bool has_contact() const;      ///< with a foundation or another body
   bool is_unilateral() const;
+  bool is_tied() const;
   /** u_n = 0 as a constraint of the space: symmetry; bilateral contact whose friction knows no pressure. */
   bool holds_normal() const;
   bool has_pressure()

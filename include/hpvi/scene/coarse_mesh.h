@@ -23,6 +23,7 @@ struct CoarseMesh
   {
     std::array<unsigned int, 4> vertices; ///< counterclockwise
     unsigned int surface = 0;             ///< index into surfaces
+    unsigned int body = 0;                ///< index into Geometry::bodies, where there are several
   };
 
   /** One on the boundary, counterclockwise around the body; or one between two cells, curved or with a name. */

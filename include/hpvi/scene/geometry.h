@@ -26,7 +26,8 @@ enum class Shape
   ring_sector,
   half_disc,
   plate_with_hole,
-  file
+  file,
+  bodies ///< several, each of one of the other shapes
 };
 
 template <int dim>
@@ -38,6 +39,16 @@ Corners<dim> box_corners(const dealii::Point<dim> &lower, const dealii::Point<di
 
 /** The corners of a quadrilateral, given counterclockwise from the bottom left. */
 Corners<2> quadrilateral_corners(const std::array<dealii::Point<2>, 4> &around);
+
+/** One of several bodies. */
+template <int dim>
+struct Body
+{
+  std::string name;
+  std::vector<unsigned int> sides; ///< its boundaries, by id
+  std::vector<dealii::Point<dim>> graded_towards;
+  unsigned int grading_levels = 0;
+};
 
 /**
  * The coarse mesh: a box or a convex quadrilateral, cut into a regular grid, or cells one by one; then graded.
@@ -85,6 +96,11 @@ struct Geometry
   /** Cells that touch one of these points are bisected @p grading_levels times. */
   std::vector<dealii::Point<dim>> graded_towards;
   unsigned int grading_levels = 0;
+  /** Where there are several: the mesh holds the cells of all, each with the number of its body. */
+  std::vector<Body<dim>> bodies;
+
+  /** The index of that with the side number @p side; 0 where there is one body. */
+  unsigned int body_of_side(unsigned int side) const;
 };
 
 /** A named part of the boundary: of a grid a flat side, an edge in the plane, a parallelogram in space. */
@@ -156,22 +172,45 @@ struct Corner
 /** Where its boundary turns, of the angle inside the body; smooth curves have none. */
 std::vector<Corner> corners_of(const Geometry<2> &geometry);
 
-/** A displacement that strains nothing: `translation + rotation e_z x (x - centre)`. */
+/** The numbers of two bodies that touch at a point, the slave first; no_body: a rigid foundation. */
+using TouchingBodies = std::array<unsigned int, 2>;
+constexpr unsigned int no_body = dealii::numbers::invalid_unsigned_int;
+
+/**
+ * A displacement that strains nothing: `translation + rotation e_z x (x - centre)`; where there are several bodies one of
+ * each.
+ */
 template <int dim>
 struct RigidBodyMotion
 {
   dealii::Tensor<1, dim> translation; ///< dimensionless
   double rotation = 0;                ///< [1/length]
   dealii::Point<dim> centre;
+  std::string name = {};                         ///< of the body, where there are several
+  std::vector<RigidBodyMotion<dim>> others = {}; ///< those of the bodies 1, 2, ...
 
-  dealii::Tensor<1, dim> at(const dealii::Point<dim> &x) const;
-  bool is_translation() const;
+  dealii::Tensor<1, dim> at(const dealii::Point<dim> &x, unsigned int body = 0) const;
 
-  /** As in "along (1 0)" or "about (0.5 2)". */
+  /** What the first of two bodies does less the other. */
+  dealii::Tensor<1, dim> jump(const dealii::Point<dim> &x, const TouchingBodies &bodies) const;
+
+  bool is_translation() const; ///< does none turn?
+
+  /** As in "along (1 0)" or "about (0.5 2)", of several bodies "punch along (1 0)". */
   std::string direction() const;
+
+  void add(double factor,
+           const RigidBodyMotion<dim> &other); ///< which has the same bodies and centres
+
+  double largest_translation() const, largest_rotation() const; ///< absolute values, of all bodies
 };
 
-/** The sum of @p motions, which have one centre, times @p coefficients; round-off in these counts as zero. */
+/** The sum of @p motions, which have one centre, times @p coefficients. */
+template <int dim>
+RigidBodyMotion<dim> sum(const std::vector<RigidBodyMotion<dim>> &motions,
+                         const dealii::Vector<double> &coefficients);
+
+/** The same where round-off in coefficients counts as zero. */
 template <int dim>
 RigidBodyMotion<dim> combined(const std::vector<RigidBodyMotion<dim>> &motions,
                               const dealii::Vector<double> &coefficients);

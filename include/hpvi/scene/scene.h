@@ -4,6 +4,7 @@
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/scene/boundary_condition.h>
+#include <hpvi/scene/contact_pair.h>
 #include <hpvi/scene/data_scale.h>
 #include <hpvi/scene/exact_solution.h>
 #include <hpvi/scene/friction_law.h>
@@ -213,6 +214,7 @@ struct Scene
   /** Of a mesh, by CoarseMesh::Cell::surface; nothing: material_at says. */
   std::vector<std::optional<dealii::types::material_id>> material_of_surface;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
+  std::vector<ContactPair> pairs;                 ///< of bodies that touch
   Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
   /** In its place, by material id, where materials differ in what they weigh. */
   std::vector<Load<dim>> body_force_of_material;
@@ -322,6 +324,7 @@ struct Scene
   bool is_nearly_incompressible() const;
   bool has_load_history() const;
   bool has_contact() const;
+  bool has_pairs() const;            ///< do bodies touch each other?
   bool has_known_solution() const;   ///< exact or reference: can the true error be measured?
   bool has_friction() const;         ///< has any contact boundary a law?
   bool has_coulomb_friction() const; ///< one that knows the pressure?

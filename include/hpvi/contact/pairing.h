@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_pairing_h
+#define hpvi_pairing_h
+
+#include <hpvi/body/displacement_space.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** What lies opposite to a face of the slave, between two places where a face of the master ends: one face of the master. */
+template <int dim>
+struct ContactSegment
+{
+  using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  double begin, end; ///< on the slave's face, in [0,1]
+  Cell cell;         ///< of the master
+  unsigned int face_no, degree;
+  double at_begin, at_end; ///< of its face, opposite to begin and end, in [0,1]
+
+  dealii::types::boundary_id boundary() const ///< of the master
+  {
+    return cell->face(face_no)->boundary_id();
+  }
+
+  /** What is opposite to @p s of the slave's face, on the master's. */
+  double opposite(const double s) const
+  {
+    return at_begin + (s - begin) / (end - begin) * (at_end - at_begin);
+  }
+};
+
+/**
+ * Of the pairs of a scene on one mesh: which side of each has the multipliers, the slave, and what lies opposite to its
+ * faces, the master, along the normal. It is the side with more multipliers, for a coarse slave would spoil a fine master and
+ * not the reverse; of equal ones the first of `Between`. Both sides have the same length, so that this is the side with
+ * more (p-1)/h.
+ */
+template <int dim>
+class Pairing
+{
+public:
+  using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+  /** @p space must outlive this object. */
+  Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &space);
+
+  bool is_master(dealii::types::boundary_id boundary) const;
+
+  /** In the order of the slave's face, which they fill; none where no body lies opposite. */
+  std::vector<ContactSegment<dim>> segments(const Cell &cell, unsigned int face_no) const;
+
+private:
+  struct Face
+  {
+    Cell cell;
+    unsigned int face_no, degree;
+    double begin, end; ///< along the line on which the bodies touch [length]
+  };
+  struct Masters
+  {
+    dealii::types::boundary_id slave, master;
+    dealii::Tensor<1, dim> along;
+    std::vector<Face> faces;
+  };
+
+  std::vector<Masters> pairs;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_bodies_reader_h
+#define hpvi_bodies_reader_h
+
+#include <hpvi/reader/free_names.h>
+#include <hpvi/scene/scene.h>
+
+#include <optional>
+#include <vector>
+
+namespace hpvi
+{
+class Parameters;
+struct Entry;
+
+/** The entries of `Body NAME` and of `Contact NAME`. */
+std::vector<Entry> body_entries(const std::string &name);
+std::vector<Entry> pair_entries(const std::string &name);
+
+/**
+ * Takes the bodies and the pairs of sides that touch: @p scene gets the geometry, a boundary of each side, and behind them
+ * of each pair the two parts of its sides that face each other, where grid lines of boxes are added if they end between two.
+ */
+void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> &scene);
+
+/** Rejects what is said of a side of which other bodies take all. */
+void check_covered_sides(const Parameters &parameters, const Scene<2> &scene);
+
+/** Of each body the material that it names, by surface of the mesh. */
+std::vector<std::optional<dealii::types::material_id>>
+materials_of_bodies(const Parameters &parameters, const Scene<2> &scene);
+
+/** The law of the pair to which @p part belongs, in it; @p t is the time, if there is one. */
+void read_pair(const Parameters &parameters, std::optional<double> t, const Scene<2> &scene,
+               BoundaryCondition<2> &part);
+} // namespace hpvi
+
+#endif

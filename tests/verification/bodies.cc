@@ -1,0 +1,741 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies that touch each other: patch tests through meshes that do not match, closed forms, forces, frames, glued blocks.
+#include "discretisation.h"
+#include "mesh_texts.h"
+
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/closed_forms/hertz.h>
+#include <hpvi/evaluation/contact_residuals.h>
+#include <hpvi/scene/bodies.h>
+#include <hpvi/shapes/mesh_surfaces.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace verification;
+
+// ---------------------------------------------------------------- uniform stress
+
+/** Two blocks of breadth 2 and height 1, one upon the other along a line at @p angle, with uniform stress in each. */
+struct Patch
+{
+  std::string law;
+  double angle, upper_modulus, shear; ///< shear stress along the interface, the bound of friction
+  std::string slave = "automatic";
+
+  static constexpr double pressure = 1.5;
+
+  /** u(x) = G (x, y) + b in the frame of the blocks; lower: 0 < y < 1, upper: 1 < y < 2. */
+  struct Field
+  {
+    Tensor<2, 2> G;
+    Tensor<1, 2> b;
+  };
+
+  Field field(const bool is_upper) const
+  {
+    const double E = is_upper ? upper_modulus : 10, nu = is_upper ? 0.2 : 0.3,
+                 mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+    // Tied blocks strain alike along the line; others slip by this and by a jump.
+    const double along = is_upper && law != "tied" ? 0.03 : 0.02;
+    Field result;
+    result.G[0][0] = along;
+    result.G[1][1] = (-pressure - lambda * along) / (lambda + 2 * mu);
+    result.G[0][1] = shear / mu; // T_t = -g on the upper body, whose t is (1, 0)
+    if (is_upper)
+    {
+      const Field other = field(false);
+      result.b[0] = other.G[0][1] - result.G[0][1] + (law == "tied" ? 0. : 0.5);
+      result.b[1] = other.G[1][1] - result.G[1][1];
+    }
+    return result;
+  }
+
+  /** Of the place (x, y) in the frame of the blocks, turned. */
+  Point<2> place(const double x, const double y) const
+  {
+    return {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y};
+  }
+
+  std::string corners(const double lower, const double upper) const
+  {
+    std::string result;
+    for (const Point<2> &x : {place(0, lower), place(2, lower), place(2, upper), place(0, upper)})
+      result += (result.empty() ? "" : "; ") + text(x[0]) + ", " + text(x[1]);
+    return result;
+  }
+
+  std::string displacement(const bool is_upper) const
+  {
+    const Field own = field(is_upper);
+    Tensor<2, 2> R;
+    R[0][0] = R[1][1] = std::cos(angle);
+    R[1][0] = std::sin(angle);
+    R[0][1] = -R[1][0];
+    const Tensor<2, 2> G = R * own.G * transpose(R);
+    const Tensor<1, 2> b = R * own.b;
+    std::string result;
+    for (const unsigned int c : {0, 1})
+      result += (c == 0 ? "" : "; ") + text(G[c][0]) + "*x+" + text(G[c][1]) + "*y+" + text(b[c]);
+    return result;
+  }
+
+  Scene<2> scene() const
+  {
+    Overrides entries{{"Body lower/Shape", "quadrilateral"},
+                      {"Body lower/Corners", corners(0, 1)},
+                      {"Body lower/Subdivisions", "3, 2"},
+                      {"Body upper/Shape", "quadrilateral"},
+                      {"Body upper/Corners", corners(1, 2)},
+                      {"Body upper/Subdivisions", "5, 2"},
+                      {"Body upper/Material", "other"},
+                      {"Material/Young's modulus", "10"},
+                      {"Material/Poisson's ratio", "0.3"},
+                      {"Material other/Young's modulus", text(upper_modulus)},
+                      {"Material other/Poisson's ratio", "0.2"},
+                      {"Contact joint/Between", "upper.bottom, lower.top"},
+                      {"Contact joint/Law", law},
+                      {"Contact joint/Slave", slave}};
+    if (shear > 0 && law != "tied")
+      entries.emplace_back("Contact joint/Friction bound", text(shear));
+    for (const char *const side : {"left", "right", "bottom"})
+      entries.emplace_back("Boundary lower." + std::string(side) + "/Displacement",
+                           displacement(false));
+    for (const char *const side : {"left", "right", "top"})
+      entries.emplace_back("Boundary upper." + std::string(side) + "/Displacement",
+                           displacement(true));
+    return scene_of(entries);
+  }
+};
+
+/** Meshes that do not match, hanging nodes and any degrees on both sides. */
+TEST(Bodies, HandOverUniformStress)
+{
+  for (const Patch &patch :
+       {Patch{"unilateral", 0, 10, 0}, Patch{"unilateral", 0.5, 1000, 0.2},
+        Patch{"unilateral", -2, 0.1, 0.2, "lower.top"}, Patch{"bilateral", 1, 30, 0.3},
+        Patch{"tied", 0.3, 30, 0.4}, Patch{"tied", 0, 0.2, 0.4, "upper.bottom"},
+        Patch{"tied", 0, 0.2, 0.4, "lower.top"}})
+    for (const unsigned int seed : {1, 2, 3})
+    {
+      const Scene<2> scene = patch.scene();
+      std::mt19937 random(seed);
+      Triangulation<2> mesh;
+      make_mesh(scene, mesh);
+      refine_at_random(mesh, 2, random);
+      const Degrees degrees = random_degrees(mesh, 2, 6, random);
+      const Laboratory laboratory(scene, mesh, degrees);
+      const Solution<2> solution = laboratory.solve();
+      const auto states = contact_states(SolutionField<2>(solution));
+      ASSERT_EQ(states.size(), 1U);
+      double worst = 0, deepest = 0;
+      for (const ContactPoint<2> &point : states[0].points)
+      {
+        worst = std::max({worst, std::abs(point.normal_traction + Patch::pressure),
+                          std::abs(point.tangential_traction + patch.shear)});
+        deepest = std::max(deepest, std::abs(point.normal_jump));
+      }
+      EXPECT_LT(worst, 1e-9) << patch.law << ", angle " << patch.angle << ", seed " << seed;
+      EXPECT_LT(deepest, 1e-11);
+      EXPECT_NEAR(states[0].normal_resultant, -2 * Patch::pressure, 1e-9);
+      // Nothing is left to indicate.
+      EXPECT_LT(estimate_error(SolutionField<2>(solution)).total(), 1e-8);
+    }
+}
+
+// ---------------------------------------------------------------- Hertz
+
+/** The field of a body below y = 0, that of one above it in a mirror. */
+class Mirrored : public ExactSolution<2>
+{
+public:
+  explicit Mirrored(std::shared_ptr<const ExactSolution<2>> above) : above(std::move(above))
+  {
+  }
+
+  Tensor<1, 2> displacement(const Point<2> &x) const override
+  {
+    Tensor<1, 2> u = above->displacement({x[0], -x[1]});
+    u[1] = -u[1];
+    return u;
+  }
+
+  Tensor<2, 2> gradient(const Point<2> &x) const override
+  {
+    Tensor<2, 2> result = above->gradient({x[0], -x[1]});
+    result[0][1] = -result[0][1];
+    result[1][0] = -result[1][0];
+    return result;
+  }
+
+private:
+  const std::shared_ptr<const ExactSolution<2>> above;
+};
+
+/** Two elastic bodies without friction, a = 0.7, p_0 = 7: each is Hertz's half space on a plane, their gaps add up. */
+TEST(Bodies, PressEachOtherAsHertzSays)
+{
+  const double a = 0.7, k = 10;
+  Scene<2> scene = scene_of({{"Body upper/Lower corner", "-2, 0"},
+                             {"Body upper/Upper corner", "2, 2"},
+                             {"Body upper/Subdivisions", "6, 3"},
+                             {"Body upper/Graded towards", "-0.7, 0; 0.7, 0"},
+                             {"Body upper/Grading levels", "7"},
+                             {"Body lower/Lower corner", "-2, -1"},
+                             {"Body lower/Upper corner", "2, 0"},
+                             {"Body lower/Subdivisions", "5, 2"},
+                             {"Body lower/Graded towards", "-0.7, 0; 0.7, 0"},
+                             {"Body lower/Grading levels", "6"},
+                             {"Body lower/Material", "soft"},
+                             {"Material/Young's modulus", "200"},
+                             {"Material/Poisson's ratio", "0.3"},
+                             {"Material soft/Young's modulus", "100"},
+                             {"Material soft/Poisson's ratio", "0.2"},
+                             {"Contact line/Between", "upper.bottom, lower.top"},
+                             {"Contact line/Gap", "x^2/2/3.53356890459"},
+                             {"Boundary upper.top/Displacement", "0; 0"},
+                             {"Boundary upper.left/Displacement", "0; 0"},
+                             {"Boundary upper.right/Displacement", "0; 0"},
+                             {"Boundary lower.bottom/Displacement", "0; 0"},
+                             {"Boundary lower.left/Displacement", "0; 0"},
+                             {"Boundary lower.right/Displacement", "0; 0"},
+                             {"Adaptivity/Method", "pu"},
+                             {"Adaptivity/Start degree", "6"},
+                             {"Adaptivity/Maximum steps", "1"}});
+  const auto above = std::make_shared<const Hertz>(scene.materials[0], k * a, a, 0.),
+             below = std::make_shared<const Hertz>(scene.materials[1], k * a, a, 0.);
+  const std::shared_ptr<const ExactSolution<2>> fields[] = {
+      above, std::make_shared<const Mirrored>(below)};
+  for (const std::string side :
+       {"upper.top", "upper.left", "upper.right", "lower.bottom", "lower.left", "lower.right"})
+    for (const unsigned int c : {0, 1})
+      scene.boundary(side).displacement[c] =
+          std::make_shared<ExactDisplacement<2>>(fields[side[0] == 'l'], c);
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_NEAR(step.energies.energy, .133954906582 + .207680549090, 2e-7);
+        const ContactState<2> &contact = step.contact[0];
+        EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 1e-4);
+        ASSERT_EQ(contact.transitions.size(), 2U);
+        EXPECT_NEAR(contact.transitions[0][0], -a, 2e-3);
+        EXPECT_NEAR(contact.transitions[1][0], a, 2e-3);
+        for (const ContactPoint<2> &point : contact.points)
+        {
+          const double x = std::abs(point.x[0]) < 0.6 ? point.x[0] : 0.;
+          EXPECT_NEAR(x == 0 ? -k * a : point.normal_traction, -k * half_ellipse(x, a), 1e-3);
+        }
+      });
+}
+
+/** Hertz's field and what friction f k sqrt(a^2 - x^2) adds, less that of a smaller zone |x| < c where bodies stick: Cattaneo's. */
+class RubbingField : public ExactSolution<2>
+{
+public:
+  RubbingField(const Material &material, const double k, const double a, const double c,
+               const double f, const double shift)
+      : normal(material, k * a, a, 0.), k(k), a(a), c(c), f(f), shift(shift), mu(material.mu()),
+        kappa(material.kolosov())
+  {
+  }
+
+  Tensor<1, 2> displacement(const Point<2> &x) const override
+  {
+    Tensor<1, 2> u = normal.displacement(x);
+    u += tangential(x, a);
+    if (c > 0)
+      u -= tangential(x, c);
+    u[0] += shift;
+    return u;
+  }
+
+  Tensor<2, 2> gradient(const Point<2> &) const override
+  {
+    return {};
+  }
+
+private:
+  /** Muskhelishvili's potentials of a shear f k sqrt(a^2 - x^2), written out. */
+  Tensor<1, 2> tangential(const Point<2> &point, const double half_width) const
+  {
+    const double x = point[0], y = point[1], a2 = half_width * half_width, q = x * x - y * y - a2,
+                 s = std::sqrt(q * q + 4 * x * x * y * y);
+    double m = std::sqrt(std::max(0., (s - q) / 2)), n = std::sqrt(std::max(0., (s + q) / 2));
+    n = x < 0 ? -n : n;
+    if (q > 0)
+      m = x * y / n;
+    else if (m > 0)
+      n = x * y / m;
+    const double h = std::hypot(x + n, y + m),
+                 A = (x * x - y * y - x * n + y * m) / 2 + a2 / 2 * std::log(h / half_width),
+                 B = x * y - (x * m + y * n) / 2 - a2 / 2 * std::asin((x + n) / h);
+    return f * k / (2 * mu) *
+           Tensor<1, 2>({(kappa + 1) / 2 * A - y * (y - m), (kappa - 1) / 2 * B - y * (x - n)});
+  }
+
+  const Hertz normal;
+  const double k, a, c, f, shift, mu, kappa;
+};
+
+struct Rubbing
+{
+  std::string name;
+  double lower_modulus, lower_ratio, radius, stick, shift, energy, friction;
+};
+
+/** H2, all of the contact slips, and H3, Cattaneo and Mindlin's partial slip under Coulomb's own law. */
+TEST(Bodies, RubAsCattaneoSays)
+{
+  const double a = 0.7, k = 10, f = 0.3;
+  for (const Rubbing &known : {Rubbing{"full slip", 100, 0.2, 3.53356890459, 0, 0.03,
+                                       .149120752172 + .235901204537, 0.3 * 7.6969020013},
+                               Rubbing{"partial slip", 200, 0.3, 5.49450549451, 0.4, 0,
+                                       .140448661664 + .093787639127, 1.55508836353}})
+  {
+    const std::string places = "-0.7, 0; 0.7, 0; -0.4, 0; 0.4, 0";
+    Scene<2> scene = scene_of({{"Body upper/Lower corner", "-2, 0"},
+                               {"Body upper/Upper corner", "2, 2"},
+                               {"Body upper/Subdivisions", "6, 3"},
+                               {"Body upper/Graded towards", places},
+                               {"Body upper/Grading levels", "8"},
+                               {"Body lower/Lower corner", "-2, -1"},
+                               {"Body lower/Upper corner", "2, 0"},
+                               {"Body lower/Subdivisions", "5, 2"},
+                               {"Body lower/Graded towards", places},
+                               {"Body lower/Grading levels", "8"},
+                               {"Body lower/Material", "other"},
+                               {"Material/Young's modulus", "200"},
+                               {"Material/Poisson's ratio", "0.3"},
+                               {"Material other/Young's modulus", text(known.lower_modulus)},
+                               {"Material other/Poisson's ratio", text(known.lower_ratio)},
+                               {"Contact line/Between", "upper.bottom, lower.top"},
+                               {"Contact line/Friction coefficient", "0.3"},
+                               {"Boundary upper.top/Displacement", "0; 0"},
+                               {"Boundary upper.left/Displacement", "0; 0"},
+                               {"Boundary upper.right/Displacement", "0; 0"},
+                               {"Boundary lower.bottom/Displacement", "0; 0"},
+                               {"Boundary lower.left/Displacement", "0; 0"},
+                               {"Boundary lower.right/Displacement", "0; 0"},
+                               {"Adaptivity/Method", "pu"},
+                               {"Adaptivity/Start degree", "6"},
+                               {"Adaptivity/Maximum steps", "1"}});
+    const std::shared_ptr<const ExactSolution<2>> fields[] = {
+        std::make_shared<const RubbingField>(scene.materials[0], k, a, known.stick, f, known.shift),
+        std::make_shared<const Mirrored>(
+            std::make_shared<const RubbingField>(scene.materials[1], k, a, known.stick, -f, 0.))};
+    for (BoundaryCondition<2> &boundary : scene.boundaries)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (boundary.has_displacement())
+          boundary.displacement[d] =
+              std::make_shared<ExactDisplacement<2>>(fields[boundary.name[0] == 'l'], d);
+    const auto slope = [](const Material &material)
+    { return (material.kolosov() - 1) / material.mu(); };
+    const double uneven = f * k / 4 * (slope(scene.materials[0]) - slope(scene.materials[1]));
+    for (const types::boundary_id part : scene.pairs[0].parts)
+      scene.boundaries[part].gap = expression<2>(
+          [=](const Point<2> &x)
+          {
+            const double s = x[0], braces = std::abs(s) < a
+                                                ? s * std::sqrt(a * a - s * s) / 2 +
+                                                      a * a / 2 * std::asin(s / a)
+                                                : std::copysign(numbers::PI * a * a / 4, s);
+            return s * s / 2 / known.radius + uneven * braces;
+          });
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          const ContactState<2> &contact = step.contact[0];
+          EXPECT_NEAR(0.5 * std::pow(step.energies.norm, 2), known.energy, 1e-6) << known.name;
+          EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 2e-4) << known.name;
+          EXPECT_NEAR(contact.friction_resultant, -known.friction, 2e-4) << known.name;
+          double stick = 0;
+          for (const ContactZone<2> &zone : contact.zones)
+            stick += zone.mode == ContactMode::stick ? zone.length : 0.;
+          EXPECT_NEAR(stick, 2 * known.stick, 0.01) << known.name;
+        });
+  }
+}
+
+// ---------------------------------------------------------------- known answers
+
+Overrides box(const std::string &name, const std::string &lower, const std::string &upper,
+              const std::string &subdivisions, const std::string &E, const std::string &nu)
+{
+  return {{"Body " + name + "/Lower corner", lower},
+          {"Body " + name + "/Upper corner", upper},
+          {"Body " + name + "/Subdivisions", subdivisions},
+          {"Body " + name + "/Material", name},
+          {"Material " + name + "/Young's modulus", E},
+          {"Material " + name + "/Poisson's ratio", nu}};
+}
+
+Overrides joined(const std::vector<Overrides> &all)
+{
+  Overrides result;
+  for (const Overrides &some : all)
+    result.insert(result.end(), some.begin(), some.end());
+  return result;
+}
+
+/** O1 to O4: two other discretisations agree on these digits (matching nodes, moments through meshes that do not match). */
+struct KnownCase
+{
+  std::string name;
+  Overrides entries;
+  double energy, normal, friction; ///< resultants of the last pair
+};
+
+const Overrides clamped{{"Boundary lower.bottom/Displacement", "0; 0"},
+                        {"Adaptivity/Maximum steps", "16"},
+                        {"Output/VTU", "false"}};
+
+std::vector<KnownCase> known_cases()
+{
+  const Overrides touch{{"Contact joint/Between", "upper.bottom, lower.top"}};
+  return {
+      {"block on a wider one",
+       joined({clamped,
+               touch,
+               box("lower", "0, -1", "3, 0", "6, 2", "20", "0.3"),
+               box("upper", "1, 0", "2, 1", "3, 3", "10", "0.3"),
+               {{"Boundary upper.top/Displacement", "0; -0.02"}}}),
+       .00166735265, .166735265, 0.},
+      {"sheared with friction",
+       joined({clamped,
+               touch,
+               box("lower", "0, -1", "2, 0", "4, 2", "20", "0.25"),
+               box("upper", "0, 0", "2, 1", "5, 3", "10", "0.3"),
+               {{"Material/Plane", "stress"},
+                {"Contact joint/Friction bound", "0.055"},
+                {"Boundary upper.top/Displacement", "0.03; -0.02"}}}),
+       .004281503947, .27349126, .09761887},
+      {"glued",
+       joined(
+           {clamped,
+            touch,
+            box("lower", "0, -1", "3, 0", "6, 2", "10", "0.3"),
+            box("upper", "1, 0", "2, 1", "3, 3", "100", "0.3"),
+            {{"Contact joint/Law", "tied"}, {"Boundary upper.top/Displacement", "0.02; -0.02"}}}),
+       .0039624663, .2957241, .1005225},
+      {"block between two others",
+       joined({clamped,
+               box("lower", "0, -1", "3, 0", "6, 2", "20", "0.3"),
+               box("middle", "1, 0", "2, 0.5", "4, 2", "10", "0.2"),
+               box("upper", "0, 0.5", "3, 1.5", "6, 2", "30", "0.3"),
+               {{"Contact below/Between", "middle.bottom, lower.top"},
+                {"Contact below/Friction bound", "0.03"},
+                {"Contact above/Between", "middle.top, upper.bottom"},
+                {"Contact above/Friction coefficient", "0.4"},
+                {"Boundary upper.top/Displacement", "0.01; -0.02"}}}),
+       .00220250993, .203659398, .02626836},
+  };
+}
+
+TEST(Bodies, HaveKnownAnswers)
+{
+  for (const KnownCase &known : known_cases())
+    AdaptiveSolver<2>(scene_of(known.entries))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              if (step.stopped_by.empty())
+                return;
+              const ContactState<2> &contact = step.contact.back();
+              EXPECT_NEAR(step.energies.energy, known.energy, 3e-6 * known.energy) << known.name;
+              EXPECT_NEAR(contact.normal_resultant, -known.normal, 2e-5 * known.normal)
+                  << known.name;
+              EXPECT_NEAR(contact.friction_resultant, -known.friction, 2e-5) << known.name;
+              EXPECT_LT(step.equilibrium.force_imbalance, 1e-10) << known.name;
+              EXPECT_LT(step.equilibrium.moment_imbalance, 1e-10) << known.name;
+            });
+}
+
+/** Force on each body by itself. */
+TEST(Bodies, AreEachInEquilibrium)
+{
+  AdaptiveSolver<2>(scene_of(known_cases()[3].entries))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            if (step.stopped_by.empty())
+              return;
+            for (const std::string body : {"lower.", "middle.", "upper."})
+            {
+              Tensor<1, 2> sum;
+              double size = 0;
+              for (const BoundaryForce<2> &force : step.equilibrium.reactions)
+                if (force.boundary.rfind(body, 0) == 0)
+                {
+                  sum += force.force;
+                  size += force.force.norm();
+                }
+              EXPECT_GT(size, 0.2) << body;
+              EXPECT_LT(sum.norm(), 1e-10 * size) << body;
+            }
+          });
+}
+
+// ---------------------------------------------------------------- the same in another guise
+
+struct Result
+{
+  double energy, normal, friction, length_of_slip;
+  Tensor<1, 2> own_displacement; ///< the sum over the points of the first side
+};
+
+Result solved(const Scene<2> &scene)
+{
+  Result result{};
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        const ContactState<2> &contact = step.contact.front();
+        result = {step.energies.energy,
+                  contact.normal_resultant,
+                  contact.friction_resultant,
+                  contact.slipping_area,
+                  {}};
+        for (const ContactPoint<2> &point : contact.points)
+          result.own_displacement += Tensor<1, 2>(
+              {point.area * point.tangential_displacement, point.area * point.normal_displacement});
+      });
+  return result;
+}
+
+/** Whichever side has the multipliers, and whichever is named first. */
+TEST(Bodies, MeetInEitherOrder)
+{
+  const Overrides entries = known_cases()[1].entries;
+  const auto with = [&](const std::string &between, const std::string &slave)
+  {
+    return solved(scene_of(joined({entries,
+                                   {{"Contact joint/Between", between},
+                                    {"Contact joint/Slave", slave},
+                                    {"Adaptivity/Maximum steps", "8"}}})));
+  };
+  const Result one = with("upper.bottom, lower.top", "upper.bottom"),
+               turned = with("lower.top, upper.bottom", "upper.bottom"),
+               other = with("upper.bottom, lower.top", "lower.top");
+  EXPECT_NEAR(turned.energy, one.energy, 1e-12);
+  EXPECT_NEAR(turned.normal, one.normal, 1e-10);
+  EXPECT_NEAR(turned.friction, one.friction, 1e-10);
+  EXPECT_NEAR(turned.length_of_slip, one.length_of_slip, 1e-10);
+  EXPECT_NEAR(other.energy, one.energy, 1e-4 * one.energy);
+  EXPECT_NEAR(other.friction, one.friction, 2e-3 * std::abs(one.friction));
+  // The columns are those of the first side, whoever is slave.
+  EXPECT_NEAR(other.own_displacement[0], one.own_displacement[0], 1e-4);
+  EXPECT_NEAR(other.own_displacement[1], one.own_displacement[1], 1e-4);
+  EXPECT_GT(one.own_displacement[0], 0.01);
+  EXPECT_LT(turned.own_displacement[0], -0.005); // t of the lower body runs the other way
+}
+
+/** Two halves that press each other are one on a rigid plane with half the gap. */
+TEST(Bodies, ThatAreEqualMeetInAPlane)
+{
+  const Overrides method{
+      {"Adaptivity/Method", "pu"},        {"Adaptivity/Start degree", "5"},
+      {"Adaptivity/Maximum steps", "1"},  {"Solver/Normal contact", "multiplier"},
+      {"Material/Young's modulus", "10"}, {"Material/Poisson's ratio", "0.3"}};
+  const Result half = solved(scene_of(joined({method,
+                                              {{"Geometry/Subdivisions", "6, 4"},
+                                               {"Boundary top/Displacement", "0; -0.05"},
+                                               {"Boundary bottom/Contact", "unilateral"},
+                                               {"Boundary bottom/Gap", "0.2*(x-0.4)^2"}}}))),
+               both =
+                   solved(scene_of(joined({method,
+                                           {{"Body upper/Subdivisions", "6, 4"},
+                                            {"Body lower/Lower corner", "0, -1.1"},
+                                            {"Body lower/Upper corner", "1, -0.1"},
+                                            {"Body lower/Subdivisions", "6, 4"},
+                                            {"Contact line/Between", "lower.top, upper.bottom"},
+                                            {"Contact line/Gap", "0.4*(x-0.4)^2-0.1"},
+                                            {"Boundary upper.top/Displacement", "0; -0.05"},
+                                            {"Boundary lower.bottom/Displacement", "0; 0.05"}}})));
+  EXPECT_LT(half.normal, -0.1);
+  EXPECT_NEAR(both.energy, 2 * half.energy, 1e-11);
+  EXPECT_NEAR(both.normal, half.normal, 1e-10);
+}
+
+/** On a body a million times as stiff a block does what it does on a rigid plane. */
+TEST(Bodies, MeetStiffOnesAsFoundations)
+{
+  const Overrides both{{"Adaptivity/Method", "pu"},        {"Adaptivity/Start degree", "5"},
+                       {"Adaptivity/Maximum steps", "1"},  {"Solver/Normal contact", "multiplier"},
+                       {"Material/Young's modulus", "10"}, {"Material/Poisson's ratio", "0.3"}};
+  const Result plane = solved(scene_of(joined({both,
+                                               {{"Geometry/Subdivisions", "5, 4"},
+                                                {"Boundary top/Displacement", "0.05; -0.05"},
+                                                {"Boundary bottom/Contact", "unilateral"},
+                                                {"Boundary bottom/Friction bound", "0.1"}}}))),
+               stiff =
+                   solved(scene_of(joined({both,
+                                           {{"Body block/Subdivisions", "5, 4"},
+                                            {"Body base/Lower corner", "-1, -1"},
+                                            {"Body base/Upper corner", "2, 0"},
+                                            {"Body base/Subdivisions", "3, 1"},
+                                            {"Body base/Material", "stiff"},
+                                            {"Material stiff/Young's modulus", "1e7"},
+                                            {"Contact joint/Between", "block.bottom, base.top"},
+                                            {"Contact joint/Slave", "block.bottom"},
+                                            {"Contact joint/Friction bound", "0.1"},
+                                            {"Boundary base.bottom/Displacement", "0; 0"},
+                                            {"Boundary block.top/Displacement", "0.05; -0.05"}}})));
+  EXPECT_GT(std::abs(plane.friction), 0.05);
+  EXPECT_NEAR(stiff.energy, plane.energy, 1e-5 * plane.energy);
+  EXPECT_NEAR(stiff.normal, plane.normal, 1e-5 * std::abs(plane.normal));
+  EXPECT_NEAR(stiff.friction, plane.friction, 1e-5 * std::abs(plane.friction));
+}
+
+/** Edges of 1.5 below a block of breadth 1: that of the longer body is master, and half of each is free. */
+TEST(Bodies, MayHangOver)
+{
+  const Scene<2> scene = scene_of({{"Body lower/Shape", "quadrilateral"},
+                                   {"Body lower/Corners", "0, -1; 3, -1; 3, 0; 0, 0"},
+                                   {"Body lower/Subdivisions", "2, 1"},
+                                   {"Body upper/Lower corner", "1, 0"},
+                                   {"Body upper/Upper corner", "2, 1"},
+                                   {"Contact joint/Between", "lower.top, upper.bottom"},
+                                   {"Boundary lower.bottom/Displacement", "0; 0"},
+                                   {"Boundary upper.top/Displacement", "0; -0.02"},
+                                   {"Material/Young's modulus", "10"}});
+  EXPECT_EQ(scene.pairs[0].slave, std::optional<unsigned int>(1));
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Laboratory laboratory(scene, mesh, Degrees(mesh.n_active_cells(), 4));
+  const Solution<2> solution = laboratory.solve();
+  const SolutionField<2> field(solution);
+  const Tractions<2> unit = [](const auto &, const ShapeTable<2> &table, const auto &) {
+    return std::vector<Tensor<1, 2>>(table.points.size(), Tensor<1, 2>({0.6, 0.8}));
+  };
+  double normal = 0, tangential = 0, opposite = 0;
+  for (const OppositeResidual &part : free_residuals<2>(field, unit))
+  {
+    normal += part.normal;
+    tangential += part.tangential;
+  }
+  EXPECT_NEAR(normal, 2 * 0.64, 1e-12);
+  EXPECT_NEAR(tangential, 2 * 0.36, 1e-12);
+  const Tractions<2> none = [](const auto &, const ShapeTable<2> &table, const auto &)
+  { return std::vector<Tensor<1, 2>>(table.points.size()); };
+  for (const FieldFace<2> &face : field.faces())
+    for (const OppositeResidual &part : opposite_residuals<2>(face, field, none))
+      opposite += part.normal;
+  EXPECT_GT(opposite, 1e-4); // the pressure of the block
+  const auto states = contact_states(field);
+  EXPECT_NEAR(states[0].area, 1, 1e-12);
+}
+
+// ---------------------------------------------------------------- bodies that contact alone holds
+
+/** Three blocks under their own weight upon each other, and what the loads push nobody resists. */
+TEST(Bodies, CarryWhatLiesOnThem)
+{
+  const Overrides stack = joined({box("a", "0, 0", "2, 1", "3, 2", "10", "0.3"),
+                                  box("b", "0.2, 1", "1.9, 1.5", "4, 1", "20", "0.2"),
+                                  box("c", "0.5, 1.5", "1.5, 2.5", "2, 2", "5", "0.3"),
+                                  {{"Material a/Density", "0.1"},
+                                   {"Material b/Density", "0.2"},
+                                   {"Material c/Density", "0.3"},
+                                   {"Body force/Gravity", "0; -1"},
+                                   {"Boundary a.bottom/Contact", "unilateral"},
+                                   {"Boundary a.bottom/Friction coefficient", "0.3"},
+                                   {"Contact lower/Between", "b.bottom, a.top"},
+                                   {"Contact lower/Friction coefficient", "0.3"},
+                                   {"Contact upper/Between", "c.bottom, b.top"},
+                                   {"Contact upper/Friction coefficient", "0.3"},
+                                   {"Adaptivity/Maximum steps", "4"}}});
+  AdaptiveSolver<2>(scene_of(stack))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            ASSERT_EQ(step.contact.size(), 3U);
+            EXPECT_NEAR(step.contact[0].normal_resultant, -0.2 - 0.17 - 0.3, 1e-9);
+            EXPECT_NEAR(step.contact[1].normal_resultant, -0.17 - 0.3, 1e-9);
+            EXPECT_NEAR(step.contact[2].normal_resultant, -0.3, 1e-9);
+          });
+  // 0.3 on top push sideways: c slides on b, or b on a, or all of them; the names say who.
+  try
+  {
+    AdaptiveSolver<2>(scene_of(joined({stack, {{"Boundary c.left/Traction", "0.2; 0"}}})))
+        .run([](const StepReport<2> &) {});
+    FAIL() << "the block slides away";
+  }
+  catch (const NumericalFailure &failure)
+  {
+    EXPECT_NE(std::string(failure.what()).find(" c along ("), std::string::npos) << failure.what();
+  }
+}
+
+/** Two surfaces of one file that share a curve are two bodies with a side of its name each. */
+TEST(Bodies, ShareAMeshFile)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / "hpvi-two-squares.msh";
+  std::ofstream(file) << two_squares_41;
+  const Overrides both{
+      {"Contact line/Friction bound", "0.01"},    {"Material/Young's modulus", "10"},
+      {"Material/Poisson's ratio", "0.3"},        {"Material stiff/Young's modulus", "20"},
+      {"Boundary a.bottom/Displacement", "0; 0"}, {"Boundary b.bottom/Displacement", "0; 0.01"},
+      {"Adaptivity/Maximum steps", "6"}};
+  const Result meshes = solved(scene_of(joined({both,
+                                                {{"Body a/Shape", "file"},
+                                                 {"Body a/File", file.string()},
+                                                 {"Body a/Surfaces", "soft part"},
+                                                 {"Body b/Shape", "file"},
+                                                 {"Body b/File", file.string()},
+                                                 {"Body b/Surfaces", "stiff"},
+                                                 {"Contact line/Between", "a.joint, b.joint"},
+                                                 {"Boundary b.7/Traction", "-0.2; 0"}}}))),
+               boxes = solved(scene_of(joined({both,
+                                               {{"Body b/Lower corner", "1, 0"},
+                                                {"Body b/Upper corner", "2, 1"},
+                                                {"Body a/Upper corner", "1, 1"},
+                                                {"Body b/Material", "stiff"},
+                                                {"Contact line/Between", "a.right, b.left"},
+                                                {"Boundary b.right/Traction", "-0.2; 0"}}})));
+  EXPECT_LT(boxes.normal, -0.04);
+  EXPECT_GT(std::abs(boxes.friction), 1e-3);
+  EXPECT_NEAR(meshes.energy, boxes.energy, 1e-12);
+  EXPECT_NEAR(meshes.normal, boxes.normal, 1e-10);
+  EXPECT_NEAR(meshes.friction, boxes.friction, 1e-10);
+  // Without Surfaces the file is one body again.
+  const CoarseMesh whole = read_text(two_squares_41);
+  EXPECT_EQ(n_parts(whole), 1U);
+  EXPECT_EQ(n_parts(surfaces_of(whole, {"stiff"})), 1U);
+  EXPECT_EQ(surfaces_of(whole, {"stiff"}).cells.size(), 1U);
+}
+
+// ---------------------------------------------------------------- histories
+
+/** Sheared to and fro: what slipped stays slipped, work is dissipated, and the balance of energies closes. */
+TEST(Bodies, RememberTheirSlip)
+{
+  const Overrides cycle = joined(
+      {known_cases()[1].entries,
+       {{"Loading/Steps", "4"},
+        {"Boundary upper.top/Displacement", "0.03*(t<0.3 ? 1 : t<0.6 ? 0 : t<0.8 ? -1 : 0); -0.02"},
+        {"Adaptivity/Maximum steps", "4"}}});
+  double dissipated = 0;
+  std::vector<double> friction;
+  LoadHistory<2>(scene_of(cycle))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            if (step.stopped_by.empty())
+              return;
+            EXPECT_GE(step.load.dissipated, dissipated - 1e-12);
+            dissipated = step.load.dissipated;
+            friction.push_back(step.contact[0].friction_resultant);
+            EXPECT_NEAR(step.load.work,
+                        step.load.stored + step.load.dissipated + step.load.released +
+                            step.load.unbalanced,
+                        1e-9 * step.load.work);
+          });
+  EXPECT_GT(dissipated, 1e-4);
+  ASSERT_EQ(friction.size(), 4U);
+  EXPECT_LT(friction[0], -0.05);
+  EXPECT_GT(friction[1], 0.001); // back where it was friction has the other sign
+  EXPECT_GT(friction[2], 0.05);
+  EXPECT_LT(friction[3], -0.001);
+}
+} // namespace
