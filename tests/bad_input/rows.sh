@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# What tables of bad input have in common, for run.sh and shapes.sh. Every bad scene must end with exit status 1 and
+# What tables of bad input have in common, for run.sh, shapes.sh and bodies.sh. Every bad scene must end with exit status 1 and
 # exactly one line on stderr that names file, entry, value and remedy, and must write nothing. Each call below is one row:
 #
 #   invalid WORD... -- ENTRY=VALUE...   the table's own scene, $base, with these entries overridden

@@ -190,7 +190,7 @@ unknown Units/Time "Loading/Steps"
 unknown Units/Mass "unknown entry; Units has Length and Stress"
 unknown "Boundary low/Traction" "unknown subsection; this scene has: left, right, bottom and top"
 unknown "Boundary 1/Traction" "unknown subsection; this scene has: left, right, bottom and top"
-unknown "Body of steel/Traction" "unknown subsection; there are Units, Geometry," "Boundary top, Loading"
+unknown "Part of steel/Traction" "unknown subsection; there are Units, Geometry," "Boundary top, Loading"
 unknown Colour "Title and Dimension stand outside of subsections" "Solver, Output or Error"
 unknown Boundary_top/Traction 'the nearest known one is "Boundary top"'
 invalid "names no entry" "Section/Entry=value" -- "Units/=mm"

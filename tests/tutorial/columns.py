@@ -12,7 +12,7 @@ import tempfile
 
 HPVI, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
 # Together these write every kind of table.
-RUNS = (["prm/han-6-12.prm"], ["prm/ssnv128.prm"], ["prm/slab.prm"],
+RUNS = (["prm/han-6-12.prm"], ["prm/ssnv128.prm"], ["prm/slab.prm"], ["prm/blocks.prm"],
         ["--set", "Loading/Steps=2", "prm/fretting.prm"])
 
 

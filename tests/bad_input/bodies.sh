@@ -1,0 +1,146 @@
+#!/bin/bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+#
+# usage: bodies.sh HPVI
+#
+# A table of bad input, as rows.sh says: several bodies, pairs of their sides, and what they do not offer.
+
+base=bodies.prm
+source "$(dirname "$0")/rows.sh"
+third=("Body third/Lower corner=1, 2" "Body third/Upper corner=2, 3" "Boundary third.top/Displacement=0; 0") # on the upper one
+
+disc=("Body disc/Shape=half disc" "Body disc/Centre=1.5, 3" "Body disc/Radius=1" "Body disc/Angle=180" "Boundary disc.flat/Displacement=0; 0")
+
+# --- names
+invalid "Body a.b" "is no name" "letters" -- "Body a.b/Shape=box"
+invalid "Body Upper" "differs from Body upper in case" -- "Body Upper/Shape=box"
+invalid "Contact j/k" "is no name" -- "Contact j/k/Law=tied"
+invalid "Contact Joint" "differs from Contact joint in case" -- "Contact Joint/Law=tied"
+invalid "Body force/Shape = box" "unknown entry" -- "Body force/Shape=box"
+invalid "Body Force" "force" "another name" -- "Body Force/Shape=box"
+invalid "Body third/Size" "unknown entry" -- "Body third/Size=3"
+invalid "Contact joint/Slide" "unknown entry" -- "Contact joint/Slide=3"
+invalid "Contact joint/Contact" "unknown entry" -- "Contact joint/Contact=tied"
+
+# --- scenes of one body and of several
+invalid "Geometry" "Body" -- "Geometry/Upper corner=1, 1"
+invalid "Geometry" "Body" -- "Geometry/Grading levels=2"
+invalid "Boundary bottom" "unknown subsection; this scene has: lower.left, lower.right" "upper.top" -- "Boundary bottom/Traction=0; 0"
+invalid "Boundary lower" "this scene has: lower.left" -- "Boundary lower/Traction=0; 0"
+invalid "Boundary third.top" "this scene has: lower.left" -- "Boundary third.top/Traction=0; 0"
+invalid "Boundary lower.inner" "this scene has: lower.left" -- "Boundary lower.inner/Traction=0; 0"
+invalid "Boundary lower.Top" "\"Boundary lower.top\"" -- "Boundary lower.Top/Traction=0; 0"
+base=base.prm
+invalid "Boundary punch.bottom" "this scene has no bodies" "Boundary bottom" -- "Boundary punch.bottom/Traction=0; 0"
+invalid "Contact joint" "Body" -- "Contact joint/Law=tied"
+base=ring.prm
+invalid "Boundary punch.inner" "this scene has no bodies" "Boundary inner" -- "Boundary punch.inner/Traction=0; 0"
+base=bodies.prm
+
+# --- each body by itself
+invalid "Body upper/Shape = cone" "give box, quadrilateral" -- "Body upper/Shape=cone"
+invalid "Body upper/Surfaces = a" "are those of a mesh file" "Shape = file" -- "Body upper/Surfaces=a"
+invalid "missing.msh" "Body upper/File" -- "Body upper/Shape=file" "Body upper/File=missing.msh"
+invalid "Body upper/Upper corner = 0, 0" "not above and right of the lower corner (1, 1)" -- "Body upper/Upper corner=0, 0"
+invalid "Body upper/Subdivisions = 0, 2" -- "Body upper/Subdivisions=0, 2"
+invalid "Body upper/Radius = 2" "has no meaning for a box" "half disc" -- "Body upper/Radius=2"
+invalid "Body upper/Corners" "not convex" -- "Body upper/Shape=quadrilateral" "Body upper/Corners=0,0; 1,0; 0.1,0.1; 0,1"
+invalid "Body upper/Graded towards = 5, 5" "outside the body" -- "Body upper/Graded towards=5, 5" "Body upper/Grading levels=2"
+invalid "Body upper/Grading levels = -1" -- "Body upper/Grading levels=-1"
+invalid "Body upper/Material = glass" "is no material of this scene" "subsection Material glass" -- "Body upper/Material=glass"
+invalid "Material third/Where" "is missing" -- "Material third/Density=1"
+invalid "Material soft" "Where" -- "Body upper/Material="
+invalid "Dimension = 3" "several bodies" -- "Dimension=3"
+
+# --- pairs of sides
+for sides in "" "upper.bottom" "upper.bottom, lower.top, lower.left" "upper.bottom; lower.top"; do
+  invalid "Contact joint/Between = $sides" "names no two sides" "BODY.side, BODY.side" -- "Contact joint/Between=$sides"
+done
+for side in bottom upper.inner third.top upper lower.Top; do
+  invalid "Contact joint/Between = $side, lower.top" "names $side, which is no side" "this scene has: lower.left, lower.right" -- \
+    "Contact joint/Between=$side, lower.top"
+done
+invalid "Contact joint/Between" "sides of one body" "of two" -- "Contact joint/Between=upper.bottom, upper.top"
+invalid "Contact joint/Between" "sides of one body" -- "Contact joint/Between=upper.bottom, upper.bottom"
+invalid "Contact joint/Between" "not parallel" "two that lie opposite" -- "Contact joint/Between=upper.bottom, lower.left"
+invalid "Contact joint/Between" "look the same way" -- "Contact joint/Between=upper.bottom, lower.bottom"
+invalid "Contact joint/Between" "do not face each other" -- "Contact joint/Between=upper.bottom, lower.bottom" # both look down
+invalid "Contact joint/Between" "do not face each other" "not parallel" -- "Body upper/Shape=quadrilateral" "Body upper/Corners=1, 1; 2, 1.001; 2, 2; 1, 2"
+invalid "Contact joint/Between" "one ends before the other begins" -- "Body upper/Lower corner=3, 1" "Body upper/Upper corner=4, 2"
+invalid "Contact joint/Between" "inside each other" "0.25" "negative Gap" -- "Body upper/Lower corner=1, 0.75"
+invalid "Contact lid/Between" "not straight" "straight lines alone" -- "${disc[@]}" "Contact lid/Between=upper.top, disc.arc"
+invalid "Contact again/Between" "edges of lower.top that Contact joint has, too" "one body" -- "Contact again/Between=lower.top, upper.bottom"
+invalid "Contact joint/Between" "edges of both sides that hang over" "a vertex" -- "Body lower/Shape=quadrilateral" \
+  "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Body upper/Shape=quadrilateral" "Body upper/Corners=2, 1; 4, 1; 4, 2; 2, 2" "Body upper/Subdivisions=1, 1"
+invalid "Contact joint/Slave = lower.top" "hangs over the end" -- "Body lower/Shape=quadrilateral" \
+  "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Contact joint/Slave=lower.top"
+invalid "Solver/Normal contact = nodes" "several bodies is not offered" "set multiplier" -- "Solver/Normal contact=nodes"
+invalid "Contact joint/Slave = lower.bottom" "is none of the two sides" "automatic" -- "Contact joint/Slave=lower.bottom"
+invalid "Contact joint/Slave = lower" "is none of the two sides" -- "Contact joint/Slave=lower"
+invalid "Contact again/Between" "names no two sides" -- "Contact again/Law=tied"
+
+# --- their laws
+invalid "Contact joint/Law = glued" "unilateral, bilateral, tied or tangential" -- "Contact joint/Law=glued"
+for law in bilateral tied tangential; do
+  invalid "Contact joint/Gap = 0.1" "needs contact that can open" "unilateral" -- "Contact joint/Law=$law" "Contact joint/Gap=0.1"
+done
+for law in bilateral tied; do
+  invalid "Contact joint/Law = $law" "lie apart" "move them together" -- "Contact joint/Law=$law" \
+    "Body upper/Lower corner=1, 1.1"
+done
+invalid "Contact joint/Friction bound = 0.1" "where bodies are tied" "remove it" -- "Contact joint/Law=tied" "Contact joint/Friction bound=0.1"
+invalid "Contact joint/Friction coefficient = 0.1" "where bodies are tied" -- "Contact joint/Law=tied" "Contact joint/Friction coefficient=0.1"
+invalid "Contact joint/Friction bound" "g >= 0" -- "Contact joint/Friction bound=-1"
+invalid "Contact joint/Friction bound" "g >= 0" -- "Contact joint/Friction bound=x - 1.5"
+invalid "Contact joint/Friction coefficient" "mu_f >= 0" -- "Contact joint/Friction coefficient=1.5 - x"
+invalid "Contact joint/Friction bound" "not an expression" "no body here" -- "Contact joint/Friction bound=E"
+invalid "Contact joint/Gap" "not an expression" "no body here" -- "Contact joint/Gap=mu*x"
+invalid "Contact joint/Gap" "has 2 component(s)" -- "Contact joint/Gap=x; y"
+invalid "Contact joint/Gap" "not finite" -- "Contact joint/Gap=1/(x - x)"
+invalid "Contact joint/Friction coefficient" "Friction bound" -- "Contact joint/Friction bound=1" "Contact joint/Friction coefficient=0.3"
+invalid "Contact joint/Friction coefficient" -- "Contact joint/Law=tangential" "Contact joint/Friction coefficient=0.3"
+
+# --- what else may stand on these sides
+invalid "Boundary upper.bottom/Contact = unilateral" "Contact joint" -- "Boundary upper.bottom/Contact=unilateral"
+invalid "Boundary upper.bottom/Displacement = 0; 0" "Contact joint" -- "Boundary upper.bottom/Displacement=0; 0"
+invalid "Boundary upper.bottom/Pressure = 1" "Contact joint" -- "Boundary upper.bottom/Pressure=1"
+invalid "Boundary upper.bottom/Rigid = true" "Contact joint" -- "Boundary upper.bottom/Rigid=true"
+invalid "Boundary foot/Where" "overlaps Contact joint" -- "Boundary foot/On=lower.top" "Boundary foot/Where=0.5 - abs(x - 1.5)" "Boundary foot/Pressure=1"
+
+# --- what holds each body: contact may, where there is any
+invalid "Body third" "its supports leave a rigid-body motion free, translation in x" "it touches nothing" -- "${third[@]}" "Boundary third.top/Displacement="
+invalid "Body third" "translation in y" "it touches nothing" -- "${third[@]}" "Boundary third.top/Displacement=" "Boundary third.left/Displacement=0; free"
+
+# --- what several bodies do not offer
+invalid "Solver/Path = primal" "several bodies is not offered" "auto or reduced" -- "Solver/Path=primal" "Adaptivity/Method=hup2"
+invalid "Material/Plane = axisymmetric" "several bodies is not offered" "stress or strain" -- "Material/Plane=axisymmetric"
+invalid "Solver/Multiplier degree offset = -3" "several bodies is not offered" -- "Solver/Multiplier degree offset=-3"
+invalid "Exact solution/Solution = smooth" "several bodies is not offered" "set none" -- "Exact solution/Solution=smooth"
+
+# --- the good scenes
+valid() { # NAME ENTRY=VALUE...
+  local name=$1 arguments=() override
+  shift
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  "$hpvi" --validate "$scenes/bodies.prm" "${arguments[@]}" >"$scratch/stdout" 2>"$scratch/stderr" || complain bodies.prm "$name is rejected"
+  [ ! -s "$scratch/stderr" ] || complain bodies.prm "$name: something on stderr"
+}
+valid "the scene"
+valid "a gap in the drawing" "Body upper/Lower corner=1, 1.25"
+valid "interference" "Contact joint/Gap=-0.01"
+valid "a gap that varies" "Contact joint/Gap=0.1*(x - 1.5)^2"
+valid "a third body" "${third[@]}" "Contact lid/Between=third.bottom, upper.top" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0"
+valid "a body that contact alone holds" "Boundary upper.top/Displacement=" "Boundary upper.top/Traction=0; -1"
+valid "a history" "Loading/Steps=4"
+valid "an edge that hangs over" "Body lower/Shape=quadrilateral" "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1"
+valid "a body on springs" "Boundary upper.top/Displacement=" "Boundary upper.top/Spring=1; 1"
+valid "ends that a box cuts" "Body upper/Lower corner=0.9, 1" "Body upper/Upper corner=1.7, 2"
+valid "--set opens a section" "Boundary lower.left/Traction=1; 0"
+valid "friction of two kinds" "Contact joint/Friction coefficient=0.3 + x/10"
+valid "a disc that lies with its flat side on a block" "Body disc/Shape=half disc" "Body disc/Centre=1.5, 2" "Body disc/Radius=0.5" "Body disc/Angle=0" \
+  "Contact lid/Between=upper.top, disc.flat" "Boundary disc.arc/Displacement=0; -0.02" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0"
+
+echo "$rows bad inputs, $failures failures"
+[ $failures -eq 0 ]
