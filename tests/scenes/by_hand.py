@@ -48,6 +48,34 @@ SLIDING = {**RUBBED, "Boundary bottom/Contact": "unilateral", "Boundary bottom/G
 # A weight of 6 on a plane that falls to the left by atan(3/4), whatever side of the body lies on it.
 SLOPE = {**OBLIQUE, "Boundary bottom/Contact": "unilateral", "Body force/Expression": "0; -3"}
 
+# Two blocks of 2 x 1, one upon the other, E = 10 and 30, nu = 0, with meshes that do not match: squeezed by 0.2 they press with 1.5.
+STACK = {"Body lower/Upper corner": "2, 1", "Body lower/Subdivisions": "3, 1", "Body upper/Lower corner": "0, 1",
+         "Body upper/Upper corner": "2, 2", "Body upper/Subdivisions": "2, 2", "Body upper/Material": "stiff",
+         "Material/Young's modulus": "10", "Material/Poisson's ratio": "0", "Material/Plane": "stress",
+         "Material stiff/Young's modulus": "30", "Contact joint/Between": "upper.bottom, lower.top",
+         "Boundary lower.bottom/Displacement": "0; 0", "Boundary upper.top/Displacement": "0; -0.2",
+         "Adaptivity/Method": "hup3", "Adaptivity/Maximum steps": "1"}
+SQUEEZED = {"final.energy": 0.5 * 1.5 * 2 * 0.2, "forces.lower.bottom.1": 3, "forces.upper.top.1": -3, "forces.upper.bottom.1": 3,
+            "contact.upper.bottom.normal_resultant": -3, "contact.upper.bottom.through.0": 1}
+
+
+def sheared(stress, **contact):
+    """The upper block is moved, too; sides have the shear stress that the joint has, so that it is uniform."""
+    return {**STACK, **{f"Contact joint/{entry.replace('_', ' ')}": value for entry, value in contact.items()},
+            "Boundary upper.top/Displacement": "0.3; -0.2",
+            **{f"Boundary {body}.{side}/Traction": f"0; {sign * stress}"
+               for body in ("lower", "upper") for side, sign in (("left", -1), ("right", 1))}}
+
+
+# A field of constant strain in three bodies that meet in one corner, and its energy in plane stress, E = 10 and nu = 0.3, on an area of 4.
+FIELD = "0.01*x + 0.02*y; 0.005*x - 0.03*y"
+CORNER = {"Body low/Lower corner": "0, -1", "Body low/Upper corner": "2, 0", "Body low/Subdivisions": "3, 2", "Body a/Subdivisions": "2, 2",
+          "Body b/Lower corner": "1, 0", "Body b/Upper corner": "2, 1", "Body b/Subdivisions": "3, 3", "Material/Young's modulus": "10",
+          "Material/Poisson's ratio": "0.3", "Material/Plane": "stress",
+          **{f"Boundary {side}/Displacement": FIELD for side in ("low.bottom", "low.left", "low.right", "a.left", "a.top", "b.right", "b.top")},
+          **{f"Contact {name}/{entry}": value for name, sides in (("one", "low.top, a.bottom"), ("two", "b.bottom, low.top"), ("three", "a.right, b.left"))
+             for entry, value in (("Between", sides), ("Law", "tied"))}, "Adaptivity/Method": "hup3", "Adaptivity/Maximum steps": "1"}
+CORNER_ENERGY = 4 * 0.5 * (10 / 0.91 * (0.01 ** 2 + 0.03 ** 2 - 0.6 * 0.01 * 0.03) + 10 / 2.6 * 0.025 ** 2)
 
 
 def timoshenko(strain, h1, E1, h2, E2):
@@ -289,6 +317,31 @@ ROWS = [
                            "Boundary bottom/Symmetry": "true", "Boundary left/Symmetry": "true",
                            "Boundary front/Symmetry": "true"},
      {"final.energy": -0.5 * 3 * 3 / 10 * 2, "forces.left.0": -3, "forces.front.2": 0}),
+    ("a block on another", STACK, SQUEEZED),
+    ("the same seen from below", {**STACK, "Contact joint/Between": "lower.top, upper.bottom"},
+     {**{path.replace("upper.bottom", "lower.top") if path.startswith("contact") else path: value for path, value in SQUEEZED.items()}}),
+    ("the same with either slave", {**STACK, "Contact joint/Slave": "lower.top"}, SQUEEZED),
+    ("one that slides on another", {**STACK, "Contact joint/Law": "bilateral"}, SQUEEZED),
+    ("one that is glued to another", {**STACK, "Contact joint/Law": "tied"}, SQUEEZED),
+    ("thick blocks", {**STACK, "Material/Thickness": "0.25"}, {path: value * (0.25 if "through" not in path else 1) for path, value in SQUEEZED.items()}),
+    ("a gap in the drawing", {**STACK, "Body upper/Lower corner": "0, 1.01", "Body upper/Upper corner": "2, 2.01",
+                              "Boundary upper.top/Displacement": "0; -0.21"}, SQUEEZED),
+    ("a gap beside it", {**STACK, "Contact joint/Gap": "0.1", "Boundary upper.top/Displacement": "0; -0.3"},
+     {path: value for path, value in SQUEEZED.items() if "energy" not in path}),
+    ("interference", {**STACK, "Contact joint/Gap": "-0.2", "Boundary upper.top/Displacement": "0; 0"}, SQUEEZED),
+    ("a joint that opens", {**STACK, "Boundary upper.top/Displacement": "0; 0.1"}, {"final.energy": 0, "forces.lower.bottom.1": 0}),
+    ("a joint that pulls", {**STACK, "Boundary upper.top/Displacement": "0; 0.2", "Contact joint/Law": "tied"},
+     {"final.energy": 0.3, "forces.lower.bottom.1": -3}),
+    ("friction of Tresca between blocks", sheared(0.5, Friction_bound="0.5"),
+     {"contact.upper.bottom.friction_resultant": -1, "forces.lower.bottom.0": -1, "forces.upper.top.0": 1, "contact.upper.bottom.slipping_area": 2}),
+    ("friction of Coulomb between blocks", sheared(0.3, Friction_coefficient="0.2"),
+     {"contact.upper.bottom.friction_resultant": -0.6, "forces.lower.bottom.0": -0.6, "contact.upper.bottom.slipping_area": 2}),
+    ("a joint that sticks", sheared(1.125, Friction_bound="2"),
+     {"contact.upper.bottom.friction_resultant": -2.25, "forces.lower.bottom.0": -2.25, "contact.upper.bottom.slipping_area": 0}),
+    ("friction alone", sheared(0.5, Law="tangential", Friction_bound="0.5"), {"forces.lower.bottom.0": -1, "forces.lower.bottom.1": 0}),
+    ("three bodies that meet in a corner", CORNER, {"final.energy": CORNER_ENERGY}),
+    ("a block on a part of another", {**STACK, "Body lower/Lower corner": "-1, 0", "Body lower/Upper corner": "2.5, 1", "Boundary lower.top/Pressure": "2"},
+     {"forces.lower.bottom.1+forces.upper.top.1": 2 * 1.5}),
     ("symmetry on the primal path", {**BLOCK, "Boundary left/Displacement": None, "Boundary left/Symmetry": "true",
                                      "Boundary right/Traction": "3; 0", "Solver/Path": "primal",
                                      "Solver/Primal tolerance": "1e-12"},
@@ -343,8 +396,11 @@ def found(summary, path):
     """The value at a path, or the sum of several; forces by name have x and y."""
     if "+" in path:
         return sum(found(summary, part) for part in path.split("+"))
-    value = summary
-    for key in path.split("."):
+    value, keys = summary, path.split(".")
+    while keys:
+        key = keys.pop(0)
+        if isinstance(value, dict) and key not in value and not key.isdigit():
+            key += "." + keys.pop(0)  # BODY.side
         if isinstance(value, dict) and "force" in value and key.isdigit():
             value = value["force"]
         value = value[int(key)] if isinstance(value, list) else value[key]
@@ -443,6 +499,66 @@ class ByHand(RunTest):
         friction = outer["friction_resultant"]
         self.assertAlmostEqual(friction, 0.35 * outer["normal_resultant"], delta=1e-9 * abs(friction))
         self.assertAlmostEqual(torque, 100 * friction, delta=1e-9 * abs(100 * friction))
+
+    def test_blocks(self):
+        """What two discretisations of another program agree on; J to its indicator."""
+        summary = self.run_shipped("blocks")
+        contact, final = summary["contact"]["upper.bottom"], summary["final"]
+        self.assertAlmostEqual(final["lagrangian"], 0.004281503947, delta=2e-12)
+        self.assertAlmostEqual(contact["normal_resultant"], -0.27349126, delta=2e-8)
+        self.assertAlmostEqual(contact["friction_resultant"], -0.09761887, delta=2e-8)
+        self.assertEqual([zone["state"] for zone in contact["zones"]], ["stick", "slip", "stick"])
+        self.assertAlmostEqual(contact["zones"][1]["from"][0], 0.2823, delta=1e-3)
+        self.assertAlmostEqual(contact["zones"][1]["to"][0], 1.8694, delta=3e-3)
+
+    def test_a_laminate(self):
+        """Beams know the end of slip to a fourth of their height, and how the end moves to their shear strains."""
+        summary = self.run_shipped("laminate")
+        zones = summary["contact"]["upper.bottom"]["zones"]
+        self.assertEqual([zone["state"] for zone in zones], ["slip", "stick"])
+        self.assertAlmostEqual(zones[0]["to"][0], 90, delta=1)
+        self.assertAlmostEqual(summary["plates"]["lower.right"]["displacement"][1], -0.8547, delta=0.0047)
+
+    def test_a_glued_joint(self):
+        """One body of two materials has its energy in a guaranteed interval."""
+        summary = self.run_shipped("glued")
+        self.assertAlmostEqual(summary["final"]["energy"], 873.04001, delta=5e-6)
+        self.run_settings({"Geometry/Lower corner": "0, -20", "Geometry/Upper corner": "60, 30", "Geometry/Subdivisions": "6, 5",
+                           "Material/Plane": "strain", "Material/Thickness": "20", "Material/Young's modulus": "3000",
+                           "Material/Poisson's ratio": "0.38", "Material aluminium/Where": "-y", "Material aluminium/Young's modulus": "70000",
+                           "Material aluminium/Poisson's ratio": "0.33", "Boundary bottom/Displacement": "0; 0",
+                           "Boundary top/Displacement": "0.05; -0.1", "Adaptivity/Start degree": "3", "Adaptivity/Maximum steps": "14"})
+        final = self.summary()["final"]
+        self.assertLess(final["energy_low"] - 1e-5, summary["final"]["energy"])
+        self.assertLess(summary["final"]["energy"], final["energy_high"] + 1e-5)
+
+    def test_a_stack(self):
+        """Each joint carries the weight above it and the force of the wind, 60 * 0.075."""
+        contact = self.run_shipped("stack")["contact"]
+        for name, weight in (("low.bottom", 104), ("middle.bottom", 64), ("high.bottom", 30)):
+            self.assertAlmostEqual(contact[name]["normal_resultant"], -weight, delta=1e-8)
+            self.assertAlmostEqual(abs(contact[name]["friction_resultant"]), 4.5, delta=1e-8)
+
+    def test_a_wedge(self):
+        """F = 2 N (sin a + mu cos a), tan a = 1/4, with F = 190 and friction of 0.2 that slips all along."""
+        contact = self.run_shipped("jaws")["contact"]
+        for name, sign in (("wedge.left", 1), ("wedge.right", -1)):
+            normal, friction = contact[name]["normal_resultant"], contact[name]["friction_resultant"]
+            self.assertAlmostEqual(normal, -95 * math.sqrt(17) / (1 + 4 * 0.2), delta=1e-8)
+            self.assertAlmostEqual(abs(friction), 0.2 * abs(normal), delta=1e-8)
+
+    def test_a_lap_joint(self):
+        """What slipped stays: the force at the end of a cycle is not that of its beginning, and each cycle takes energy."""
+        self.run_shipped("lap-joint")
+        rows = self.rows("loading.csv")
+        force = {round(20 * float(row["t"])): float(row["force_upper strap.right_x"]) for row in rows}
+        self.assertLess(max(abs(value) for value in force.values()), 0.4 * 200)
+        self.assertGreater(force[5], 50)
+        self.assertLess(force[10], -1)  # back where it was: what has slipped must be pushed
+        self.assertLess(force[15], -50)
+        last = {name: float(rows[-1][f"{name}_energy"]) for name in ("stored", "dissipated", "released", "unbalanced")}
+        self.assertGreater(last["dissipated"], 0.1)
+        self.assertAlmostEqual(float(rows[-1]["work"]), sum(last.values()), delta=1e-9)
 
     def test_a_slope_too_steep(self):
         """tan = 3/4: a coefficient of 0.74 holds 0.74 * 4.8 of the 3.6 along the slope."""
