@@ -29,6 +29,8 @@ EXAMPLES = {
     ("Geometry", "File"): "body.msh", ("Boundary NAME", "Curve"): "circle",
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Boundary NAME", "Contact direction"): "0.1; -1",
+    ("Body NAME", "Surfaces"): "liner, shell", ("Contact NAME", "Friction law"): "limited",
+    ("Contact NAME", "Gap"): "0.1*x^2", ("Contact NAME", "Friction coefficient"): "0.3", ("Contact NAME", "Slave"): "lower.top",
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
     ("Material", "Elasticity"): "orthotropic", ("Material", "Young's moduli"): "11000, 500, 700",
     ("Material", "Poisson's ratios"): "0.4, 0.35, 0.4", ("Material", "Shear moduli"): "700",
@@ -167,7 +169,7 @@ def assignments(text):
 
 def named(section):
     """NAME for what a scene names, or for a side."""
-    return re.sub("^(Boundary|Material) .*", r"\1 NAME", section)
+    return re.sub("^(Boundary|Material|Contact|Body(?! force$)) .*", r"\1 NAME", section)
 
 
 def scene_examples():
@@ -182,8 +184,8 @@ def scene_examples():
 
 
 def check_example(program, key, value):
-    if key == ("Error", "Reference solution"):
-        return  # names a file of another run
+    if key in (("Error", "Reference solution"), ("Body NAME", "Surfaces")):
+        return  # names a file of another run, surfaces of a mesh
     wood = [entry for entry in EXAMPLES if entry[0] == "Material" and entry[1] in ORTHOTROPIC]
     beside = {}
     if key in wood:  # one stands with the others
@@ -197,6 +199,12 @@ def check_example(program, key, value):
         scene, name = ROOT / f"tests/bad_input/{SHAPES[key[1]]}.prm", "inside"
         if key[1] == "Part":
             beside["Geometry/Centre"] = "0, 0"
+    if key[0] == "Contact NAME":
+        scene, name = ROOT / "prm/blocks.prm", "joint"
+        if key[1] == "Friction coefficient":
+            beside = {"Contact joint/Friction bound": ""}
+        elif key[1] == "Friction law":
+            beside = {"Contact joint/Friction coefficient": "0.3"}
     beside[f"{key[0].replace('NAME', name)}/{key[1]}"] = value
     run(program, "--validate", *(word for path, text in beside.items() for word in ("--set", f"{path}={text}")), scene)
 
@@ -218,6 +226,8 @@ def entries_page(program):
             continue  # of another side
         seen.add(key)
         of_all = (key[0].replace("Material NAME", "Material"), name)  # a named material inherits it
+        if key[0] == "Body NAME" and key not in examples and key not in EXAMPLES:
+            of_all = ("Geometry", name)  # which says the same of one body
         if key in examples or of_all in examples:
             value, where = examples.get(key) or examples[of_all]
         elif of_all in EXAMPLES:
@@ -307,7 +317,7 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "space", "processes", "results",
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "results",
                  "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
