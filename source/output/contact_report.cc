@@ -275,7 +275,7 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
 {
   std::string words;
   for (const ContactState<dim> &state : contact)
-    words += in_words(scene, state, equilibrium, on(state.boundary, unbounded));
+    words += in_words(scene, state, equilibrium, on(state.slave, unbounded));
   double scale = largest_force(equilibrium);
   for (const ContactState<dim> &state : contact)
     scale = std::max(scale, force_scale(equilibrium, state));
@@ -302,7 +302,7 @@ std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState
   std::string list;
   for (const ContactState<dim> &state : contact)
     list += (list.empty() ? "\n    " : ",\n    ") +
-            json(scene, state, equilibrium, on(state.boundary, unbounded));
+            json(scene, state, equilibrium, on(state.slave, unbounded));
   return "{" + list + (list.empty() ? "}" : "\n  }");
 }
 
