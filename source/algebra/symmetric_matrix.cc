@@ -11,18 +11,16 @@ namespace hpvi
 namespace
 {
 template <class Number>
-void resize_in_large_pages(std::vector<Number> &numbers, const std::size_t n)
+void reserve_in_large_pages(std::vector<Number> &numbers, const std::size_t n)
 {
-  if (n > numbers.capacity())
-  {
-    numbers.reserve(n);
-    want_large_pages(numbers.data() + numbers.size(), (n - numbers.size()) * sizeof(Number));
-  }
-  numbers.resize(n);
+  if (n <= numbers.capacity())
+    return;
+  numbers.reserve(n);
+  want_large_pages(numbers.data() + numbers.size(), (n - numbers.size()) * sizeof(Number));
 }
 } // namespace
 
-void SymmetricMatrix::resize(const std::size_t n_entries)
+void SymmetricMatrix::reserve(const std::size_t n_entries)
 {
   constexpr std::size_t highest = std::numeric_limits<int>::max();
   if (n_entries > highest)
@@ -32,7 +30,14 @@ void SymmetricMatrix::resize(const std::size_t n_entries)
                            "Geometry/Subdivisions");
   if (n_entries > row.size())
     require_memory(n_entries * double(sizeof(int) + sizeof(double)), "the stiffness matrix");
-  resize_in_large_pages(row, n_entries);
-  resize_in_large_pages(value, n_entries);
+  reserve_in_large_pages(row, n_entries);
+  reserve_in_large_pages(value, n_entries);
+}
+
+void SymmetricMatrix::resize(const std::size_t n_entries)
+{
+  reserve(n_entries);
+  row.resize(n_entries);
+  value.resize(n_entries);
 }
 } // namespace hpvi

@@ -141,7 +141,7 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
       ++first[target + 1];
     n_entries += contribution.targets.size() * (contribution.targets.size() + 1) / 2;
   }
-  A.resize(n_entries);
+  A.reserve(n_entries); // more than there will be: what no entry touches costs nothing
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Place> places(first.back());
   std::vector<unsigned int> next(first);
@@ -152,10 +152,9 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
   A.column_start.reserve(n + 1);
   std::vector<int> position(n, -1);
   std::vector<unsigned int> upper(most_targets + 1); // which targets are rows of the column
-  int end = 0;
   for (unsigned int column = 0; column < n; ++column)
   {
-    const int start = end;
+    const int start = A.row.size();
     for (unsigned int place = first[column]; place < first[column + 1]; ++place)
     {
       const Contribution &contribution = *places[place].contribution;
@@ -174,15 +173,15 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
         const unsigned int i = upper[k], row = targets[i];
         if (position[row] < start)
         {
-          position[row] = end;
-          A.row[end++] = row;
+          position[row] = A.row.size();
+          A.row.push_back(row);
+          A.value.push_back(0.);
         }
         A.value[position[row]] += values[i];
       }
     }
-    A.column_start.push_back(end);
+    A.column_start.push_back(A.row.size());
   }
-  A.resize(end);
 }
 
 // @sect3{Loads}

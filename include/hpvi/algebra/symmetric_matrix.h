@@ -18,7 +18,9 @@ struct SymmetricMatrix
    * Make room for @p n_entries. Throws NumericalFailure where they are more than an index can count,
    * or than there is memory for.
    */
-  void resize(std::size_t n_entries);
+  void reserve(std::size_t n_entries);
+
+  void resize(std::size_t n_entries); ///< likewise, and have them, new ones zero
 
   unsigned int n() const
   {
