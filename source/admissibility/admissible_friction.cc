@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/admissibility/friction_patch.h>
+#include <hpvi/contact/matching.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/stresses/legendre.h>
 
@@ -147,11 +148,13 @@ std::array<PatchFace, 2> FaceIntegrals<dim>::sides() const
   return result;
 }
 
-/** Do the faces of two sides lie on one straight line? */
+/** Do the faces of two sides lie on one straight line? What two bodies opposite share is no friction of either. */
 template <int dim>
 bool are_aligned(const PatchFace &a, const PatchFace &b, const std::vector<ContactFace<dim>> &faces)
 {
-  return (faces[a.face].frame(0.5).normal - faces[b.face].frame(0.5).normal).norm() < 1e-6;
+  const bool rubs_bodies = !faces[a.face].segments.empty() || !faces[b.face].segments.empty();
+  return !(rubs_bodies && faces[a.face].condition != faces[b.face].condition) &&
+         (faces[a.face].frame(0.5).normal - faces[b.face].frame(0.5).normal).norm() < 1e-6;
 }
 } // namespace
 
@@ -217,9 +220,7 @@ Vector<double> AdmissibleFriction<dim>::missing_forces(const Solution<dim> &solu
     const ContactFace<dim> &face = solution.contact_space.faces()[k];
     const unsigned int n = face.degree + 1;
     const Tensor<1, dim> tangent = face.frame(0.5).tangent;
-    const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-    const std::vector<unsigned int> &on_edge =
-        solution.tables.numbering(face.degree).edge[face.face_no];
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
     const FullMatrix<double> &shapes = solution.tables.edge(face.degree, face.n_points, n).shapes;
     const QGauss<1> &gauss = solution.tables.gauss(n);
     for (unsigned int q = 0; q < n; ++q)
@@ -228,7 +229,7 @@ Vector<double> AdmissibleFriction<dim>::missing_forces(const Solution<dim> &solu
                    work = gauss.weight(q) * (missing[k][0] * first + missing[k][1] * last);
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int j = 0; j < n; ++j)
-          result[dofs[on_edge[c * n + j]]] += work * shapes(q, j) * tangent[c];
+          dofs.add_force(c * n + j, work * shapes(q, j) * tangent[c], result);
     }
   }
   return result;

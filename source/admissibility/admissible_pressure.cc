@@ -2,6 +2,7 @@
 #include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/admissibility/pressed_face.h>
 #include <hpvi/admissibility/pressure_neighbourhoods.h>
+#include <hpvi/contact/matching.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,13 +73,11 @@ Vector<double> AdmissiblePressure<dim>::missing_forces(const Solution<dim> &solu
     const ContactFace<dim> &face = solution.contact_space.faces()[k];
     const unsigned int n = face.degree + 1;
     const Tensor<1, dim> normal = face.frame(0.5).normal;
-    const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-    const std::vector<unsigned int> &on_edge =
-        solution.tables.numbering(face.degree).edge[face.face_no];
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
     const auto add = [&](const unsigned int node, const double force)
     {
       for (unsigned int c = 0; c < dim; ++c)
-        result[dofs[on_edge[c * n + node]]] += force * normal[c];
+        dofs.add_force(c * n + node, force * normal[c], result);
     };
     // z_n at the nodes has their weights, as a multiplier it is integrated.
     const EdgePolynomial pi = value(k), z = discrete_pressure(face, solution);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/contact_trace.h>
+#include <hpvi/contact/matching.h>
 
 #include <iterator>
 #include <map>
@@ -34,23 +35,26 @@ Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
                const FullMatrix<double> &legendre)
 {
   const unsigned int n = face.degree + 1;
-  const auto dofs = solution.displacement_space.cell_dofs(face.cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(face.degree).edge[face.face_no];
+  const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
   std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
   Vector<double> u(n);
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int c = 0; c < dim; ++c)
     {
-      const types::global_dof_index dof = dofs[on_edge[c * n + j]];
-      u[j] += direction[c] * solution.u[dof];
-      for (const auto &[unknown, weight] : unknowns.terms(dof))
+      u[j] += direction[c] * dofs.jump(solution.u, c * n + j);
+      const auto add = [&](const types::global_dof_index dof, const double sign)
       {
-        Vector<double> &column = columns[unknown];
-        if (column.size() == 0)
-          column.reinit(n);
-        column[j] += direction[c] * weight;
-      }
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+        {
+          Vector<double> &column = columns[unknown];
+          if (column.size() == 0)
+            column.reinit(n);
+          column[j] += sign * direction[c] * weight;
+        }
+      };
+      add(dofs.own[c * n + j], 1.);
+      if (!dofs.opposite.empty())
+        add(dofs.opposite[c * n + j], -1.);
     }
   Trace result;
   Vector<double> of_u(n);

@@ -51,9 +51,21 @@ Vector<double> CorrectionSearch<dim>::fixed_displacement() const
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k] && openings[k]->mode == Opening::closed)
       all.set(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
+  for (const Joint &joint : joints)
+    all.set(faces[joint.face], joint.direction, EdgePolynomial(joint.trace.u));
   Vector<double> result = discretisation.unknowns.coordinates(all.u);
   result.grow_or_shrink(A.n());
   return result;
+}
+
+/** The largest jump of u_N - w along joints that must not open; 0 where that is round-off. */
+template <int dim>
+double CorrectionSearch<dim>::open_joints(const Vector<double> &w) const
+{
+  double result = 0;
+  for (const Joint &joint : joints)
+    result = std::max(result, joint.trace.rest(w).largest());
+  return result <= 1e-12 * solution.u.linfty_norm() ? 0. : result;
 }
 
 /** Is the normal displacement at an end of a face prescribed, so that w_n vanishes there? */
@@ -62,17 +74,18 @@ std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) co
 {
   const unsigned int n = faces[face].degree + 1;
   const Tensor<1, dim> normal = faces[face].frame(0.5).normal;
-  const auto dofs = solution.displacement_space.cell_dofs(faces[face].cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(faces[face].degree).edge[faces[face].face_no];
+  const FaceDofs<dim> dofs(faces[face], solution.displacement_space, solution.tables);
+  const auto is_held = [&](const auto &of_body, const unsigned int end)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      if (std::abs(normal[c]) > 1e-10 &&
+          discretisation.unknowns.terms(of_body[c * n + end * (n - 1)]).size() == 0)
+        return true;
+    return false;
+  };
   std::array<bool, 2> result{};
   for (unsigned int end = 0; end < 2; ++end)
-    for (unsigned int c = 0; c < dim; ++c)
-      result[end] =
-          result[end] ||
-          (std::abs(normal[c]) > 1e-10 &&
-           discretisation.unknowns.terms(dofs[on_edge[c * n + (end == 0 ? 0 : n - 1)]]).size() ==
-               0);
+    result[end] = is_held(dofs.own, end) && (dofs.opposite.empty() || is_held(dofs.opposite, end));
   return result;
 }
 
@@ -139,5 +152,6 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
 }
 
 template Vector<double> CorrectionSearch<2>::fixed_displacement() const;
+template double CorrectionSearch<2>::open_joints(const Vector<double> &) const;
 template double CorrectionSearch<2>::lift(Vector<double> &) const;
 } // namespace hpvi

@@ -46,24 +46,6 @@ bool add_condition(const Trace &trace, const EdgePolynomial &rest, const double 
   return true;
 }
 
-/** @p cells and those that share unknowns with them. */
-template <int dim>
-std::vector<bool> with_neighbours(const std::vector<bool> &cells,
-                                  const DisplacementSpace<dim> &space,
-                                  const Unknowns<dim> &unknowns, const unsigned int n_unknowns)
-{
-  std::vector<bool> touched(n_unknowns), result(cells);
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    if (cells[cell])
-      for (const auto dof : space.cell_dofs(cell))
-        for (const auto &[unknown, weight] : unknowns.terms(dof))
-          touched[unknown] = true;
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    for (const auto dof : space.cell_dofs(cell))
-      for (const auto &[unknown, weight] : unknowns.terms(dof))
-        result[cell] = result[cell] || touched[unknown];
-  return result;
-}
 } // namespace
 
 template <int dim>
@@ -81,6 +63,13 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
   {
     traces.push_back(trace_of(faces[k], faces[k].frame(0.5).tangent, solution,
                               discretisation.unknowns, tables.from_nodes(faces[k].degree)));
+    const Contact law = faces[k].condition->contact;
+    if (!faces[k].segments.empty() && (law == Contact::tied || law == Contact::bilateral))
+      joints.push_back({k, faces[k].frame(0.5).normal,
+                        trace_of(faces[k], faces[k].frame(0.5).normal, solution,
+                                 discretisation.unknowns, tables.from_nodes(faces[k].degree))});
+    if (!faces[k].segments.empty() && law == Contact::tied)
+      joints.push_back({k, faces[k].frame(0.5).tangent, traces[k]});
     if (!faces[k].condition->is_unilateral())
       continue;
     openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
@@ -118,7 +107,7 @@ template <int dim>
 typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::of(const Vector<double> &w) const
 {
   Candidate result{w, {}, 0., 0.};
-  result.penetration = lift(result.w);
+  result.penetration = std::max(lift(result.w), open_joints(result.w));
   result.total =
       result.penetration > 0. ? std::numeric_limits<double>::infinity() : A.energy(result.w);
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -144,70 +133,6 @@ void CorrectionSearch<dim>::take_better(Candidate &best, const Vector<double> &w
   Candidate next = of(w);
   if (next.total < best.total)
     best = std::move(next);
-}
-
-/**
- * Free are the traces, and what none but cells at the contact boundary have: w decays so fast into the body
- * more cells would change its energy by a few hundredths. A body that keeps its volume needs more room to move.
- * Along faces that slip everywhere, and are not @p nearby where others do not, w has nothing to mend.
- */
-template <int dim>
-std::vector<typename CorrectionSearch<dim>::Role>
-CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
-{
-  const Unknowns<dim> &unknowns = discretisation.unknowns;
-  const auto may_rub = [&](const unsigned int k)
-  { return !faces[k].friction.vanishes() && (slips[k].mode != Slip::everywhere || nearby[k]); };
-  std::vector<Role> result(A.n(), Role::free);
-  std::vector<bool> is_at_contact(solution.displacement_space.degrees().size());
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (may_rub(k) || is_near_pressure[k])
-      is_at_contact[faces[k].cell->active_cell_index()] = true;
-  if (solution.scene.is_nearly_incompressible())
-    is_at_contact = with_neighbours(is_at_contact, solution.displacement_space, unknowns, A.n());
-  for (unsigned int cell = 0; cell < is_at_contact.size(); ++cell)
-    if (!is_at_contact[cell])
-      for (const auto dof : solution.displacement_space.cell_dofs(cell))
-        for (const auto &[unknown, weight] : unknowns.terms(dof))
-          result[unknown] = Role::outside;
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    for (const unsigned int unknown : traces[k].unknowns)
-      if (slips[k].mode == Slip::nowhere)
-        result[unknown] = Role::fixed;
-      else if (may_rub(k) && result[unknown] == Role::outside)
-        result[unknown] = Role::free;
-  add_normal_roles(result);
-  return result;
-}
-
-/** At a corner of two sides both components share unknowns: what one of them fixes is fixed. */
-template <int dim>
-void CorrectionSearch<dim>::add_normal_roles(std::vector<Role> &roles) const
-{
-  for (const bool is_near : {false, true})
-    for (unsigned int k = 0; k < faces.size(); ++k)
-      if (openings[k] && is_near == is_near_pressure[k])
-        for (const unsigned int unknown : openings[k]->penetration.unknowns)
-          if (roles[unknown] != Role::fixed)
-            roles[unknown] = is_near ? Role::free : Role::outside;
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (openings[k] && openings[k]->mode == Opening::closed)
-      for (const unsigned int unknown : openings[k]->penetration.unknowns)
-        roles[unknown] = Role::fixed;
-}
-
-/** Does a face press, or one of two on either side of it, or does it penetrate? */
-template <int dim>
-bool CorrectionSearch<dim>::find_near_pressure(const unsigned int face) const
-{
-  if (!openings[face])
-    return false;
-  if (openings[face]->mode != Opening::open)
-    return true;
-  for (const unsigned int other : faces_beside(face, 2, faces))
-    if (openings[other]->mode != Opening::open)
-      return true;
-  return largest_value(EdgePolynomial(openings[face]->penetration.u), tolerance) > tolerance;
 }
 
 /**

@@ -140,6 +140,7 @@ void ReducedBackend<dim>::discretise()
     Refinement refinement{std::vector<bool>(cell_degrees.size()), cell_degrees};
     for (const unsigned int cell : missing->cells)
       refinement.bisect[cell] = true;
+    discretisation->spaces->keep_bound(scene, refinement);
     refine(refinement);
     assemble();
   }
@@ -298,6 +299,7 @@ void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
     refinement.bisect[load.cell] = true;
   for (const MissedDisplacement<dim> &displacement : missed_displacements)
     refinement.bisect[displacement.cell] = true;
+  discretisation->spaces->keep_bound(scene, refinement);
 }
 
 template <int dim>

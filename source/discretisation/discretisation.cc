@@ -5,6 +5,7 @@
 // To see what depends on what, read the initialiser lists.
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/contact/matching.h>
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/discretisation/initial_stress.h>
 
@@ -34,9 +35,17 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
 template <int dim>
 std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 {
-  const std::string why = scene.no_error_bound();
-  return why.empty() && !past.empty() ? "friction acts on increments after the first load step"
-                                      : why;
+  if (const std::string why = scene.no_error_bound(); !why.empty())
+    return why;
+  return past.empty() ? unmatched_joint(contact_space)
+                      : "friction acts on increments after the first load step";
+}
+
+template <int dim>
+void Spaces<dim>::keep_bound(const Scene<dim> &scene, Refinement &refinement) const
+{
+  if (scene.error_bound && no_error_bound(scene).empty())
+    keep_matching(contact_space, *mesh, refinement);
 }
 
 // @sect3{Discretisation}

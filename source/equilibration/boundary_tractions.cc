@@ -247,35 +247,47 @@ BoundaryTractions::EndShear BoundaryTractions::end_shear(const unsigned int inde
 
 /**
  * Corners of cells, by bits, where the edges of the boundary that meet prescribe different shears. The cells
- * of both share the difference, that of one cell takes it. So they do where other boundaries meet and the shear of one leans on an unknown traction that is not along it: 
+ * of both share the difference, that of one cell takes it. So they do where other boundaries meet and the shear of one leans on an unknown traction that is not along it:
  * that alone could pay for the difference, but by the more the less it leans. Equal shears differ by round-off of the largest
- * one, more so where vertices far from the origin are rounded.
+ * one, more so where vertices far from the origin are rounded. Where glued bodies begin to touch, the shear between them
+ * may be that of neither side.
  */
 std::vector<unsigned int> BoundaryTractions::marked_corners() const
 {
+  struct End
+  {
+    unsigned int edge, end, side;
+  };
   std::vector<unsigned int> result(patches.cells().size());
-  std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> ends;
+  std::map<unsigned int, std::vector<End>> ends;
   const std::vector<StressEdge> &all = patches.edges();
   for (unsigned int e = 0; e < all.size(); ++e)
     if (all[e].at_boundary())
       for (unsigned int end = 0; end < 2; ++end)
-        ends[all[e].vertices[end]].emplace_back(e, end);
+        for (unsigned int side = 0; side < all[e].sides.size(); ++side)
+          ends[(side == 0 ? all[e].vertices : all[e].vertices_opposite)[end]].push_back(
+              {e, end, side});
   double largest = 0;
   for (const auto &[vertex, edges] : ends)
-    for (const auto &[e, end] : edges)
+    for (const auto &[e, end, side] : edges)
       largest = std::max(largest, end_shear(e, end).scale);
   for (const auto &[vertex, edges] : ends)
   {
-    const StressEdge &first = all[edges[0].first], &second = all[edges[1].first];
-    const EndShear one = end_shear(edges[0].first, edges[0].second),
-                   other = end_shear(edges[1].first, edges[1].second);
+    const StressEdge &first = all[edges[0].edge], &second = all[edges[1].edge];
+    const EndShear one = end_shear(edges[0].edge, edges[0].end),
+                   other = end_shear(edges[1].edge, edges[1].end);
     const bool differs = std::abs(one.known - other.known) > 1e-10 * largest,
-               leans = first.boundary != second.boundary && (one.leans || other.leans);
-    if (one.is_free || other.is_free || !(differs || leans))
+               leans = first.boundary != second.boundary && (one.leans || other.leans),
+               is_end_of_joint = (first.joins_bodies() && one.is_free) !=
+                                 (second.joins_bodies() && other.is_free);
+    if (!is_end_of_joint && (one.is_free || other.is_free || !(differs || leans)))
       continue;
-    for (const auto &[e, end] : edges)
-      result[all[e].sides[0].cell] |=
-          1u << GeometryInfo<2>::face_to_cell_vertices(all[e].sides[0].face, end);
+    for (const auto &[e, end, side] : edges)
+    {
+      const StressEdge::Side &at = all[e].sides[side];
+      result[at.cell] |= 1u << GeometryInfo<2>::face_to_cell_vertices(
+                             at.face, at.part == reversed_edge ? 1 - end : end);
+    }
   }
   return result;
 }

@@ -266,10 +266,12 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     if (!edge.at_boundary())
       continue;
     const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
-    const CellConstants shape(map_of<2>(patches.cells()[cell].iterator));
     const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
     if (condition.has_traction() || condition.friction || condition.spring)
-      oscillation[cell] += shape.trace(face) * missed_traction(stress, e);
+      for (const StressEdge::Side &side : edge.sides) // friction between two bodies acts on both
+        oscillation[side.cell] +=
+            CellConstants(map_of<2>(patches.cells()[side.cell].iterator)).trace(side.face) *
+            missed_traction(stress, e);
     if (condition.has_displacement() || (condition.is_unilateral() && condition.gap))
     {
       const Missed missed = missed_displacement(solution, stress, e);

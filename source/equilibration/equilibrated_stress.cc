@@ -87,9 +87,17 @@ PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned
 /** By patches, or all at once where cells are so long that hat functions would cost too much. */
 void EquilibratedStress::set_tractions(const bool has_long_cells)
 {
-  for (const StressEdge &edge : vertex_patches.edges())
-    sums.push_back(
-        {{std::vector<double>(edge.components[0].n), std::vector<double>(edge.components[1].n)}});
+  for (unsigned int e = 0; e < vertex_patches.edges().size(); ++e)
+  {
+    const StressEdge &edge = vertex_patches.edges()[e];
+    sums.emplace_back();
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      sums[e][c].resize(edge.components[c].n);
+      for (unsigned int i = 0; !edge.components[c].is_unknown && i < sums[e][c].size(); ++i)
+        sums[e][c][i] = boundary.of_hats(e)[0][c][i] + boundary.of_hats(e)[1][c][i];
+    }
+  }
   if (has_long_cells)
     solve_all_cells();
   else
@@ -125,9 +133,10 @@ void EquilibratedStress::solve_patches()
       for (unsigned int face = 0; face < 4; ++face)
       {
         const unsigned int e = cell.edges[face];
-        const bool first = psi[GeometryInfo<2>::face_to_cell_vertices(face, 0)] != 0;
+        const bool reversed = cell.parts[face] == reversed_edge;
+        const bool first = psi[GeometryInfo<2>::face_to_cell_vertices(face, reversed)] != 0;
         const StressEdge &edge = vertex_patches.edges()[e];
-        if ((first || psi[GeometryInfo<2>::face_to_cell_vertices(face, 1)] !=
+        if ((first || psi[GeometryInfo<2>::face_to_cell_vertices(face, !reversed)] !=
                           0) && // linear along an edge that hangs here
             std::none_of(edges.begin(), edges.end(),
                          [&](const PatchEdge &other) { return other.index == e; }))
@@ -170,14 +179,10 @@ void EquilibratedStress::solve_all_cells()
     cell.defect = cell.gradient + n_edges;
     all_cells.push_back(cell);
   }
-  std::vector<std::array<std::vector<double>, 2>> given(vertex_patches.edges().size());
-  for (unsigned int e = 0; e < given.size(); ++e)
+  for (unsigned int e = 0; e < vertex_patches.edges().size(); ++e)
   {
     const StressEdge &edge = vertex_patches.edges()[e];
-    for (unsigned int c = 0; edge.at_boundary() && c < 2; ++c)
-      for (unsigned int i = 0; i < edge.components[c].n; ++i)
-        given[e][c].push_back(boundary.of_hats(e)[0][c][i] + boundary.of_hats(e)[1][c][i]);
-    all_edges.push_back({e, &edge, edge.at_boundary() ? &given[e] : nullptr, &sums[e]});
+    all_edges.push_back({e, &edge, edge.at_boundary() ? &sums[e] : nullptr, &sums[e]});
   }
   const WorstCondition worst = solve_all(all_cells, all_edges, cache.legendre);
   defect = worst.missed;
@@ -204,7 +209,7 @@ void EquilibratedStress::add_tractions(const unsigned int index, double *const a
         const std::vector<double> &t = sums[geometry.edges[face]][c];
         double *const target = all + element.edge_entry(face, row);
         const FullMatrix<double> *const half =
-            part == whole_edge ? nullptr : &cache.legendre.half(component.n, part);
+            part == whole_edge ? nullptr : &cache.legendre.part(component.n, part);
         for (unsigned int i = 0; i < component.n; ++i)
           if (!half)
             target[i] += weight * t[i];

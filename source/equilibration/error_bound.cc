@@ -113,7 +113,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
                 const Discretisation<2> &discretisation, const EquilibratedStress &stress,
                 const ContactCorrection<2> &correction, const DataError &data)
 {
-  const bool is_moved = solution.scene.has_unilateral_contact();
+  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
   const double w = is_moved ? norm(correction) : 0.,
                b = is_moved ? distance_from_admissible(correction, data) : data.lift,
                gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap());
@@ -327,7 +327,7 @@ try
   const DataError data(solution, stress);
   set_squares(result, solution, stress, correction, data);
   set_norms(result, stress, correction, data);
-  if (solution.scene.has_unilateral_contact())
+  if (solution.scene.has_unilateral_contact() || solution.scene.has_pairs())
     set_energy(
         result, solution, discretisation, stress,
         ContactCorrection<2>(solution, discretisation, made->friction, made->pressure, nullptr),

@@ -116,7 +116,7 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
         if (std::abs(weight) < 1e-12)
           continue;
         result.push_back({cell.element.edge_entry(face, row), component.n, weight,
-                          part == whole_edge ? nullptr : &cache.legendre.half(component.n, part),
+                          part == whole_edge ? nullptr : &cache.legendre.part(component.n, part),
                           first_unknown[e][c], edges[e].known ? &(*edges[e].known)[c] : nullptr});
       }
   }
@@ -289,10 +289,10 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
   for (const Block &b : parts)
     if (b.unknown == none)
       for (unsigned int i = 0; i < b.n; ++i)
-        if ((*b.known)[i] != 0.) // edges of the boundary do not hang
+        if ((*b.known)[i] != 0.) // edges of the boundary do not hang, and run the other way at most
         {
           known.resize(n_edges);
-          known[b.row + i] += b.weight * (*b.known)[i];
+          known[b.row + i] += b.weight * (b.R ? (*b.R)(i, i) : 1.) * (*b.known)[i];
         }
   if (!known.empty())
   {
@@ -354,10 +354,9 @@ PatchDefect PatchProblem::solve()
     for (unsigned int c = 0; c < 2; ++c)
     {
       const unsigned int first = first_unknown[e][c];
-      const double *const found = first == none ? (*edges[e].known)[c].data() : &x[first];
       std::vector<double> &sum = (*edges[e].sum)[c];
-      for (unsigned int i = 0; i < sum.size(); ++i)
-        sum[i] += found[i];
+      for (unsigned int i = 0; first != none && i < sum.size(); ++i)
+        sum[i] += x[first + i];
     }
   PatchDefect result;
   auto value = right.begin();

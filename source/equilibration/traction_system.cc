@@ -170,7 +170,7 @@ TractionSystem::Faces TractionSystem::faces_of(const PatchCell &cell,
             target[i] = weight;
           else
             for (unsigned int k = 0; k <= i; ++k)
-              target[k] = weight * legendre.half(component.n, part)(k, i);
+              target[k] = weight * legendre.part(component.n, part)(k, i);
         }
         if (component.is_unknown)
         {
@@ -359,9 +359,8 @@ WorstCondition TractionSystem::solve()
     for (unsigned int c = 0; c < 2; ++c)
     {
       std::vector<double> &sum = (*edges[e].sum)[c];
-      const bool is_unknown = edges[e].edge->components[c].is_unknown;
-      for (unsigned int i = 0; i < sum.size(); ++i)
-        sum[i] += is_unknown ? x[first[e][c] + i] : (*edges[e].known)[c][i];
+      for (unsigned int i = 0; edges[e].edge->components[c].is_unknown && i < sum.size(); ++i)
+        sum[i] += x[first[e][c] + i];
     }
   return worst(missed(x));
 }

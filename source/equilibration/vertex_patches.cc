@@ -1,21 +1,43 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/matching.h>
 #include <hpvi/equilibration/vertex_patches.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+/** Has it right angles, and edges along xi that are so for its neighbours, too? */
+bool is_in_rows_of_rectangles(const DoFHandler<2>::active_cell_iterator &cell)
+{
+  const Tensor<2, 2> J = map_of<2>(cell).jacobian({0.5, 0.5});
+  if (std::abs(J[0][0] * J[0][1] + J[1][0] * J[1][1]) > 1e-10 * J.norm_square())
+    return false;
+  for (const unsigned int f : cell->face_indices())
+    if (!cell->at_boundary(f) &&
+        (f < 2) != ((cell->neighbor_is_coarser(f) ? cell->neighbor_of_coarser_neighbor(f).first
+                                                  : cell->neighbor_face_no(f)) < 2))
+      return false;
+  return true;
+}
+} // namespace
+
 bool has_distorted_cells(const Solution<2> &solution)
 {
-  // Stresses of parallelograms share shears at corners, and know rows and columns of them alone.
-  if (solution.scene.geometry.has_mesh())
+  // Stresses of parallelograms share shears at corners, and know rows and columns of them alone; those of two bodies have
+  // no angle in common but the right one.
+  const Geometry<2> &geometry = solution.scene.geometry;
+  if (geometry.has_mesh() && geometry.bodies.empty())
     return true;
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-    if (!map_of<2>(cell).is_affine())
+    if (!map_of<2>(cell).is_affine() || (geometry.has_mesh() && !is_in_rows_of_rectangles(cell)))
       return true;
   return false;
 }
@@ -33,12 +55,27 @@ bool has_long_cells(const Solution<2> &solution)
   return false;
 }
 
+namespace
+{
+/** Of the cell of the body opposite: which way its edge runs, and how its own normal is turned. */
+std::pair<unsigned int, double> placed(const StressEdge &edge, const ContactSegment<2> &opposite)
+{
+  const auto face = opposite.cell->face(opposite.face_no);
+  const Tensor<1, 2> along = face->vertex(1) - face->vertex(0);
+  const double turn = opposite.face_no < 2 ? 1. : -1.;
+  const bool is_reversed = along * edge.tangent < 0.,
+             is_turned = Tensor<1, 2>({turn * along[1], -turn * along[0]}) * edge.normal < 0.;
+  return {is_reversed ? reversed_edge : whole_edge, is_reversed == is_turned ? 1. : -1.};
+}
+} // namespace
+
 VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_macro_cells)
     : has_macro_cells(has_macro_cells)
 {
   collect_edges(solution);
   for (StressEdge &edge : all_edges)
     set_components(solution.scene, edge);
+  join_vertices();
   set_hats(solution);
 }
 
@@ -48,16 +85,23 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
   all_cells.resize(degrees.size());
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> contact;
   const auto &contact_faces = solution.contact_space.faces();
+  std::set<std::pair<unsigned int, unsigned int>>
+      opposite; // faces that others have as their second side
   for (unsigned int f = 0; f < contact_faces.size(); ++f)
+  {
     contact[{contact_faces[f].cell->active_cell_index(), contact_faces[f].face_no}] = f;
+    for (const ContactSegment<2> &segment : contact_faces[f].segments)
+      opposite.insert({segment.cell->active_cell_index(), segment.face_no});
+  }
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
     for (unsigned int f = 0; f < 4; ++f)
     {
       const unsigned int index = cell->active_cell_index();
       const bool at_boundary = cell->at_boundary(f);
-      if (!at_boundary &&
-          (cell->neighbor_is_coarser(f) ||
-           (!cell->face(f)->has_children() && cell->neighbor(f)->active_cell_index() < index)))
+      if (at_boundary
+              ? opposite.count({index, f}) > 0
+              : cell->neighbor_is_coarser(f) || (!cell->face(f)->has_children() &&
+                                                 cell->neighbor(f)->active_cell_index() < index))
         continue; // seen from the other side
       StressEdge edge;
       edge.vertices = {{cell->face(f)->vertex_index(0), cell->face(f)->vertex_index(1)}};
@@ -92,12 +136,24 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
       if (!has_macro_cells && std::abs(across * edge.tangent) >
                                   1e-10 * across.norm()) // or round-off, far from the origin
         edge.skew = (across * edge.tangent) / (across * edge.normal);
+      if (edge.contact_face != numbers::invalid_unsigned_int)
+        if (const ContactSegment<2> *const other =
+                whole_face_opposite(contact_faces[edge.contact_face]))
+        {
+          const auto [part, turn] = placed(edge, *other);
+          edge.sides.push_back({other->cell->active_cell_index(), other->face_no, part});
+          for (unsigned int end = 0; end < 2; ++end)
+            edge.vertices_opposite[end] = other->cell->face(other->face_no)
+                                              ->vertex_index(part == reversed_edge ? 1 - end : end);
+          all_cells[edge.sides[1].cell].turns[other->face_no] = turn;
+        }
       for (const StressEdge::Side &side : edge.sides)
       {
         edge.degree = std::max(edge.degree, degrees[side.cell] + 2);
         all_cells[side.cell].edges[side.face] = all_edges.size();
         all_cells[side.cell].parts[side.face] = side.part;
-        all_cells[side.cell].turns[side.face] = (side.face < 2) == (f < 2) ? 1. : -1.;
+        if (!at_boundary)
+          all_cells[side.cell].turns[side.face] = (side.face < 2) == (f < 2) ? 1. : -1.;
       }
       all_edges.push_back(edge);
     }
@@ -114,8 +170,8 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
   if (condition.has_contact())
   {
-    one.is_unknown = condition.contact == Contact::bilateral;
-    other.is_unknown = false;
+    one.is_unknown = condition.contact == Contact::bilateral || condition.is_tied();
+    other.is_unknown = condition.is_tied();
     return;
   }
   if (condition.plate)
@@ -153,8 +209,30 @@ void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) cons
   other.n = along_edge ? edge.degree : one.n;
 }
 
+/** Where an unknown traction goes from one body to the other, both have the hat functions of the same vertices. */
+void VertexPatches::join_vertices()
+{
+  const auto first_of = [&](unsigned int vertex)
+  {
+    for (auto next = joined.find(vertex); next != joined.end(); next = joined.find(vertex))
+      vertex = next->second;
+    return vertex;
+  };
+  for (const StressEdge &edge : all_edges)
+    if (edge.joins_bodies())
+      for (unsigned int end = 0; end < 2; ++end)
+      {
+        const unsigned int own = first_of(edge.vertices[end]),
+                           other = first_of(edge.vertices_opposite[end]);
+        if (own != other)
+          joined[other] = own;
+      }
+}
+
 const std::map<unsigned int, double> &VertexPatches::expand(const unsigned int vertex)
 {
+  if (const auto one = joined.find(vertex); one != joined.end())
+    return expand(one->second);
   const auto known = values.find(vertex);
   if (known != values.end())
     return known->second;

@@ -330,15 +330,13 @@ std::string Scene<dim>::no_error_bound() const
   if (const BoundaryCondition<dim> *const oblique = oblique_contact(*this))
     return "contact of " + printable(oblique->name) +
            " acts along its Contact direction, which is not the normal";
-  if (has_pairs())
-    return "bodies touch each other, and the bound knows rigid foundations alone";
   if (is_axisymmetric())
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (geometry.has_curves())
     return "cells have curved edges, and stresses in equilibrium are known on straight ones";
-  if (!bound_on_distorted_cells && geometry.has_mesh())
+  if (!bound_on_distorted_cells && geometry.has_mesh() && geometry.bodies.empty())
     return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
   if (!bound_on_distorted_cells && !geometry.has_affine_cells())
     return "cells are no parallelograms, and Error/Bound on distorted cells is false";

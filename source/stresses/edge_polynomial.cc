@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/contact/matching.h>
 #include <hpvi/stresses/edge_polynomial.h>
 #include <hpvi/stresses/legendre.h>
 
@@ -273,14 +274,13 @@ EdgePolynomial edge_trace(const ContactFace<dim> &face, const Tensor<1, dim> &di
                           const Vector<double> &v)
 {
   const unsigned int p = face.degree, n = p + 1;
-  const auto dofs = space.cell_dofs(face.cell->active_cell_index());
-  const std::vector<unsigned int> &on_edge = tables.numbering(p).edge[face.face_no];
+  const FaceDofs<dim> dofs(face, space, tables);
   const FullMatrix<double> &shapes = tables.edge(p, face.n_points, n).shapes;
   std::vector<double> values(n);
   for (unsigned int q = 0; q < n; ++q)
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < n; ++j)
-        values[q] += shapes(q, j) * direction[c] * v[dofs[on_edge[c * n + j]]];
+        values[q] += shapes(q, j) * direction[c] * dofs.jump(v, c * n + j);
   return EdgePolynomial::through(values, tables.gauss(n));
 }
 

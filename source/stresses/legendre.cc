@@ -76,9 +76,15 @@ const FullMatrix<double> &LegendreTables::projection(const unsigned int n,
   return result;
 }
 
-const FullMatrix<double> &LegendreTables::half(const unsigned int n, const unsigned int part) const
+const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsigned int part) const
 {
-  FullMatrix<double> &result = halves[{{n, part}}];
+  FullMatrix<double> &result = parts[{{n, part}}];
+  if (result.m() == 0 && part == 2)
+  {
+    result.reinit(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      result(i, i) = i % 2 ? -1. : 1.;
+  }
   if (result.m() == 0)
   {
     const QGauss<1> gauss(n + 1);

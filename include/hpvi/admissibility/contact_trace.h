@@ -10,7 +10,7 @@
 
 namespace hpvi
 {
-/** One component of the displacement on a contact face by the unknowns of the linear system. */
+/** One component of the displacement on a contact face by the unknowns of the linear system; between two bodies of its jump. */
 struct Trace
 {
   std::vector<unsigned int> unknowns;

@@ -49,6 +49,14 @@ public:
   std::vector<double> energies(const dealii::Vector<double> &w) const; ///< |w|_a^2 by cell
 
 private:
+  /** A face of two bodies whose jump along @p direction is to vanish. */
+  struct Joint
+  {
+    unsigned int face;
+    dealii::Tensor<1, dim> direction;
+    Trace trace;
+  };
+
   enum class Role
   {
     outside, ///< w is zero there
@@ -67,6 +75,7 @@ private:
   std::vector<Role> roles(const std::vector<bool> &nearby) const;
   void add_normal_roles(std::vector<Role> &roles) const;
   dealii::Vector<double> fixed_displacement() const;
+  double open_joints(const dealii::Vector<double> &w) const;
   bool find_near_pressure(unsigned int face) const;
   /** How far a w_n is to go that is linear along each face: at vertices; and inside faces that are held at both ends. */
   struct Heights
@@ -106,6 +115,7 @@ private:
   std::vector<Slip> slips;
   std::vector<Trace> traces; ///< of u_t
   std::vector<std::optional<Opening>> openings;
+  std::vector<Joint> joints;
   std::vector<bool> is_near_pressure;       ///< by face
   BorderedMatrix A;                         ///< bordered by edge bubbles
   std::vector<unsigned int> cell_of_bubble; ///< by column of the border

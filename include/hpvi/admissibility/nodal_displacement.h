@@ -2,11 +2,14 @@
 #ifndef hpvi_nodal_displacement_h
 #define hpvi_nodal_displacement_h
 
+#include <hpvi/contact/matching.h>
 #include <hpvi/discretisation/solution.h>
 #include <hpvi/discretisation/unknowns.h>
 
+#include <array>
 #include <functional>
 #include <map>
+#include <vector>
 
 namespace hpvi
 {
@@ -20,7 +23,7 @@ public:
   {
   }
 
-  /** `direction u = wanted(s)` at the nodes of a face. Two sides that meet at a corner are both heeded. */
+  /** `direction u = wanted(s)` at the nodes of a face, u the jump where bodies match. Two sides that meet at a corner are both heeded. */
   void set(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
            const std::function<double(double)> &wanted);
 
@@ -33,6 +36,16 @@ public:
   dealii::Vector<double> u;
 
 private:
+  using Node = std::array<dealii::types::global_dof_index, dim>; ///< by component
+
+  Node node(const std::vector<dealii::types::global_dof_index> &face_dofs, unsigned int j) const;
+  double along(const dealii::Tensor<1, dim> &direction, const Node &node) const;
+  bool may_move(const Node &node, const dealii::Tensor<1, dim> &direction) const;
+  void move(const Node &node, const dealii::Tensor<1, dim> &direction, double missing);
+  void move_opposite(const ContactFace<dim> &face, const FaceDofs<dim> &dofs,
+                     const dealii::Tensor<1, dim> &direction,
+                     const std::function<double(double)> &wanted);
+
   const Solution<dim> &solution;
   const Unknowns<dim> &unknowns;
   std::map<dealii::types::global_dof_index, dealii::Tensor<1, dim>>

@@ -48,7 +48,8 @@ struct PatchEdge
   unsigned int index; ///< of the edge
   const StressEdge *edge;
   const std::array<std::vector<double>, 2> *known; ///< at the boundary: the components given there
-  std::array<std::vector<double>, 2> *sum;         ///< the traction is added
+  std::array<std::vector<double>, 2>
+      *sum; ///< tractions that are unknown are added; holds the others
 };
 
 /** What tractions miss of the conditions |N'r| of a patch: in equilibrium, and at corners where two edges ask for one shear. */

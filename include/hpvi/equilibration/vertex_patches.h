@@ -19,14 +19,17 @@ bool has_distorted_cells(const Solution<2> &solution);
  */
 bool has_long_cells(const Solution<2> &solution);
 
-/** One edge of the mesh with the traction `s n` of an equilibrated stress on it. */
+/** The part of an edge that a cell of the body opposite has, whose reference coordinate runs the other way. */
+constexpr unsigned int reversed_edge = 2;
+
+/** One edge of the mesh with the traction `s n` of an equilibrated stress on it; where bodies touch one of both. */
 struct StressEdge
 {
-  /** A cell at the edge; the smaller ones at a hanging node see a half of it. */
+  /** A cell at the edge; the smaller ones at a hanging node see a half of it; at the boundary that of the body opposite. */
   struct Side
   {
     unsigned int cell, face;
-    unsigned int part; ///< 0, 1, or whole_edge
+    unsigned int part; ///< 0, 1, whole_edge or reversed_edge
   };
 
   /** The traction in one direction: a polynomial with @p n coefficients. */
@@ -38,9 +41,11 @@ struct StressEdge
   };
 
   std::array<unsigned int, 2> vertices; ///< along the reference coordinate
-  std::vector<Side> sides;              ///< that of the whole edge first
-  unsigned int degree = 0;              ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
-  dealii::Tensor<1, 2> normal;          ///< of the traction: towards growing xi or eta
+  std::array<unsigned int, 2>
+      vertices_opposite{};     ///< likewise those of the body opposite, if there is one
+  std::vector<Side> sides;     ///< that of the whole edge first
+  unsigned int degree = 0;     ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
+  dealii::Tensor<1, 2> normal; ///< of the traction: towards growing xi or eta
   dealii::Tensor<1, 2> tangent;
   double skew =
       0; ///< of a parallelogram's sides: the shear in its frame is `S_xy = T_t - skew T_n`
@@ -51,6 +56,13 @@ struct StressEdge
   bool at_boundary() const
   {
     return boundary != dealii::numbers::invalid_boundary_id;
+  }
+
+  /** Do both bodies that touch along it have a part of the traction in common that is unknown? */
+  bool joins_bodies() const
+  {
+    return at_boundary() && sides.size() == 2 &&
+           (components[0].is_unknown || components[1].is_unknown);
   }
 
   /** Weight of a component in S_xy, which corners have from both of their edges. */
@@ -64,6 +76,9 @@ struct StressEdge
  * The edges of a mesh and the hat functions psi_a of its regular vertices: bilinear on each cell,
  * continuous, so that a hanging node has the mean of the ends of its edge. `sum_a psi_a = 1`, and the
  * patch of a is where psi_a does not vanish.
+ *
+ * Two bodies that touch have whole edges opposite to each other, unmatched_joint() says. Where they hand over an unknown traction
+ * their vertices are one, psi_a is continuous from body to body, and so are patches.
  */
 class VertexPatches
 {
@@ -105,6 +120,7 @@ public:
 
 private:
   void collect_edges(const Solution<2> &solution);
+  void join_vertices();
   void set_directions(const Scene<2> &scene, StressEdge &edge) const;
   void set_components(const Scene<2> &scene, StressEdge &edge) const;
   void set_hats(const Solution<2> &solution);
@@ -112,7 +128,8 @@ private:
 
   std::vector<StressEdge> all_edges;
   std::vector<Cell> all_cells;
-  std::map<unsigned int, std::array<unsigned int, 2>> hanging;   ///< vertex: ends of its edge
+  std::map<unsigned int, std::array<unsigned int, 2>> hanging; ///< vertex: ends of its edge
+  std::map<unsigned int, unsigned int> joined; ///< vertex: that which it is one with
   std::map<unsigned int, std::map<unsigned int, double>> values; ///< by vertex v, then a
   std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> all_patches;
 };

@@ -87,7 +87,7 @@ template <int dim>
 FrictionRule traction_rule(const ContactFace<dim> &face, unsigned int degree,
                            const ShapeTables<dim> &tables);
 
-/** v in one direction along a contact face, for displacement unknowns v of the space. */
+/** v in one direction along a contact face, for displacement unknowns v of the space; between bodies that match their jump. */
 template <int dim>
 EdgePolynomial edge_trace(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
                           const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,

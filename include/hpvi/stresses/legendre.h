@@ -58,8 +58,8 @@ double evaluate(const std::vector<double> &coefficients, double x);
 class LegendreTables
 {
 public:
-  /** n x n: coefficients on the first (0) or second (1) half of an interval from those on the whole. */
-  const dealii::FullMatrix<double> &half(unsigned int n, unsigned int part) const;
+  /** n x n: coefficients on the first (0) or second (1) half of an interval from those on the whole; or (2) on the whole, the other way. */
+  const dealii::FullMatrix<double> &part(unsigned int n, unsigned int part) const;
 
   /** (p+1) x (p+1): coefficients from values at the Gauss-Lobatto nodes of FE_Q(p). */
   const dealii::FullMatrix<double> &from_nodes(unsigned int degree) const;
@@ -73,7 +73,7 @@ public:
 
 private:
   using Matrices = std::map<std::array<unsigned int, 2>, dealii::FullMatrix<double>>;
-  mutable Matrices halves, projections;
+  mutable Matrices parts, projections;
   mutable std::map<unsigned int, dealii::FullMatrix<double>> nodal;
   mutable std::map<unsigned int, std::vector<unsigned int>>
       numberings; ///< lexicographic, by degree

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/contact/matching.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double hair = 1e-9; ///< of an edge: round-off of ends that lie opposite to each other
+} // namespace
+
+template <int dim>
+const ContactSegment<dim> *whole_face_opposite(const ContactFace<dim> &face)
+{
+  if (face.segments.size() != 1)
+    return nullptr;
+  const ContactSegment<dim> &only = face.segments[0];
+  const bool is_whole = only.begin <= hair && only.end >= 1. - hair &&
+                        std::abs(only.at_end - only.at_begin) >= 1. - hair;
+  return is_whole ? &only : nullptr;
+}
+
+template <int dim>
+FaceDofs<dim>::FaceDofs(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                        const ShapeTables<dim> &tables)
+{
+  const unsigned int n = face.degree + 1;
+  const auto dofs = space.cell_dofs(face.cell->active_cell_index());
+  for (const unsigned int i : tables.numbering(face.degree).edge[face.face_no])
+    own.push_back(dofs[i]);
+  const ContactSegment<dim> *const other = whole_face_opposite(face);
+  if (!other || other->degree != face.degree)
+    return;
+  const auto others = space.cell_dofs(other->cell->active_cell_index());
+  const std::vector<unsigned int> &edge = tables.numbering(face.degree).edge[other->face_no];
+  const bool is_reversed = other->at_end < other->at_begin;
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int j = 0; j < n; ++j)
+      opposite.push_back(others[edge[c * n + (is_reversed ? n - 1 - j : j)]]);
+}
+
+template <int dim>
+std::string unmatched_joint(const ContactSpace<dim> &contact_space)
+{
+  for (const ContactFace<dim> &face : contact_space.faces())
+  {
+    if (face.segments.empty())
+      continue;
+    const ContactSegment<dim> *const opposite = whole_face_opposite(face);
+    const std::string place =
+        " along " + printable(face.condition->name) + " at " + to_string(face.point(0.5));
+    if (!opposite)
+      return "the meshes of two bodies do not match, vertex to vertex," + place;
+    if (opposite->degree != face.degree)
+      return "cells of two bodies have unequal degrees" + place;
+  }
+  return {};
+}
+
+template <int dim>
+void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<dim> &triangulation,
+                   Refinement &refinement)
+{
+  std::vector<std::pair<unsigned int, unsigned int>> joints; // cells
+  for (const ContactFace<dim> &face : contact_space.faces())
+    if (const ContactSegment<dim> *const opposite = whole_face_opposite(face))
+      joints.emplace_back(face.cell->active_cell_index(), opposite->cell->active_cell_index());
+  if (joints.empty())
+    return;
+  Triangulation<dim> trial;
+  trial.copy_triangulation(triangulation);
+  for (bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    for (const auto &cell : trial.active_cell_iterators())
+      if (refinement.bisect[cell->active_cell_index()])
+        cell->set_refine_flag();
+    trial.prepare_coarsening_and_refinement();
+    for (const auto &cell : trial.active_cell_iterators())
+      if (cell->refine_flag_set())
+        refinement.bisect[cell->active_cell_index()] = true;
+    for (const auto &[one, other] : joints)
+      if (refinement.bisect[one] != refinement.bisect[other])
+      {
+        refinement.bisect[one] = refinement.bisect[other] = true;
+        is_changed = true;
+      }
+  }
+  // A cell may touch several: degrees go on from one to the next.
+  for (bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    for (const auto &[one, other] : joints)
+      if (refinement.degrees[one] != refinement.degrees[other] && !refinement.bisect[one])
+      {
+        refinement.degrees[one] = refinement.degrees[other] =
+            std::max(refinement.degrees[one], refinement.degrees[other]);
+        is_changed = true;
+      }
+  }
+}
+
+template struct FaceDofs<2>;
+template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
+template std::string unmatched_joint(const ContactSpace<2> &);
+template void keep_matching(const ContactSpace<2> &, const Triangulation<2> &, Refinement &);
+} // namespace hpvi
