@@ -12,7 +12,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/curved_edges.h>
 #include <hpvi/body/folded_cell.h>
-#include <hpvi/body/mesh.h>
+#include <hpvi/contact/matching.h>
 #include <hpvi/discretisation/loaded_motions.h>
 #include <hpvi/discretisation/negligible_solution.h>
 #include <hpvi/evaluation/solution_field.h>
@@ -49,6 +49,7 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
   make_mesh(scene, *coarse);
   cell_degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
   set_edge_degrees(*coarse, cell_degrees);
+  match_nested(scene, *tables, *coarse, cell_degrees);
   mesh = coarse;
   loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
 }

@@ -64,6 +64,58 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space)
   return {};
 }
 
+namespace
+{
+/** Is [begin, end] a part of [0, 1] that bisections make of it? */
+bool is_dyadic(const double begin, const double end)
+{
+  const double n = std::round(1. / (end - begin)), level = std::log2(n);
+  return std::abs(n * (end - begin) - 1.) < 1e-6 && level == std::round(level) &&
+         std::abs(n * begin - std::round(n * begin)) < 1e-6;
+}
+/** The coarser cells of joints that bisections can make match; no cell where all match, or some never will. */
+template <int dim>
+std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const unsigned int n_cells)
+{
+  std::vector<bool> result(n_cells);
+  for (const ContactFace<dim> &face : contact_space.faces())
+    for (const ContactSegment<dim> &segment : face.segments)
+    {
+      const auto [begin, end] = std::minmax(segment.at_begin, segment.at_end);
+      const bool fills_own = segment.end - segment.begin >= 1. - hair,
+                 fills_opposite = end - begin >= 1. - hair;
+      if (!(fills_own || fills_opposite) || !is_dyadic(segment.begin, segment.end) ||
+          !is_dyadic(begin, end))
+        return std::vector<bool>(n_cells);
+      if (!fills_own)
+        result[face.cell->active_cell_index()] = true;
+      if (!fills_opposite)
+        result[segment.cell->active_cell_index()] = true;
+    }
+  return result;
+}
+} // namespace
+
+template <int dim>
+void match_nested(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                  Triangulation<dim> &triangulation, Degrees &degrees)
+{
+  const auto next = [&]
+  {
+    const DisplacementSpace<dim> space(scene, triangulation, degrees, tables);
+    return Refinement{
+        nested_cells(ContactSpace<dim>(scene, space, tables), triangulation.n_active_cells()),
+        degrees};
+  };
+  bool matches = !scene.has_pairs() || !scene.error_bound || !scene.no_error_bound().empty();
+  while (!matches)
+  {
+    const Refinement refinement = next();
+    matches = refinement.is_empty(degrees);
+    degrees = refine_mesh(triangulation, degrees, refinement);
+  }
+}
+
 template <int dim>
 void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<dim> &triangulation,
                    Refinement &refinement)
@@ -110,5 +162,6 @@ void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<d
 template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
+template void match_nested(const Scene<2> &, const ShapeTables<2> &, Triangulation<2> &, Degrees &);
 template void keep_matching(const ContactSpace<2> &, const Triangulation<2> &, Refinement &);
 } // namespace hpvi

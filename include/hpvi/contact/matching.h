@@ -45,6 +45,14 @@ template <int dim>
 std::string unmatched_joint(const ContactSpace<dim> &contact_space);
 
 /**
+ * Where a bound is asked for, bisects cells of a mesh along joints until bodies match there, where each edge of one is a half, a
+ * quarter, ... of an edge of the other, or the reverse. Where some edges never will nothing is done.
+ */
+template <int dim>
+void match_nested(const Scene<dim> &scene, const ShapeTables<dim> &tables,
+                  dealii::Triangulation<dim> &triangulation, Degrees &degrees);
+
+/**
  * Adds to @p refinement what it takes for joints that match to match again: of two cells opposite to each other both are
  * bisected, by deal.II's 2:1 closure too, or neither, and both have the higher degree.
  */
