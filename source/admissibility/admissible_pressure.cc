@@ -21,7 +21,8 @@ AdmissiblePressure<dim>::AdmissiblePressure(const Solution<dim> &solution)
   std::map<unsigned int, PressedFace> faces;
   double scale = 0;
   for (unsigned int k = 0; k < parts.size(); ++k)
-    if (const ContactFace<dim> &face = solution.contact_space.faces()[k]; !face.pressures.empty())
+    if (const ContactFace<dim> &face = solution.contact_space.faces()[k];
+        face.condition->is_unilateral() && !face.pressures.empty()) // others may pull
     {
       faces[k] = pressed_face(face, solution, legendre);
       for (const unsigned int pressure : face.pressures)

@@ -6,7 +6,9 @@
 //     attack SECONDS SEED DIRECTORY       as many scenes as fit
 //     attack --scenes N SEED DIRECTORY    that many
 //     attack --scene K SEED DIRECTORY     one of them again
+//     attack --bodies ...                 of these bodies that touch each other
 #include "rough_scene.h"
+#include "touching_scene.h"
 
 #include <deal.II/base/mpi.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
@@ -109,8 +111,8 @@ std::string first_words(const std::string &message)
 class Attack
 {
 public:
-  Attack(const unsigned int seed, const std::filesystem::path &directory)
-      : seed(seed), directory(directory),
+  Attack(const unsigned int seed, const std::filesystem::path &directory, const bool has_bodies)
+      : seed(seed), directory(directory), has_bodies(has_bodies),
         stem((directory / ("running-" + std::to_string(getpid()))).string())
   {
     std::filesystem::create_directories(directory);
@@ -136,6 +138,7 @@ private:
 
   const unsigned int seed;
   const std::filesystem::path directory;
+  const bool has_bodies;
   const std::string stem; ///< of the files of the scene that is tried
 };
 
@@ -220,7 +223,8 @@ void Attack::keep(const unsigned int number, const std::vector<std::string> &fla
 void Attack::try_scene(const unsigned int number)
 {
   std::mt19937 random(seed + 1000003 * number);
-  std::ofstream(stem + ".prm") << attack::rough_scene(random);
+  std::ofstream(stem + ".prm") << (has_bodies ? attack::touching_scene(random)
+                                              : attack::rough_scene(random));
   ++score.n_scenes;
   double of_reference;
   const Run reference = solve_reference(of_reference);
@@ -246,16 +250,20 @@ void Attack::try_scene(const unsigned int number)
 int main(int argc, char *argv[])
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool has_bodies = argc > 1 && std::string(argv[1]) == "--bodies";
+  argc -= has_bodies;
+  argv += has_bodies;
   const std::string word = argc > 1 ? argv[1] : "";
   const bool counts = word == "--scenes", one = word == "--scene";
   if (argc != (counts || one ? 5 : 4))
   {
-    std::cerr << "attack: wants SECONDS SEED DIRECTORY, or --scenes N SEED DIRECTORY, or --scene K "
-                 "SEED DIRECTORY\n";
+    std::cerr
+        << "attack: wants [--bodies] SECONDS SEED DIRECTORY, or --scenes N SEED DIRECTORY, or "
+           "--scene K SEED DIRECTORY\n";
     return 1;
   }
   const double limit = std::atof(argv[argc - 3]);
-  Attack attack(std::atoi(argv[argc - 2]), argv[argc - 1]);
+  Attack attack(std::atoi(argv[argc - 2]), argv[argc - 1], has_bodies);
   const auto begin = std::chrono::steady_clock::now();
   unsigned int number = one ? limit : 0;
   const auto goes_on = [&]
