@@ -174,59 +174,123 @@ private:
 };
 
 /** Two elastic bodies without friction, a = 0.7, p_0 = 7: each is Hertz's half space on a plane, their gaps add up. */
+struct HertzOfTwo
+{
+  static constexpr double a = 0.7, k = 10, energy = .133954906582 + .207680549090;
+
+  /** @p below: cells of the lower body and how often it is graded; 6, 3 and 7 above. */
+  HertzOfTwo(const std::string &below_cells, const std::string &below_levels,
+             const Overrides &method)
+  {
+    Overrides entries{{"Body upper/Lower corner", "-2, 0"},
+                      {"Body upper/Upper corner", "2, 2"},
+                      {"Body upper/Subdivisions", "6, 3"},
+                      {"Body upper/Graded towards", "-0.7, 0; 0.7, 0"},
+                      {"Body upper/Grading levels", "7"},
+                      {"Body lower/Lower corner", "-2, -1"},
+                      {"Body lower/Upper corner", "2, 0"},
+                      {"Body lower/Subdivisions", below_cells},
+                      {"Body lower/Graded towards", "-0.7, 0; 0.7, 0"},
+                      {"Body lower/Grading levels", below_levels},
+                      {"Body lower/Material", "soft"},
+                      {"Material/Young's modulus", "200"},
+                      {"Material/Poisson's ratio", "0.3"},
+                      {"Material soft/Young's modulus", "100"},
+                      {"Material soft/Poisson's ratio", "0.2"},
+                      {"Contact line/Between", "upper.bottom, lower.top"},
+                      {"Contact line/Gap", "x^2/2/3.53356890459"}};
+    for (const char *const side :
+         {"upper.top", "upper.left", "upper.right", "lower.bottom", "lower.left", "lower.right"})
+      entries.emplace_back("Boundary " + std::string(side) + "/Displacement", "0; 0");
+    entries.insert(entries.end(), method.begin(), method.end());
+    scene = scene_of(entries);
+    fields = {{std::make_shared<const Hertz>(scene.materials[0], k * a, a, 0.),
+               std::make_shared<const Mirrored>(
+                   std::make_shared<const Hertz>(scene.materials[1], k * a, a, 0.))}};
+    for (BoundaryCondition<2> &boundary : scene.boundaries)
+      for (unsigned int c = 0; boundary.has_displacement() && c < 2; ++c)
+        boundary.displacement[c] =
+            std::make_shared<ExactDisplacement<2>>(fields[boundary.name[0] == 'l'], c);
+  }
+
+  /** |u - u_N|_a of both bodies by 24^2 points in each cell. */
+  double error(const Solution<2> &solution) const
+  {
+    const QGauss<2> gauss(24);
+    double square = 0;
+    for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    {
+      const unsigned int index = cell->active_cell_index(),
+                         p = solution.displacement_space.degrees()[index];
+      const ShapeTable<2> table = tabulate<2>(p, gauss.get_points(), gauss.get_weights(), false);
+      const std::vector<double> slopes = evaluate(table.derivatives, solution.coefficients(index));
+      const CellMap<2> map = map_of<2>(cell);
+      const HookesLaw<2> law(scene.material_of(cell));
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const Tensor<2, 2> J = map.jacobian(gauss.point(q));
+        const Point<2> x = map.point(gauss.point(q));
+        Tensor<2, 2> missed = physical_gradient<2>(slopes, 2 * q, 2 * gauss.size(), invert(J));
+        missed -= fields[x[1] < 0]->gradient(x);
+        square += gauss.weight(q) * determinant(J) * law.energy_product(missed);
+      }
+    }
+    return std::sqrt(square);
+  }
+
+  Scene<2> scene;
+  std::array<std::shared_ptr<const ExactSolution<2>>, 2> fields; ///< above, below
+};
+
 TEST(Bodies, PressEachOtherAsHertzSays)
 {
-  const double a = 0.7, k = 10;
-  Scene<2> scene = scene_of({{"Body upper/Lower corner", "-2, 0"},
-                             {"Body upper/Upper corner", "2, 2"},
-                             {"Body upper/Subdivisions", "6, 3"},
-                             {"Body upper/Graded towards", "-0.7, 0; 0.7, 0"},
-                             {"Body upper/Grading levels", "7"},
-                             {"Body lower/Lower corner", "-2, -1"},
-                             {"Body lower/Upper corner", "2, 0"},
-                             {"Body lower/Subdivisions", "5, 2"},
-                             {"Body lower/Graded towards", "-0.7, 0; 0.7, 0"},
-                             {"Body lower/Grading levels", "6"},
-                             {"Body lower/Material", "soft"},
-                             {"Material/Young's modulus", "200"},
-                             {"Material/Poisson's ratio", "0.3"},
-                             {"Material soft/Young's modulus", "100"},
-                             {"Material soft/Poisson's ratio", "0.2"},
-                             {"Contact line/Between", "upper.bottom, lower.top"},
-                             {"Contact line/Gap", "x^2/2/3.53356890459"},
-                             {"Boundary upper.top/Displacement", "0; 0"},
-                             {"Boundary upper.left/Displacement", "0; 0"},
-                             {"Boundary upper.right/Displacement", "0; 0"},
-                             {"Boundary lower.bottom/Displacement", "0; 0"},
-                             {"Boundary lower.left/Displacement", "0; 0"},
-                             {"Boundary lower.right/Displacement", "0; 0"},
-                             {"Adaptivity/Method", "pu"},
-                             {"Adaptivity/Start degree", "6"},
-                             {"Adaptivity/Maximum steps", "1"}});
-  const auto above = std::make_shared<const Hertz>(scene.materials[0], k * a, a, 0.),
-             below = std::make_shared<const Hertz>(scene.materials[1], k * a, a, 0.);
-  const std::shared_ptr<const ExactSolution<2>> fields[] = {
-      above, std::make_shared<const Mirrored>(below)};
-  for (const std::string side :
-       {"upper.top", "upper.left", "upper.right", "lower.bottom", "lower.left", "lower.right"})
-    for (const unsigned int c : {0, 1})
-      scene.boundary(side).displacement[c] =
-          std::make_shared<ExactDisplacement<2>>(fields[side[0] == 'l'], c);
-  AdaptiveSolver<2>(scene).run(
-      [&](const StepReport<2> &step)
-      {
-        EXPECT_NEAR(step.energies.energy, .133954906582 + .207680549090, 2e-7);
-        const ContactState<2> &contact = step.contact[0];
-        EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 1e-4);
-        ASSERT_EQ(contact.transitions.size(), 2U);
-        EXPECT_NEAR(contact.transitions[0][0], -a, 2e-3);
-        EXPECT_NEAR(contact.transitions[1][0], a, 2e-3);
-        for (const ContactPoint<2> &point : contact.points)
-        {
-          const double x = std::abs(point.x[0]) < 0.6 ? point.x[0] : 0.;
-          EXPECT_NEAR(x == 0 ? -k * a : point.normal_traction, -k * half_ellipse(x, a), 1e-3);
-        }
-      });
+  constexpr double a = HertzOfTwo::a, k = HertzOfTwo::k;
+  const HertzOfTwo hertz("5, 2", "6",
+                         {{"Adaptivity/Method", "pu"},
+                          {"Adaptivity/Start degree", "6"},
+                          {"Adaptivity/Maximum steps", "1"}});
+  AdaptiveSolver<2>(hertz.scene)
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            EXPECT_NEAR(step.energies.energy, HertzOfTwo::energy, 2e-7);
+            const ContactState<2> &contact = step.contact[0];
+            EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 1e-4);
+            ASSERT_EQ(contact.transitions.size(), 2U);
+            EXPECT_NEAR(contact.transitions[0][0], -a, 2e-3);
+            EXPECT_NEAR(contact.transitions[1][0], a, 2e-3);
+            for (const ContactPoint<2> &point : contact.points)
+            {
+              const double x = std::abs(point.x[0]) < 0.6 ? point.x[0] : 0.;
+              EXPECT_NEAR(x == 0 ? -k * a : point.normal_traction, -k * half_ellipse(x, a), 1e-3);
+            }
+          });
+}
+
+/** Where meshes match there is a bound: above the error, and energies are known to be within an interval. */
+TEST(Bodies, HaveABoundOfTheirErrorByHertz)
+{
+  for (const std::string method : {"pu", "hpa3"})
+  {
+    const HertzOfTwo hertz("6, 2", "7",
+                           {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "5"}});
+    unsigned int n_bounds = 0;
+    AdaptiveSolver<2>(hertz.scene)
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              ++n_bounds;
+              const double error = hertz.error(step.solution());
+              EXPECT_GE(step.bound->total, error) << method;
+              EXPECT_LE(step.bound->total, 2.5 * error) << method;
+              EXPECT_LE(step.energies.energy - step.bound->energy_below,
+                        HertzOfTwo::energy + 1e-12);
+              EXPECT_GE(step.energies.energy + step.bound->energy_above,
+                        HertzOfTwo::energy - 1e-12);
+            });
+    EXPECT_EQ(n_bounds, 5U);
+  }
 }
 
 /** Hertz's field and what friction f k sqrt(a^2 - x^2) adds, less that of a smaller zone |x| < c where bodies stick: Cattaneo's. */

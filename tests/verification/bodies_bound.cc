@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The guaranteed bound where bodies touch: one traction for both, meshes that match and go on so, known energies.
+#include "discretisation.h"
+
+#include <hpvi/admissibility/admissible_friction.h>
+#include <hpvi/admissibility/admissible_pressure.h>
+#include <hpvi/contact/matching.h>
+#include <hpvi/equilibration/error_bound.h>
+
+#include <cmath>
+
+namespace
+{
+using namespace verification;
+
+/** Two blocks, the upper one given by its corners in any order, with the name of its lower and upper side. */
+struct Blocks
+{
+  std::string corners, cells, bottom, top;
+};
+
+const Blocks upright{"0, 0; 2, 0; 2, 1; 0, 1", "4, 2", "bottom", "top"},
+    upside_down{"2, 1; 0, 1; 0, 0; 2, 0", "4, 2", "top", "bottom"},
+    on_its_side{"0, 1; 0, 0; 2, 0; 2, 1", "2, 4", "right", "left"},
+    skew{"0, 0; 2, 0; 2.3, 1; 0.3, 1", "4, 2", "bottom", "top"};
+
+Scene<2> scene_of_blocks(const Blocks &upper, const Overrides &joint, const Overrides &others = {})
+{
+  Overrides entries{{"Body lower/Shape", "quadrilateral"},
+                    {"Body lower/Corners", "-0.5, -1; 2.5, -1; 2.5, 0; -0.5, 0"},
+                    {"Body lower/Subdivisions", "6, 2"},
+                    {"Body lower/Material", "other"},
+                    {"Body upper/Shape", "quadrilateral"},
+                    {"Body upper/Corners", upper.corners},
+                    {"Body upper/Subdivisions", upper.cells},
+                    {"Material/Young's modulus", "10"},
+                    {"Material/Poisson's ratio", "0.3"},
+                    {"Material other/Young's modulus", "25"},
+                    {"Material other/Poisson's ratio", "0.2"},
+                    {"Contact joint/Between", "upper." + upper.bottom + ", lower.top"},
+                    {"Boundary lower.bottom/Displacement", "0; 0"},
+                    {"Boundary upper." + upper.top + "/Displacement", "0.03; -0.02"},
+                    {"Error/Bound on distorted cells", "true"}};
+  for (const auto &entry : joint)
+    entries.emplace_back("Contact joint/" + entry.first, entry.second);
+  entries.insert(entries.end(), others.begin(), others.end());
+  return scene_of(entries);
+}
+
+/** A mesh that matches, bisected and raised at random, and what it takes to match again. */
+struct MatchingMesh
+{
+  Triangulation<2> mesh;
+  Degrees degrees;
+  unsigned int n_unmatched = 0; ///< how often something had to be added
+
+  MatchingMesh(const Scene<2> &scene, const unsigned int seed)
+  {
+    const ShapeTables<2> tables;
+    make_mesh(scene, mesh);
+    degrees.assign(mesh.n_active_cells(), 2);
+    match_nested(scene, tables, mesh, degrees);
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<unsigned int> dice(0, 5);
+    for (unsigned int round = 0; round < 3; ++round)
+    {
+      Refinement refinement{std::vector<bool>(mesh.n_active_cells()), degrees};
+      for (unsigned int cell = 0; cell < degrees.size(); ++cell)
+        if (const unsigned int n = dice(random); n == 0)
+          refinement.bisect[cell] = true;
+        else if (n < 3)
+          refinement.degrees[cell] += n;
+      const Refinement wanted = refinement;
+      {
+        const DisplacementSpace<2> space(scene, mesh, degrees, tables);
+        keep_matching(ContactSpace<2>(scene, space, tables), mesh, refinement);
+      }
+      n_unmatched += refinement.degrees != wanted.degrees;
+      degrees = refine_mesh(mesh, degrees, refinement);
+    }
+  }
+};
+
+TEST(JointBound, KeepsMeshesMatching)
+{
+  const Scene<2> scene = scene_of_blocks(upright, {});
+  unsigned int n_unmatched = 0;
+  for (const unsigned int seed : {1, 2, 3, 4})
+  {
+    const MatchingMesh mesh(scene, seed);
+    const Laboratory lab(scene, mesh.mesh, mesh.degrees);
+    EXPECT_EQ(unmatched_joint(lab.contact_space), "") << seed;
+    EXPECT_GT(lab.contact_space.faces().size(), 4U);
+    n_unmatched += mesh.n_unmatched;
+  }
+  EXPECT_GT(n_unmatched, 4U);
+}
+
+/** s n at s in [0,1] of a joint, in one of its bodies. */
+Tensor<1, 2> traction(const EquilibratedStress &stress, const StressEdge &edge,
+                      const StressEdge::Side &side, const double s)
+{
+  const double on_side = side.part == reversed_edge ? 1. - s : s;
+  const Point<2> xi = point_on_face<2>(side.face, Point<1>(on_side));
+  if (stress.has_macro_cells())
+    return stress.macro_value(side.cell, xi) * edge.normal;
+  const std::array<double, 3> c = stress.stress(side.cell).value(2 * xi[0] - 1, 2 * xi[1] - 1);
+  Tensor<2, 2> S;
+  S[0][0] = c[0];
+  S[1][1] = c[1];
+  S[0][1] = S[1][0] = c[2];
+  const Tensor<2, 2> B = stress.frame(side.cell);
+  return B * S * transpose(B) * edge.normal;
+}
+
+struct Law
+{
+  Overrides entries;
+  bool may_pull;
+  double friction; ///< the largest; negative: any
+};
+
+/** On random meshes, in each frame: in equilibrium, admissible, and the same on both sides. */
+TEST(JointBound, HasOneTractionForBothBodies)
+{
+  const std::vector<Law> laws{{{{"Law", "tied"}}, true, -1.},
+                              {{{"Law", "bilateral"}, {"Friction bound", "0.05"}}, true, 0.05},
+                              {{{"Law", "unilateral"}, {"Friction bound", "0.05"}}, false, 0.05},
+                              {{{"Law", "unilateral"}}, false, 0.}};
+  for (const Blocks &blocks : {upright, upside_down, on_its_side, skew})
+    for (const Law &law : laws)
+    {
+      SCOPED_TRACE(blocks.corners + ", " + law.entries[0].second);
+      const Scene<2> scene = scene_of_blocks(blocks, law.entries);
+      const MatchingMesh mesh(scene, 7);
+      const Laboratory lab(scene, mesh.mesh, mesh.degrees);
+      const Solution<2> solution = lab.solve();
+      const AdmissibleFriction<2> friction(solution);
+      const AdmissiblePressure<2> pressure(solution);
+      EquilibrationCache cache;
+      const EquilibratedStress stress(
+          solution,
+          [&](const unsigned int face, const unsigned int end)
+          { return friction.part(face, end).coefficients(); },
+          [&](const unsigned int face, const unsigned int end)
+          { return pressure.part(face, end).coefficients(); },
+          cache);
+      EXPECT_EQ(stress.has_macro_cells(), blocks.corners == skew.corners);
+      EXPECT_LT(stress.defect, 1e-10);
+      double jump = 0, pull = -1, rub = 0, largest = 0;
+      unsigned int n_joints = 0;
+      for (const StressEdge &edge : stress.patches().edges())
+      {
+        if (!edge.at_boundary() || edge.sides.size() < 2)
+          continue;
+        ++n_joints;
+        for (const double s : {0.03, 0.27, 0.61, 0.88})
+        {
+          const Tensor<1, 2> own = traction(stress, edge, edge.sides[0], s),
+                             other = traction(stress, edge, edge.sides[1], s);
+          jump = std::max(jump, (own - other).norm());
+          largest = std::max(largest, own.norm());
+          pull = std::max(pull, own * edge.normal);
+          rub = std::max(rub, std::abs(own * edge.tangent));
+        }
+      }
+      EXPECT_GT(n_joints, 4U);
+      EXPECT_GT(largest, 0.05);
+      EXPECT_LT(jump, 1e-10 * largest);
+      EXPECT_TRUE(law.may_pull || pull < 1e-11) << pull;
+      if (law.friction >= 0)
+        EXPECT_LT(rub, law.friction + 1e-11);
+      else
+        EXPECT_GT(rub, 0.05);
+    }
+}
+
+struct Step
+{
+  double low, high, bound, distance;
+  unsigned int n_elements;
+};
+
+std::vector<Step> run(const Scene<2> &scene, std::string *const no_bound = nullptr)
+{
+  std::vector<Step> result;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (no_bound)
+          *no_bound = step.no_bound;
+        if (!step.bound)
+          return;
+        const double J = step.energies.energy;
+        result.push_back({J - step.bound->energy_below, J + step.bound->energy_above,
+                          step.bound->total, step.errors.energy,
+                          static_cast<unsigned int>(step.size.n_cells)});
+      });
+  return result;
+}
+
+/** Energies that two other discretisations agree on; frictionless, with friction, glued, and with cells half as large above. */
+TEST(JointBound, HoldsTheKnownEnergies)
+{
+  struct Known
+  {
+    std::string lower, upper, cells, law, friction, E_lower, E_upper, nu_lower, plane, top;
+    double J, accuracy, last; ///< bound of the last step, relative
+  };
+  for (const Known &known :
+       {Known{"0, -1; 3, 0", "1, 0; 2, 1", "6, 2; 2, 2", "unilateral", "0", "20", "10", "0.3",
+              "strain", "0; -0.02", .00166735265, 2e-11, 2e-3},
+        Known{"0, -1; 2, 0", "0, 0; 2, 1", "4, 2; 4, 2", "unilateral", "0.055", "20", "10", "0.25",
+              "stress", "0.03; -0.02", .004281503947, 2e-12, 2e-3},
+        Known{"0, -1; 2, 0", "0, 0; 2, 1", "4, 2; 2, 1", "unilateral", "0.055", "20", "10", "0.25",
+              "stress", "0.03; -0.02", .004281503947, 2e-12, 3e-3},
+        Known{"0, -1; 3, 0", "1, 0; 2, 1", "6, 2; 4, 4", "tied", "", "10", "100", "0.3", "strain",
+              "0.02; -0.02", .0039624663, 2e-10, 1e-2}})
+  {
+    const auto part = [](const std::string &both, const bool second)
+    { return second ? both.substr(both.find(';') + 2) : both.substr(0, both.find(';')); };
+    Overrides entries{{"Body lower/Lower corner", part(known.lower, false)},
+                      {"Body lower/Upper corner", part(known.lower, true)},
+                      {"Body lower/Subdivisions", part(known.cells, false)},
+                      {"Body lower/Material", "other"},
+                      {"Body upper/Lower corner", part(known.upper, false)},
+                      {"Body upper/Upper corner", part(known.upper, true)},
+                      {"Body upper/Subdivisions", part(known.cells, true)},
+                      {"Material/Plane", known.plane},
+                      {"Material/Young's modulus", known.E_upper},
+                      {"Material/Poisson's ratio", "0.3"},
+                      {"Material other/Plane", known.plane},
+                      {"Material other/Young's modulus", known.E_lower},
+                      {"Material other/Poisson's ratio", known.nu_lower},
+                      {"Contact joint/Between", "upper.bottom, lower.top"},
+                      {"Contact joint/Law", known.law},
+                      {"Boundary lower.bottom/Displacement", "0; 0"},
+                      {"Boundary upper.top/Displacement", known.top},
+                      {"Adaptivity/Maximum steps", "12"}};
+    if (!known.friction.empty())
+      entries.emplace_back("Contact joint/Friction bound", known.friction);
+    const std::vector<Step> steps = run(scene_of(entries));
+    ASSERT_EQ(steps.size(), 12U) << known.law;
+    for (const Step &step : steps)
+    {
+      EXPECT_LT(step.low, known.J + known.accuracy) << known.law;
+      EXPECT_GT(step.high, known.J - known.accuracy) << known.law;
+    }
+    EXPECT_LT(steps.back().bound, known.last * std::sqrt(2 * known.J)) << known.law;
+  }
+}
+
+/** Whichever way the corners of a body are listed. */
+TEST(JointBound, IsTheSameInAnyFrame)
+{
+  for (const std::string law : {"tied", "bilateral", "unilateral"})
+  {
+    Overrides entries{{"Law", law}};
+    if (law != "tied")
+      entries.emplace_back("Friction bound", "0.055");
+    const Overrides method{{"Adaptivity/Maximum steps", "5"}};
+    const std::vector<Step> steps = run(scene_of_blocks(upright, entries, method));
+    for (const Blocks &other : {upside_down, on_its_side})
+    {
+      const std::vector<Step> turned = run(scene_of_blocks(other, entries, method));
+      ASSERT_EQ(turned.size(), 5U);
+      for (unsigned int k = 0; k < 5; ++k)
+      {
+        EXPECT_EQ(turned[k].n_elements, steps[k].n_elements) << law;
+        EXPECT_NEAR(turned[k].bound, steps[k].bound, 1e-9 * steps[k].bound) << law;
+      }
+    }
+  }
+}
+
+/** Meshes that never will match say so, and where; without a bound nothing is bisected for it. */
+TEST(JointBound, NamesWhatDoesNotMatch)
+{
+  Blocks other(upright);
+  other.cells = "5, 2";
+  const Overrides method{{"Adaptivity/Maximum steps", "2"}};
+  std::string why;
+  EXPECT_TRUE(run(scene_of_blocks(other, {}, method), &why).empty());
+  EXPECT_EQ(why.rfind("the meshes of two bodies do not match, vertex to vertex, along ", 0), 0U)
+      << why;
+  other.cells = "8, 2";
+  const std::vector<Step> nested = run(scene_of_blocks(other, {}, method), &why);
+  EXPECT_EQ(why, "");
+  ASSERT_EQ(nested.size(), 2U);
+  unsigned int n_elements = 0;
+  AdaptiveSolver<2>(
+      scene_of_blocks(other, {}, {{"Adaptivity/Maximum steps", "1"}, {"Error/Bound", "false"}}))
+      .run([&](const StepReport<2> &step)
+           { n_elements = static_cast<unsigned int>(step.size.n_cells); });
+  EXPECT_EQ(n_elements, 28U);
+  EXPECT_EQ(nested[0].n_elements, 28U + 4 * 3);
+}
+} // namespace
