@@ -195,6 +195,36 @@ def jump_table(program, output):
     put_table("jumps", rows, page=PAGE)
 
 
+# Cells of the lower and the upper body that match, by case.
+MATCHING = {"O1": ("6, 2", "2, 2"), "O2": ("4, 2", "4, 2"), "O3": ("6, 2", "2, 2")}
+
+
+def bounded(case, **changes):
+    lower, upper = MATCHING[case]
+    return {**CASES[case], "Body lower/Subdivisions": lower, "Body upper/Subdivisions": upper, "Adaptivity/Tolerance": "0", **changes}
+
+
+def bound_table(program, output):
+    """The bound over the distance from a finer run, whose own bound is below a tenth of that."""
+    soft = {"Material/Young's modulus": "1e5", "Material other/Young's modulus": "10"}
+    locking = {"Material/Poisson's ratio": "0.4999", "Material other/Poisson's ratio": "0.4999", "Material/Plane": "strain"}
+    scenes = {"O1": bounded("O1"), "O2": bounded("O2"), "O2, bilateral": bounded("O2", **{"Contact joint/Law": "bilateral"}), "O3": bounded("O3"),
+              "O3, E = 1e5 below and 10 above": bounded("O3", **soft), "O1, nu = 0.4999": bounded("O1", **locking),
+              "O3, nu = 0.4999": bounded("O3", **locking)}
+    rows = []
+    for scene, settings in scenes.items():
+        home = output / f"bound-{scene}"
+        run(program, home / "finer", {**settings, "Adaptivity/Maximum steps": "22", "Output/Reference solution": "true"})
+        for method, steps in (("hup2", 4), ("hap4", 8), ("hpa2", 10), ("hpa3", 12)):
+            found, _ = run(program, home / method, {**settings, "Adaptivity/Method": method, "Adaptivity/Maximum steps": str(steps),
+                                                    "Error/Reference solution": str((home / "finer/out/reference.dat").resolve())})
+            ratios = [float(row["error_bound"]) / float(row["error_energy"]) for row in found]
+            rows.append({"case": scene, "method": method, "steps": len(found), "least bound/error": f"{min(ratios):.2f}",
+                         "largest bound/error": f"{max(ratios):.2f}", "last": f"{ratios[-1]:.2f}",
+                         "its error, relative": number(float(found[-1]["error_relative"]), 2)})
+    put_table("bound", rows, page=PAGE)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi", type=pathlib.Path)
@@ -202,7 +232,7 @@ def main():
     options = parser.parse_args()
     program, output = options.program.resolve(), options.output
     (pathlib.Path(__file__).resolve().parent / PAGE).mkdir(exist_ok=True)
-    for table in (graded_table, adaptive_table, cases_table, inf_sup_table, jump_table):
+    for table in (graded_table, adaptive_table, cases_table, inf_sup_table, jump_table, bound_table):
         table(program, output)
     progress("doc/bodies.md, doc/bodies/*.csv")
 

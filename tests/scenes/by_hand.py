@@ -518,6 +518,8 @@ class ByHand(RunTest):
         self.assertEqual([zone["state"] for zone in zones], ["slip", "stick"])
         self.assertAlmostEqual(zones[0]["to"][0], 90, delta=1)
         self.assertAlmostEqual(summary["plates"]["lower.right"]["displacement"][1], -0.8547, delta=0.0047)
+        self.assertIsNone(summary["no_error_bound"])
+        self.assertLess(summary["final"]["error_bound_relative"], 1e-4)
 
     def test_a_glued_joint(self):
         """One body of two materials has its energy in a guaranteed interval."""
