@@ -13,7 +13,7 @@ import pathlib
 import subprocess
 import sys
 
-from stability import number, progress, put_table
+from stability import number, plt, progress, put_table, save
 
 PAGE = "bodies"
 HALF_WIDTH, SLOPE = 0.7, 10  # of Hertz's pressure SLOPE*sqrt(a^2 - x^2)
@@ -108,6 +108,52 @@ def hertz(moduli, levels, **adaptivity):
     return settings, sum(ENERGY[name] / E for name, E in moduli.items())
 
 
+def rubbing_displacement(nu, modulus, friction, width, is_above):
+    """What friction f k sqrt(w^2 - x^2) adds, by Muskhelishvili's potentials; below in a mirror."""
+    mu, kappa, w2 = modulus / (2 * (1 + nu)), 3 - 4 * nu, width * width
+    y, friction = ("y", friction) if is_above else ("(-y)", -friction)
+    q = f"(x^2-y^2-{w2!r})"
+    s = f"sqrt({q}^2+4*x^2*y^2)"
+    n_out = f"((x<0?-1:1)*sqrt(({s}+{q})/2))"
+    m_in = f"sqrt(max(0,({s}-{q})/2))"
+    # One of m and n by x y over the other, that nothing cancels.
+    m = f"({q}>0?x*{y}/{n_out}:{m_in})"
+    n = f"({q}>0?{n_out}:({m_in}>0?x*{y}/{m_in}:0))"
+    h = f"sqrt((x+{n})^2+({y}+{m})^2)"
+    A = f"((x^2-y^2-x*{n}+{y}*{m})/2+{w2 / 2!r}*log({h}/{width!r}))"
+    B = f"(x*{y}-(x*{m}+{y}*{n})/2-{w2 / 2!r}*asin((x+{n})/{h}))"
+    factor = friction * SLOPE / (2 * mu)
+    return (f"{factor!r}*({(kappa + 1) / 2!r}*{A}-{y}*({y}-{m}))",
+            f"{factor if is_above else -factor!r}*({(kappa - 1) / 2!r}*{B}-{y}*(x-{n}))")
+
+
+def rubbing(lower, radius, stick, shift, friction=0.3, **adaptivity):
+    """Hertz's bodies with Coulomb's friction: all of the contact slips, or |x| < stick does not."""
+    moduli, ratios, a2 = {"upper": 200, "lower": lower[0]}, {"upper": 0.3, "lower": lower[1]}, HALF_WIDTH ** 2
+    own = dict(POISSON)
+    POISSON.update(ratios)
+    settings, _ = hertz(moduli, {name: adaptivity.pop("levels") if name == "upper" else 0 for name in moduli}, **adaptivity)
+    POISSON.update(own)
+    for name, E in moduli.items():
+        for entry in ("Graded towards", "Grading levels"):
+            settings[f"Body {name}/{entry}"] = settings[f"Body upper/{entry}"]
+        if stick:
+            settings[f"Body {name}/Graded towards"] += f"; {-stick}, 0; {stick}, 0"
+        above = name == "upper"
+        added = rubbing_displacement(ratios[name], E, friction, HALF_WIDTH, above)
+        inner = rubbing_displacement(ratios[name], E, friction, stick, above) if stick else ("0", "0")
+        for side in ("left", "right", "top" if above else "bottom"):
+            parts = settings[f"Boundary {name}.{side}/Displacement"].split("; ")
+            settings[f"Boundary {name}.{side}/Displacement"] = "; ".join(
+                f"{parts[c]}+{added[c]}-{inner[c]}" + (f"+{shift!r}" if c == 0 and above else "") for c in (0, 1))
+    slopes = {name: 2 * (1 + ratios[name]) / E * (2 - 4 * ratios[name]) for name, E in moduli.items()}
+    uneven = friction * SLOPE / 4 * (slopes["upper"] - slopes["lower"])
+    settings["Contact line/Gap"] = (f"x^2/2/{radius!r}+{uneven!r}*(abs(x)<{HALF_WIDTH}?x*sqrt(max(0,{a2!r}-x^2))/2+{a2 / 2!r}*asin(x/{HALF_WIDTH})"
+                                    f":(x<0?-1:1)*{math.pi * a2 / 4!r})")
+    settings["Contact line/Friction coefficient"] = repr(friction)
+    return settings
+
+
 def error(row, J):
     """The root of what J_N and J differ by, over J: as the error in the energy norm."""
     return math.sqrt(abs(float(row["energy"]) - J) / J)
@@ -125,6 +171,32 @@ def graded_table(program, output):
             row[f"{graded} graded"] = number(error(steps[-1], J), 2)
         rows.append(row)
     put_table("graded", rows, page=PAGE)
+
+
+def exponential_chart(program, output):
+    """Elastic energies of closed forms, uniform p on meshes that are graded p + 2 times in both bodies."""
+    columns = {f"Hertz, E ratio {ratio:g}": ratio for ratio in (0.01, 1, 100)}
+    columns.update({"full slip": ((100, 0.2), 3.53356890459, 0, 0.03, 0.149120752172 + 0.235901204537),
+                    "partial slip": ((200, 0.3), 5.49450549451, 0.4, 0.0, 0.140448661664 + 0.093787639127)})
+    rows = []
+    for p in range(2, 11):
+        row, method = {"p": p}, {"Method": "pu", "Start_degree": p, "Maximum_degree": p, "Maximum_steps": 1}
+        for name, known in columns.items():
+            if isinstance(known, tuple):
+                settings, J = rubbing(*known[:4], levels=p + 2, **method), known[4]
+            else:
+                settings, J = hertz({"upper": 200, "lower": 200 / known}, {"upper": p + 2, "lower": p + 2}, **method)
+            steps, _ = run(program, output / f"exponential-{name}-{p}", settings)
+            row[name] = number(math.sqrt(abs(float(steps[-1]["energy_norm"]) ** 2 / 2 - J) / J), 2)
+        rows.append(row)
+    put_table("exponential", rows, page=PAGE)
+    figure, axes = plt.subplots(figsize=(6.5, 4.2), layout="constrained")
+    for name, marker in zip(columns, "osd^v"):
+        axes.semilogy([row["p"] for row in rows], [float(row[name]) for row in rows], marker=marker, markersize=4, label=name)
+    axes.set(xlabel="degree p, both bodies graded p + 2 times", ylabel="(|E_N - E| / E)$^{1/2}$, E the elastic energy")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    save(figure, "exponential.svg", PAGE)
 
 
 def adaptive_table(program, output):
@@ -232,7 +304,7 @@ def main():
     options = parser.parse_args()
     program, output = options.program.resolve(), options.output
     (pathlib.Path(__file__).resolve().parent / PAGE).mkdir(exist_ok=True)
-    for table in (graded_table, adaptive_table, cases_table, inf_sup_table, jump_table, bound_table):
+    for table in (graded_table, exponential_chart, adaptive_table, cases_table, inf_sup_table, jump_table, bound_table):
         table(program, output)
     progress("doc/bodies.md, doc/bodies/*.csv")
 
