@@ -4,6 +4,7 @@
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hpvi
 {
@@ -92,6 +93,45 @@ Warnings penetration(const Scene<dim> &scene, const std::vector<ContactState<dim
             " by which it deforms; refine there, or put a vertex where Gap has a kink or a "
             "jump")}};
 }
+/**
+ * What lies opposite to a point of two bodies is found along the normal of one of them, and tractions have that normal on
+ * both. Where the gap has a slope the other one's differs by it, and forces by slope times friction, slips by slope times gap.
+ */
+template <int dim>
+Warnings steep_gaps(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact)
+{
+  constexpr double steep = 0.2;
+  double steepest = steep;
+  Point<dim> where;
+  const BoundaryCondition<dim> *worst = nullptr;
+  for (const ContactState<dim> &state : contact)
+  {
+    const BoundaryCondition<dim> &condition = scene.boundaries[state.boundary];
+    if (!condition.pair || !condition.gap)
+      continue;
+    for (unsigned int k = 0; k + 1 < state.points.size(); ++k)
+    {
+      const ContactPoint<dim> &one = state.points[k], &other = state.points[k + 1];
+      const double distance = one.x.distance(other.x);
+      if (one.is_open || other.is_open || !(distance > 0))
+        continue;
+      const double slope = std::abs(condition.gap_at(other.x) - condition.gap_at(one.x)) / distance;
+      if (slope > steepest)
+      {
+        steepest = slope;
+        where = one.x;
+        worst = &condition;
+      }
+    }
+  }
+  if (!worst)
+    return {};
+  return {{WarningKind::gap_slope, steepest,
+           line("the gap of ", worst->name, " has a slope of ", steepest, " at (", where,
+                "), where bodies press; both are taken for parallel there, which is true of "
+                "slopes up to ",
+                steep, ": draw the sides so that they nearly are")}};
+}
 } // namespace
 
 template <int dim>
@@ -99,7 +139,7 @@ Warnings contact_warnings(const Scene<dim> &scene, const std::vector<ContactStat
                           const BodyState<dim> &body)
 {
   return joined(tensile_contact(scene, contact, body), pulling_pressure(scene, contact, body),
-                penetration(scene, contact, body));
+                penetration(scene, contact, body), steep_gaps(scene, contact));
 }
 
 template Warnings contact_warnings(const Scene<2> &, const std::vector<ContactState<2>> &,

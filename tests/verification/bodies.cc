@@ -621,6 +621,31 @@ TEST(Bodies, ThatAreEqualMeetInAPlane)
   EXPECT_NEAR(both.normal, half.normal, 1e-10);
 }
 
+/** Sides whose gap is steep where they press are not parallel: a word with slope and place. */
+TEST(Bodies, SayWhereTheirGapIsSteep)
+{
+  for (const double slope : {0.15, 0.25})
+  {
+    std::vector<std::string> said;
+    AdaptiveSolver<2>(
+        scene_of({{"Body upper/Subdivisions", "6, 3"},
+                  {"Body lower/Lower corner", "0, -1"},
+                  {"Body lower/Upper corner", "1, 0"},
+                  {"Body lower/Subdivisions", "4, 3"},
+                  {"Contact line/Between", "lower.top, upper.bottom"},
+                  {"Contact line/Gap", "if(x < 0.5, 0, " + text(slope) + "*(x - 0.5))"},
+                  {"Boundary upper.top/Displacement", "0; -0.5"},
+                  {"Boundary lower.bottom/Displacement", "0; 0"},
+                  {"Adaptivity/Maximum steps", "1"}}))
+        .run([&](const StepReport<2> &step) { said = texts(step.warnings); });
+    const auto line =
+        std::find_if(said.begin(), said.end(),
+                     [](const std::string &text)
+                     { return text.find("has a slope of 0.25 at (0.") != std::string::npos; });
+    EXPECT_EQ(line != said.end(), slope > 0.2);
+  }
+}
+
 /** On a body a million times as stiff a block does what it does on a rigid plane. */
 TEST(Bodies, MeetStiffOnesAsFoundations)
 {

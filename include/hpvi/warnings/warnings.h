@@ -20,6 +20,7 @@ enum class WarningKind
   overshoot,         ///< |lambda_N| above 1 between Gauss points
   pulling_pressure,  ///< unilateral contact pulls between the points of its multiplier
   penetration,       ///< deep beside the deformation
+  gap_slope,         ///< of two bodies, where they press
   transition,        ///< open, stick, slip change on a coarse edge
   open_friction,     ///< friction without contact
   stagnation,        ///< of the indicator
