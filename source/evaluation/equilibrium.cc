@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/body/edge_constraints.h>
+#include <hpvi/body/mesh.h>
 #include <hpvi/body/plates.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>
@@ -52,14 +53,23 @@ struct Resultants
   std::vector<BoundaryForce<dim>> reactions; ///< by boundary id
   double absolute_force = 0, absolute_moment = 0;
 
+  struct OfBody
+  {
+    BoundaryForce<dim> sum{};
+    double absolute_force = 0, absolute_moment = 0;
+  };
+  std::vector<OfBody> bodies; ///< where there are several; on one process
+
   explicit Resultants(const Scene<dim> &scene)
-      : centre(scene.geometry.centre()), is_axisymmetric(scene.is_axisymmetric())
+      : centre(scene.geometry.centre()), is_axisymmetric(scene.is_axisymmetric()),
+        bodies(scene.geometry.bodies.size())
   {
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
       reactions.push_back({boundary.name, {}, {}});
   }
 
-  void add(BoundaryForce<dim> &sum, Tensor<1, dim> force, const Point<dim> &x)
+  void add(BoundaryForce<dim> &sum, Tensor<1, dim> force, const Point<dim> &x,
+           const unsigned int body)
   {
     Tensor<1, dim> arm = x - centre;
     if (is_axisymmetric)
@@ -71,6 +81,13 @@ struct Resultants
     sum.moment += moment_of(arm, force);
     absolute_force += force.norm();
     absolute_moment += arm.norm() * force.norm();
+    if (body >= bodies.size())
+      return;
+    OfBody &own = bodies[body];
+    own.sum.force += force;
+    own.sum.moment += moment_of(arm, force);
+    own.absolute_force += force.norm();
+    own.absolute_moment += arm.norm() * force.norm();
   }
 
   void sum_up(MPI_Comm communicator)
@@ -110,6 +127,14 @@ Equilibrium<dim> balance_of(const Resultants<dim> &sums, const Scene<dim> &scene
   result.force_imbalance = sums.absolute_force > none ? force.norm() / sums.absolute_force : 0.;
   result.moment_imbalance =
       sums.absolute_moment > none * size ? size_of(moment) / sums.absolute_moment : 0.;
+  for (unsigned int b = 0; b < sums.bodies.size(); ++b)
+  {
+    const auto &own = sums.bodies[b];
+    result.bodies.push_back(
+        {scene.geometry.bodies[b].name,
+         own.absolute_force > none ? own.sum.force.norm() / own.absolute_force : 0.,
+         own.absolute_moment > none * size ? size_of(own.sum.moment) / own.absolute_moment : 0.});
+  }
   return result;
 }
 } // namespace
@@ -132,10 +157,10 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
   {
     Tensor<1, dim> force;
     force[load.component] = load.value;
-    sums.add(sums.loads, force, load.x);
+    sums.add(sums.loads, force, load.x, load.body);
   }
   for (const auto &reaction : forces.reactions)
-    sums.add(sums.reactions[reaction.boundary], reaction.force, reaction.x);
+    sums.add(sums.reactions[reaction.boundary], reaction.force, reaction.x, reaction.body);
   sums.sum_up(communicator);
   Equilibrium<dim> result;
   together(communicator, [&]() { result = balance_of(sums, scene); });
@@ -160,25 +185,28 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
 
 namespace
 {
-/** Where every displacement unknown has its node, and which component it is. */
+/** Where every displacement unknown has its node, which component it is, and of which body. */
 template <int dim>
 struct Nodes
 {
   std::vector<Point<dim>> x;
-  std::vector<unsigned int> component;
+  std::vector<unsigned int> component, body;
 
-  explicit Nodes(const DisplacementSpace<dim> &space) : x(space.n_dofs()), component(space.n_dofs())
+  Nodes(const DisplacementSpace<dim> &space, const Geometry<dim> &geometry)
+      : x(space.n_dofs()), component(space.n_dofs()), body(space.n_dofs())
   {
     for (const auto &cell : space.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
       {
         const CellMap<dim> map = map_of<dim>(cell);
         const auto dofs = space.cell_dofs(cell->active_cell_index());
+        const unsigned int number = geometry.bodies.empty() ? 0 : body_of<dim>(geometry, cell);
         const auto &support_points = cell->get_fe().get_unit_support_points();
         for (unsigned int i = 0; i < dofs.size(); ++i)
         {
           x[dofs[i]] = map.point(support_points[i]);
           component[dofs[i]] = cell->get_fe().system_to_component_index(i).first;
+          body[dofs[i]] = number;
         }
       }
   }
@@ -243,7 +271,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ShapeTables<dim> &tables = solution.tables;
-  const Nodes<dim> nodes(space);
+  const Nodes<dim> nodes(space, solution.scene.geometry);
   NodalForces<dim> result;
   // What presses a plate is the force that the plate exerts, and initial strains balance themselves.
   Vector<double> loads = system.loads(), reacting(loads);
@@ -254,7 +282,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
     loads -= initial_strain_loads(solution.scene, space, tables);
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (loads[dof] != 0.)
-      result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof]});
+      result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof], nodes.body[dof]});
 
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
@@ -266,7 +294,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         {
           Tensor<1, dim> force;
           force[nodes.component[dof]] = -friction[dof];
-          result.reactions.push_back({boundary.id, force, nodes.x[dof]});
+          result.reactions.push_back({boundary.id, force, nodes.x[dof], nodes.body[dof]});
         }
     }
 
@@ -281,7 +309,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         {
           Tensor<1, dim> force;
           force[nodes.component[dof]] = -forces[dof];
-          result.reactions.push_back({boundary.id, force, nodes.x[dof]});
+          result.reactions.push_back({boundary.id, force, nodes.x[dof], nodes.body[dof]});
         }
     }
 
@@ -300,8 +328,9 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
       force[c] = reactions[node.dofs[c]];
     const std::vector<double> shares = node.split(force);
     for (unsigned int k = 0; k < shares.size(); ++k)
-      result.reactions.push_back(
-          {node.conditions[k].boundary, shares[k] * node.conditions[k].direction, node.x});
+      result.reactions.push_back({node.conditions[k].boundary,
+                                  shares[k] * node.conditions[k].direction, node.x,
+                                  nodes.body[node.dofs[0]]});
   }
   return result;
 }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 namespace hpvi
 {
@@ -340,9 +339,14 @@ std::string forces_json(const Equilibrium<dim> &equilibrium)
 template <int dim>
 std::string balance_json(const Equilibrium<dim> &equilibrium)
 {
+  std::string all;
+  for (const auto &[name, force, moment] : equilibrium.bodies)
+    all += (all.empty() ? ",\n    \"bodies\": {\n      " : ",\n      ") + json_string(name) +
+           ": {\"force\": " + json_number(force) + ", \"moment\": " + json_number(moment) + "}";
+  all += all.empty() ? "" : "\n    }";
   return "{\n    \"force\": " + json_number(equilibrium.force_imbalance) +
          ",\n    \"moment\": " + json_number(equilibrium.moment_imbalance) +
-         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + "\n  }";
+         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + all + "\n  }";
 }
 
 std::string loads_in_words(const Scene<2> &scene)
@@ -351,16 +355,15 @@ std::string loads_in_words(const Scene<2> &scene)
     return "with t = " + text(t, digits) + ", " + loads_in_words(scene.loading.at(t));
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  const LoadSum sum = LoadRules<2>(scene, mesh, std::make_shared<const ShapeTables<2>>())
-                          .sum()
-                          .times(scene.thickness);
-  const double size = scene.geometry.diameter();
+  const LoadRules<2> rules(scene, mesh, std::make_shared<const ShapeTables<2>>());
+  const LoadSum sum = rules.sum().times(scene.thickness);
+  const double none = 1e-12 * scene.geometry.diameter() * sum.absolute;
   if (is_axial(sum.force))
     return "loads: " + axial_force_in_words(sum.force, sum.absolute) + '\n';
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +
-         text(std::abs(sum.moment) < 1e-12 * size * sum.absolute ? 0. : sum.moment, digits) +
-         " about " + point_text<2>(sum.centre) +
-         (scene.has_plates() ? ", without those on rigid plates" : "") + "\n";
+         text(std::abs(sum.moment) < none ? 0. : sum.moment, digits) + " about " +
+         point_text<2>(sum.centre) + (scene.has_plates() ? ", without those on rigid plates" : "") +
+         "\n";
 }
 
 std::string loads_json(const std::optional<LoadSum> &loads)

@@ -13,6 +13,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -102,6 +103,11 @@ template <int dim>
 std::string balance_in_words(const StepReport<dim> &step)
 {
   const double tolerance = step.scene.solver.primal_tolerance;
+  std::string of_bodies;
+  for (const BodyBalance &one : step.equilibrium.bodies)
+    of_bodies += (of_bodies.empty() ? "balance of each body, the larger of both: " : ", ") +
+                 one.body + " " + text(std::max(one.force_imbalance, one.moment_imbalance), 2);
+  of_bodies += of_bodies.empty() ? "" : "\n";
   return "\nbalance: forces to " + text(step.equilibrium.force_imbalance, 2) + ", moments to " +
          text(step.equilibrium.moment_imbalance, 2) + " of their absolute sums" +
          (step.primal
@@ -110,7 +116,7 @@ std::string balance_in_words(const StepReport<dim> &step)
                     (tolerance > 0 ? ""
                                    : ": enough beside the error of the mesh, 1e-10 balances them")
               : "") +
-         "\n";
+         "\n" + of_bodies;
 }
 
 /** What is said when the last step is over. */

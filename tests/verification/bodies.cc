@@ -537,7 +537,32 @@ TEST(Bodies, AreEachInEquilibrium)
               EXPECT_GT(size, 0.2) << body;
               EXPECT_LT(sum.norm(), 1e-10 * size) << body;
             }
+            ASSERT_EQ(step.equilibrium.bodies.size(), 3U);
+            EXPECT_EQ(step.equilibrium.bodies[1].body, "middle");
+            for (const BodyBalance &one : step.equilibrium.bodies)
+            {
+              EXPECT_LT(one.force_imbalance, 1e-10) << one.body;
+              EXPECT_LT(one.moment_imbalance, 1e-10) << one.body;
+            }
           });
+}
+
+/** What is missing on one body is seen there, although all bodies together balance. */
+TEST(Bodies, AreBalancedOneByOne)
+{
+  const Scene<2> scene = scene_of(known_cases()[0].entries);
+  NodalForces<2> forces;
+  for (const unsigned int body : {0, 1})
+    for (const double sign : {1., -1.})
+      forces.reactions.push_back({0, Tensor<1, 2>({0., sign}), {1.5, 0.}, body});
+  Equilibrium<2> found = equilibrium(scene, forces);
+  EXPECT_EQ(found.force_imbalance, 0.);
+  EXPECT_EQ(found.bodies[0].force_imbalance, 0.);
+  forces.reactions[0].body = 1; // which the other has too much then
+  found = equilibrium(scene, forces);
+  EXPECT_EQ(found.force_imbalance, 0.);
+  EXPECT_EQ(found.bodies[0].force_imbalance, 1.);
+  EXPECT_NEAR(found.bodies[1].force_imbalance, 1. / 3, 1e-15);
 }
 
 // ---------------------------------------------------------------- the same in another guise

@@ -38,6 +38,13 @@ struct PlateState
   double moment = 0;                   ///< that it exerts about c [stress length^2]
 };
 
+/** How well the forces on one of several bodies balance, as in Equilibrium. */
+struct BodyBalance
+{
+  std::string body;
+  double force_imbalance = 0, moment_imbalance = 0;
+};
+
 /**
  * The forces on the body as the discrete solution has them: nodal reactions `a(u_N, v_i) - L(v_i)`.
  * They are the exact resultants of the discrete problem, where an integral of sigma(u_N) n over a
@@ -51,8 +58,9 @@ struct Equilibrium
   std::vector<BoundaryForce<dim>> reactions; ///< of boundaries with supports or contact, by id
   std::vector<PlateState<dim>> plates;       ///< by id; their forces are among the reactions
   BoundaryForce<dim> loads;                  ///< of all tractions and the body force together
-  double force_imbalance = 0;  ///< |sum of forces| over the sum of absolute nodal forces
-  double moment_imbalance = 0; ///< the same of moments
+  double force_imbalance = 0;           ///< |sum of forces| over the sum of absolute nodal forces
+  double moment_imbalance = 0;          ///< the same of moments
+  std::vector<BodyBalance> bodies = {}; ///< of each, where there are several
 };
 
 /** Nodal forces on the nodes of this process, whichever backend has them. */
@@ -64,6 +72,7 @@ struct NodalForces
     unsigned int component;
     double value;
     dealii::Point<dim> x;
+    unsigned int body = 0; ///< its number
   };
 
   struct Reaction
@@ -71,6 +80,7 @@ struct NodalForces
     dealii::types::boundary_id boundary; ///< whose support or contact exerts it
     dealii::Tensor<1, dim> force;
     dealii::Point<dim> x;
+    unsigned int body = 0;
   };
 
   std::vector<Load> loads;
