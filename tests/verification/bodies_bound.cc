@@ -273,6 +273,47 @@ TEST(JointBound, IsTheSameInAnyFrame)
   }
 }
 
+/** What friction has that no polynomial follows acts on both bodies: on two equal ones it counts twice. */
+TEST(JointBound, CountsOscillationInBothBodies)
+{
+  const std::string g = "0.02*(1 + 0.5*cos(7*x))";
+  const Overrides method{{"Adaptivity/Method", "pu"},
+                         {"Adaptivity/Start degree", "3"},
+                         {"Adaptivity/Maximum steps", "1"},
+                         {"Material/Young's modulus", "10"}};
+  Overrides one(method), two(method);
+  for (const auto &entry : Overrides{{"Geometry/Upper corner", "2, 1"},
+                                     {"Geometry/Subdivisions", "4, 2"},
+                                     {"Boundary bottom/Contact", "bilateral"},
+                                     {"Boundary bottom/Friction bound", g},
+                                     {"Boundary top/Displacement", "0.3; -0.02"}})
+    one.push_back(entry);
+  for (const auto &entry : Overrides{{"Body upper/Upper corner", "2, 1"},
+                                     {"Body upper/Subdivisions", "4, 2"},
+                                     {"Body lower/Lower corner", "0, -1"},
+                                     {"Body lower/Upper corner", "2, 0"},
+                                     {"Body lower/Subdivisions", "4, 2"},
+                                     {"Contact joint/Between", "upper.bottom, lower.top"},
+                                     {"Contact joint/Law", "bilateral"},
+                                     {"Contact joint/Friction bound", g},
+                                     {"Boundary upper.top/Displacement", "0.3; -0.02"},
+                                     {"Boundary lower.bottom/Displacement", "0; 0"}})
+    two.push_back(entry);
+  std::vector<double> oscillation;
+  for (const Overrides &entries : {one, two})
+    AdaptiveSolver<2>(scene_of(entries))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              EXPECT_NEAR(step.contact[0].slipping_area, 2., 1e-10);
+              oscillation.push_back(step.bound->oscillation);
+            });
+  ASSERT_EQ(oscillation.size(), 2U);
+  EXPECT_GT(oscillation[0], 1e-9);
+  EXPECT_NEAR(oscillation[1], std::sqrt(2.) * oscillation[0], 1e-6 * oscillation[0]);
+}
+
 /** Meshes that never will match say so, and where; without a bound nothing is bisected for it. */
 TEST(JointBound, NamesWhatDoesNotMatch)
 {
