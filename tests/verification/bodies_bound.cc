@@ -314,6 +314,19 @@ TEST(JointBound, CountsOscillationInBothBodies)
   EXPECT_NEAR(oscillation[1], std::sqrt(2.) * oscillation[0], 1e-6 * oscillation[0]);
 }
 
+/** Where bodies slide along each other tractions may pull: no pressure is to be mended. */
+TEST(JointBound, LetsSlidingBodiesPull)
+{
+  const std::vector<Step> steps = run(scene_of_blocks(
+      upright, {{"Law", "bilateral"}, {"Friction bound", "0.02"}},
+      {{"Boundary upper.top/Displacement", "0.03; 0.02"}, {"Adaptivity/Maximum steps", "4"}}));
+  ASSERT_EQ(steps.size(), 4U);
+  for (const Step &one : steps)
+    for (const Step &other : steps)
+      EXPECT_LE(one.low, other.high);
+  EXPECT_LT(steps[3].bound, 0.5 * steps[0].bound);
+}
+
 /** Meshes that never will match say so, and where; without a bound nothing is bisected for it. */
 TEST(JointBound, NamesWhatDoesNotMatch)
 {
