@@ -327,6 +327,45 @@ TEST(JointBound, LetsSlidingBodiesPull)
   EXPECT_LT(steps[3].bound, 0.5 * steps[0].bound);
 }
 
+/** What the jump does between moments costs what the softer body takes to move, whichever has the multipliers. */
+TEST(JointBound, MovesTheSofterBody)
+{
+  for (const std::string slave : {"upper.bottom", "lower.top"})
+  {
+    const std::vector<Step> steps = run(scene_of_blocks(
+        upright, {{"Law", "tied"}, {"Slave", slave}},
+        {{"Material other/Young's modulus", "1e6"}, {"Adaptivity/Maximum steps", "4"}}));
+    ASSERT_EQ(steps.size(), 4U);
+    EXPECT_LT(steps[3].bound, 0.005) << slave; // of a norm of 0.12
+  }
+}
+
+/** One block on two others: where these meet, friction of one of them is not the other's. */
+TEST(JointBound, KeepsPairsApart)
+{
+  const std::vector<Step> steps =
+      run(scene_of({{"Body upper/Upper corner", "2, 1"},
+                    {"Body upper/Subdivisions", "4, 2"},
+                    {"Body left/Lower corner", "0, -1"},
+                    {"Body left/Upper corner", "1, 0"},
+                    {"Body left/Subdivisions", "2, 2"},
+                    {"Body right/Lower corner", "1, -1"},
+                    {"Body right/Upper corner", "2, 0"},
+                    {"Body right/Subdivisions", "2, 2"},
+                    {"Contact one/Between", "upper.bottom, left.top"},
+                    {"Contact one/Slave", "upper.bottom"},
+                    {"Contact one/Friction bound", "0.3"},
+                    {"Contact other/Between", "upper.bottom, right.top"},
+                    {"Contact other/Slave", "upper.bottom"},
+                    {"Contact other/Friction bound", "0.1"},
+                    {"Material/Young's modulus", "10"},
+                    {"Boundary left.bottom/Displacement", "0; 0"},
+                    {"Boundary right.bottom/Displacement", "0; 0"},
+                    {"Boundary upper.top/Displacement", "0.04; -0.03"},
+                    {"Adaptivity/Maximum steps", "4"}}));
+  EXPECT_EQ(steps.size(), 4U);
+}
+
 /** Meshes that never will match say so, and where; without a bound nothing is bisected for it. */
 TEST(JointBound, NamesWhatDoesNotMatch)
 {
