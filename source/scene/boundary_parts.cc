@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/boundary_parts.h>
 
-#include <map>
-
 #include <algorithm>
-
 #include <array>
+#include <map>
+#include <vector>
 
 namespace hpvi
 {
@@ -34,11 +33,19 @@ namespace
 {
 std::vector<CoarseFace<2>> faces_of_mesh(const CoarseMesh &mesh, const unsigned int side)
 {
-  std::map<std::array<unsigned int, 2>, unsigned int>
-      cells; // by an edge counterclockwise around them
+  std::vector<bool> is_on_side(mesh.vertices.size());
+  for (const CoarseMesh::Edge &edge : mesh.edges)
+    if (edge.boundary == side)
+      for (const unsigned int vertex : edge.vertices)
+        is_on_side[vertex] = true;
+  // By an edge counterclockwise around them. Scenes ask often, and few edges of a large mesh are on a side.
+  std::map<std::array<unsigned int, 2>, unsigned int> cells;
   for (unsigned int c = 0; c < mesh.cells.size(); ++c)
     for (unsigned int v = 0; v < 4; ++v)
-      cells[{{mesh.cells[c].vertices[v], mesh.cells[c].vertices[(v + 1) % 4]}}] = c;
+      if (const std::array<unsigned int, 2> edge{
+              {mesh.cells[c].vertices[v], mesh.cells[c].vertices[(v + 1) % 4]}};
+          is_on_side[edge[0]] && is_on_side[edge[1]])
+        cells[edge] = c;
   const EdgeCurves curves(mesh);
   std::vector<CoarseFace<2>> result;
   for (const CoarseMesh::Edge &edge : mesh.edges)
