@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/field.h>
 
 #include <deal.II/base/mpi.h>
@@ -146,9 +147,11 @@ std::optional<Point<2>> reference_in_curved_cell(const CellMap<2> &map, const Po
   return GeometryInfo<2>::project_to_unit_cell(reference);
 }
 
-/** The point of the unit cell that lies at @p x; null: @p cell has none. */
+} // namespace
+
 template <int dim>
-std::optional<Point<dim>> reference_of(const typename Field<dim>::Cell &cell, const Point<dim> &x)
+std::optional<Point<dim>> reference_of(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                                       const Point<dim> &x)
 {
   const double hair = 1e-9;
   if constexpr (dim == 2)
@@ -169,31 +172,37 @@ std::optional<Point<dim>> reference_of(const typename Field<dim>::Cell &cell, co
 }
 
 template <int dim>
-PointValue<dim> value_at(const Field<dim> &field, const typename Field<dim>::Cell &cell,
-                         const Point<dim> &reference)
+std::vector<PointValue<dim>> Field<dim>::values(const Cell &cell,
+                                                const std::vector<Point<dim>> &references) const
 {
-  const ShapeTable<dim> table = tabulate<dim>(field.degree(cell), {reference}, {1.}, false);
-  const std::vector<double> coefficients = field.coefficients(cell),
-                            u = evaluate(table.values, coefficients),
-                            derivatives = evaluate(table.derivatives, coefficients);
-  PointValue<dim> result;
-  Tensor<2, dim> gradient;
-  for (unsigned int c = 0; c < dim; ++c)
-  {
-    result.displacement[c] = u[c];
-    for (unsigned int j = 0; j < dim; ++j)
-      gradient[c][j] = derivatives[c * dim + j];
-  }
+  const ShapeTable<dim> table =
+      tabulate<dim>(degree(cell), references, std::vector<double>(references.size(), 1.), false);
+  const std::vector<double> of_cell = coefficients(cell), u = evaluate(table.values, of_cell),
+                            derivatives = evaluate(table.derivatives, of_cell);
   const CellMap<dim> map = map_of<dim>(cell);
-  const Point<dim> x = map.point(reference);
-  gradient = gradient * invert(map.jacobian(reference));
-  result.stress =
-      HookesLaw<dim>(field.scene.material_of(cell))
-          .stress(gradient - field.scene.initial_strain_in(cell, x),
-                  field.scene.hoop_strain(cell->material_id(), result.displacement, gradient, x));
+  const Material &material = scene.material_of(cell);
+  const HookesLaw<dim> law(material);
+  std::vector<PointValue<dim>> result(references.size());
+  for (unsigned int q = 0; q < references.size(); ++q)
+  {
+    PointValue<dim> &value = result[q];
+    Tensor<2, dim> gradient;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      value.displacement[c] = u[c * references.size() + q];
+      for (unsigned int j = 0; j < dim; ++j)
+        gradient[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
+    }
+    const Point<dim> x = map.point(references[q]);
+    gradient = gradient * invert(map.jacobian(references[q]));
+    const double hoop = scene.hoop_strain(cell->material_id(), value.displacement, gradient, x);
+    value.stress = law.stress(gradient - scene.initial_strain_in(cell, x), hoop);
+    if constexpr (dim == 2)
+      value.across = material.transverse_stress(
+          value.stress, scene.is_axisymmetric() ? -hoop : initial_strain_across(scene, cell, x));
+  }
   return result;
 }
-} // namespace
 
 /** Where cells meet and stresses differ the first cell of the first process has a say. */
 template <int dim>
@@ -203,24 +212,28 @@ std::optional<PointValue<dim>> Field<dim>::at(const Point<dim> &x) const
   for (const Cell &cell : dof_handler.active_cell_iterators())
     if (!own && cell->is_locally_owned())
       if (const auto reference = reference_of<dim>(cell, x))
-        own = value_at(*this, cell, *reference);
+        own = values(cell, {*reference}).front();
   const unsigned int n = n_processes(communicator()), rank = rank_of(communicator()),
                      first = Utilities::MPI::min(own ? rank : n, communicator());
   if (first == n)
     return std::nullopt;
   if (n == 1)
     return own;
-  std::pair<Tensor<1, dim>, SymmetricTensor<2, dim>> values;
+  std::pair<Tensor<1, dim>, std::pair<SymmetricTensor<2, dim>, double>> parts;
   if (own)
-    values = {own->displacement, own->stress};
-  values = Utilities::MPI::broadcast(communicator(), values, first);
-  return PointValue<dim>{values.first, values.second};
+    parts = {own->displacement, {own->stress, own->across}};
+  parts = Utilities::MPI::broadcast(communicator(), parts, first);
+  return PointValue<dim>{parts.first, parts.second.first, parts.second.second};
 }
 
 template struct FaceFrame<2>;
 template struct FaceFrame<3>;
 template struct FieldFace<2>;
 template struct FieldFace<3>;
+template std::optional<Point<2>> reference_of(const DoFHandler<2>::active_cell_iterator &,
+                                              const Point<2> &);
+template std::optional<Point<3>> reference_of(const DoFHandler<3>::active_cell_iterator &,
+                                              const Point<3> &);
 template class Field<2>;
 template class Field<3>;
 } // namespace hpvi

@@ -11,7 +11,7 @@ namespace hpvi
 namespace
 {
 const std::string material = "Material ", boundary = "Boundary ", body = "Body ",
-                  contact = "Contact ";
+                  contact = "Contact ", probe = "Probe ";
 
 bool begins_with(const std::string &text, const std::string &start)
 {
@@ -108,6 +108,8 @@ FreeNames free_names(const std::string &file,
       add(result.materials, {one.section.substr(material.size()), one.where}, material);
     if (begins_with(one.section, contact))
       add(result.pairs, {one.section.substr(contact.size()), one.where}, contact);
+    if (begins_with(one.section, probe))
+      add(result.probes, {one.section.substr(probe.size()), one.where}, probe);
     if (!begins_with(one.section, boundary) || one.name != "On")
       continue;
     const Found part{one.section.substr(boundary.size()), one.where};

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
@@ -373,8 +374,7 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
   materials.insert(materials.end(), names.materials.begin(), names.materials.end());
   add_problem_entries(entries, dim, materials, names);
   add(entries, closed_form_entries());
-  const std::vector<std::string> &sides = names.sides;
-  for (const std::string &side : sides)
+  for (const std::string &side : names.sides)
     if (!side.empty()) // edges of a mesh in no group are free
     {
       add_boundary_entries(entries, side);
@@ -385,9 +385,11 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
     entries.push_back(curve_entry(interface));
   for (const std::string &part : names.parts)
   {
-    add_part_entries(entries, part, sides);
+    add_part_entries(entries, part, names.sides);
     add_boundary_entries(entries, part);
   }
+  for (const std::string &probe : names.probes)
+    add(entries, probe_entries(dim, probe));
   add_loading_entries(entries);
   add_method_entries(entries);
   add_program_entries(entries);

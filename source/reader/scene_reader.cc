@@ -10,6 +10,7 @@
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
 #include <hpvi/reader/strain_reader.h>
@@ -234,6 +235,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
     }
     else if (!boundary.name.empty()) // edges of a mesh in no group
       read_boundary(*parameters, t, scene, boundary);
+  read_probes(*parameters, names.probes, scene);
   scene.reference_solution = parameters->text("Error", "Reference solution");
   return scene;
 }
@@ -341,8 +343,9 @@ int scene_dimension(const std::string &file,
 std::string default_parameters()
 {
   std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
-  entries.push_back(curve_entry("NAME"));                               // of a mesh file alone
-  for (const auto &some : {body_entries("NAME"), pair_entries("NAME")}) // of several bodies
+  entries.push_back(curve_entry("NAME"));                              // of a mesh file alone
+  for (const auto &some : {body_entries("NAME"), pair_entries("NAME"), // of several bodies
+                           probe_entries(2, "NAME")})
     entries.insert(entries.end(), some.begin(), some.end());
   return Parameters(entries, {}, "").print(true);
 }

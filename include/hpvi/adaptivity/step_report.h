@@ -3,6 +3,8 @@
 #define hpvi_step_report_h
 
 #include <hpvi/backends/backend.h>
+#include <hpvi/evaluation/probe_value.h>
+#include <hpvi/evaluation/resultant.h>
 #include <hpvi/peaks/unbounded_stress.h>
 
 #include <deal.II/base/exceptions.h>
@@ -65,6 +67,11 @@ struct StepReport
   LoadStep load{};
   std::vector<StressSample<dim>> peaks{};        ///< stress_peaks()
   std::vector<UnboundedStress<dim>> unbounded{}; ///< of the last step alone
+  std::vector<Resultant<dim>> forces{};          ///< the rows of forces.csv
+  std::vector<ProbeValue<dim>> probes{};         ///< of each of Scene::probes but lines
+  std::vector<ProbeLine<dim>> probe_lines{};     ///< of these
+  std::string no_intervals{}; ///< why forces and probes have no intervals; empty: some have
+  PlacedValue<dim> largest_displacement{}; ///< |u_N| [length], of the last step alone
 
   /** Of the reduced path, which alone has one. */
   const Solution<dim> &solution() const

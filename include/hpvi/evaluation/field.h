@@ -104,8 +104,15 @@ template <int dim>
 struct PointValue
 {
   dealii::Tensor<1, dim> displacement;    ///< [length]
-  dealii::SymmetricTensor<2, dim> stress; ///< [stress]; that around the axis is not in it
+  dealii::SymmetricTensor<2, dim> stress; ///< [stress]
+  double across = 0; ///< sigma_zz in the plane, around the axis of an axisymmetric body; in space 0
 };
+
+/** The point of the unit cell that lies at @p x, up to 1e-9 of the cell; null: @p cell has none. */
+template <int dim>
+std::optional<dealii::Point<dim>>
+reference_of(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+             const dealii::Point<dim> &x);
 
 /**
  * u_N and the tractions of contact as values at points of the cells of this process, whichever backend has
@@ -136,6 +143,10 @@ public:
 
   /** The largest nodal value of a component of u_N on all processes [length]; collective. */
   virtual double largest_displacement() const = 0;
+
+  /** u_N and its stress at points of the unit cell, on a cell of this process. */
+  std::vector<PointValue<dim>> values(const Cell &cell,
+                                      const std::vector<dealii::Point<dim>> &references) const;
 
   /** u_N and its stress at @p x, for all processes; null outside the body. Collective. */
   std::optional<PointValue<dim>> at(const dealii::Point<dim> &x) const;

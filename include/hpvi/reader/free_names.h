@@ -19,6 +19,7 @@ struct FreeNames
   std::vector<std::string> interfaces = {}; ///< of such a mesh, curves inside
   std::vector<std::string> bodies = {};     ///< `Body NAME`
   std::vector<std::string> pairs = {};      ///< `Contact NAME`
+  std::vector<std::string> probes = {};     ///< `Probe NAME`
 };
 
 /** The bodies that @p file and @p overrides open; of one body none. Throws as free_names(). */

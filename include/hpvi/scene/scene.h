@@ -11,6 +11,7 @@
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/initial_strain.h>
 #include <hpvi/scene/material.h>
+#include <hpvi/scene/probe.h>
 #include <hpvi/scene/rigid_plate.h>
 
 #include <deal.II/base/exceptions.h>
@@ -102,6 +103,8 @@ struct Adaptivity
   bool is_default_tolerance = false; ///< the file named no limit: its reader chose the tolerance
   Indicator tolerance_on =
       Indicator::bound; ///< as this knows it; the residual where none is guaranteed
+  /** In its place what the tolerance is on: a column with a half-width, or a probe; empty: the error. */
+  std::string tolerance_column;
 };
 
 /** What finds Coulomb friction. */
@@ -215,6 +218,7 @@ struct Scene
   std::vector<std::optional<dealii::types::material_id>> material_of_surface;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::vector<ContactPair> pairs;                 ///< of bodies that touch
+  std::vector<Probe<dim>> probes;                 ///< what results tell of single places
   Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
   /** In its place, by material id, where materials differ in what they weigh. */
   std::vector<Load<dim>> body_force_of_material;

@@ -17,6 +17,8 @@ struct PastStep
   double relative_estimate; ///< as StepReport has it
   /** ErrorBound::total / |u_N|_a, NaN where none is guaranteed. */
   double relative_bound = std::numeric_limits<double>::quiet_NaN();
+  /** Of Adaptivity::tolerance_column, its half-width over its value; NaN: there is none. */
+  double relative_half_width = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0;           ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
   double own_stress = 0;        ///< ErrorBound::own_stress
