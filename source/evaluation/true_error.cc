@@ -3,6 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/body/load_quadrature.h>
+#include <hpvi/evaluation/common_refinement.h>
 #include <hpvi/evaluation/field_difference.h>
 #include <hpvi/evaluation/graded_boxes.h>
 #include <hpvi/evaluation/true_error.h>
@@ -16,71 +17,40 @@ using namespace dealii;
 
 namespace
 {
-/** Walks through the cells of this process and another mesh that descends from the same coarse mesh. */
+/** Over the cells of this process and those of a mesh that descends from the same coarse mesh. */
 template <int dim>
-class CommonRefinement
+DifferenceSquares squares_of_difference(const Field<dim> &field,
+                                        const StoredSolution<dim> &reference)
 {
-public:
   using Cell = typename Triangulation<dim>::cell_iterator;
-
-  CommonRefinement(const Field<dim> &field, const StoredSolution<dim> &reference)
-      : field(field), mesh(field.dof_handler.get_triangulation()), reference(reference)
-  {
-  }
-
-  DifferenceSquares integrate()
-  {
-    const auto unit = create_unit_bounding_box<dim>();
-    auto other = reference.triangulation().begin(0);
-    for (auto cell = mesh.begin(0); cell != mesh.end(0); ++cell, ++other)
-      descend(cell, unit, other, unit);
-    return sums;
-  }
-
-private:
-  void descend(const Cell &a, const BoundingBox<dim> &in_a, const Cell &b,
-               const BoundingBox<dim> &in_b)
-  {
-    if (!a->has_children() && !a->is_locally_owned())
-      return;
-    if (!a->has_children() && !b->has_children())
-      integrate_over_leaf(a, in_a, b, in_b);
-    else
-      for (unsigned int c = 0; c < GeometryInfo<dim>::max_children_per_cell; ++c)
-        descend(a->has_children() ? a->child(c) : a, a->has_children() ? in_a : in_a.child(c),
-                b->has_children() ? b->child(c) : b, b->has_children() ? in_b : in_b.child(c));
-  }
-
-  void integrate_over_leaf(const Cell &a, const BoundingBox<dim> &in_a, const Cell &b,
-                           const BoundingBox<dim> &in_b)
-  {
-    const unsigned int j = b->active_cell_index();
-    const LocalField<dim> own = local_field(
-        field, typename Field<dim>::Cell(&mesh, a->level(), a->index(), &field.dof_handler));
-    const LocalField<dim> truth{reference.degree(j), reference.coefficients(j), map_of<dim>(b)};
-    // One point more than affine cells need, for those that are not.
-    const QGauss<dim> gauss(std::max(own.degree, truth.degree) + 2);
-    auto field_values = own.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
-    const double share = in_a.volume();
-    const HookesLaw<dim> law(field.scene.material_of(a));
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const Point<dim> s = in_a.unit_to_real(gauss.point(q)), x = own.map.point(s);
-      if (field.scene.is_axisymmetric())
-        for (FieldValues<dim> *const values : {&field_values[q], &truth_values[q]})
-          values->hoop = values->u[0] / x[0];
-      sums.add(law, field_values[q], truth_values[q],
-               gauss.weight(q) * share * std::abs(determinant(own.map.jacobian(s))) *
-                   field.scene.turn(x));
-    }
-  }
-
-  const Field<dim> &field;
-  const Triangulation<dim> &mesh;
-  const StoredSolution<dim> &reference;
+  const Triangulation<dim> &mesh = field.dof_handler.get_triangulation();
   DifferenceSquares sums;
-};
-
+  for_each_common_part(
+      mesh, reference.triangulation(),
+      [&](const Cell &a, const BoundingBox<dim> &in_a, const Cell &b, const BoundingBox<dim> &in_b)
+      {
+        const unsigned int j = b->active_cell_index();
+        const LocalField<dim> own = local_field(
+            field, typename Field<dim>::Cell(&mesh, a->level(), a->index(), &field.dof_handler));
+        const LocalField<dim> truth{reference.degree(j), reference.coefficients(j), map_of<dim>(b)};
+        // One point more than affine cells need, for those that are not.
+        const QGauss<dim> gauss(std::max(own.degree, truth.degree) + 2);
+        auto field_values = own.at(in_a, gauss), truth_values = truth.at(in_b, gauss);
+        const double share = in_a.volume();
+        const HookesLaw<dim> law(field.scene.material_of(a));
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+        {
+          const Point<dim> s = in_a.unit_to_real(gauss.point(q)), x = own.map.point(s);
+          if (field.scene.is_axisymmetric())
+            for (FieldValues<dim> *const values : {&field_values[q], &truth_values[q]})
+              values->hoop = values->u[0] / x[0];
+          sums.add(law, field_values[q], truth_values[q],
+                   gauss.weight(q) * share * std::abs(determinant(own.map.jacobian(s))) *
+                       field.scene.turn(x));
+        }
+      });
+  return sums;
+}
 } // namespace
 
 template <int dim>
@@ -109,7 +79,7 @@ template <int dim>
 void TrueError<dim>::compare_with_reference(const Field<dim> &field, TrueErrors &errors) const
 {
   const DifferenceSquares sums =
-      total(CommonRefinement<dim>(field, *reference).integrate(), field.communicator());
+      total(squares_of_difference(field, *reference), field.communicator());
   errors.energy = std::sqrt(sums.energy);
   errors.l2 = std::sqrt(sums.l2);
   errors.energy_norm = std::sqrt(sums.norm);
