@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_resultant_intervals_h
+#define hpvi_resultant_intervals_h
+
+#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/evaluation/resultant.h>
+#include <hpvi/intervals/test_space.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Guaranteed intervals of the forces that boundaries exert. With w of TestMotion the exact solution has F = a(u, w) - L(w) but
+ * for the work of friction where w falls, so that with `F_w = a(u_N, w) - L(w)`
+ *
+ *     |F - F_w| <= B |w|_a + sum int g |fall| (1 - s/l) ds,    B = ErrorBound::total.
+ *
+ * doc/bound.md has the proof. The test displacements of one step serve the next; where w falls its mesh gets finer as B
+ * gets smaller, so that the second term stays below a tenth of the first.
+ */
+class ResultantIntervals
+{
+public:
+  /** The scene must outlive this. */
+  explicit ResultantIntervals(const Scene<2> &scene);
+
+  /** Sets those of @p forces whose boundaries have one. */
+  void set(const Solution<2> &solution, const ErrorBound &bound, std::vector<Resultant<2>> &forces);
+
+  /** Why some have none, one line for each cause. */
+  const std::vector<std::string> &flaws() const;
+
+private:
+  /** A resultant of one boundary with its w. */
+  struct Goal
+  {
+    BoundaryMotion motion;
+    TestMotion test;
+    dealii::Vector<double> w;
+    double norm = 0;     ///< |w|_a
+    double fall = 0;     ///< what friction may do where w falls
+    double centre = 0;   ///< F_w
+    double rounding = 0; ///< what arithmetic and quadrature may add
+  };
+
+  struct OfBoundary
+  {
+    unsigned int boundary;
+    std::vector<Goal> goals;
+
+    const Goal *find(BoundaryMotion motion) const;
+  };
+
+  void find_goals(const std::vector<Resultant<2>> &forces);
+  void solve(const Solution<2> &solution, double bound);
+  void solve_once(const Solution<2> &solution);
+  double missing_levels(double bound) const;
+  void measure(const Solution<2> &solution);
+  std::optional<Interval> interval(const OfBoundary &boundary,
+                                   const std::vector<std::pair<BoundaryMotion, double>> &sum,
+                                   double bound) const;
+  void set(const OfBoundary &boundary, double bound, Resultant<2> &row) const;
+
+  const Scene<2> &scene;
+  const std::vector<Side<2>> sides;
+  std::vector<OfBoundary> boundaries;
+  bool has_goals = false;
+  std::vector<std::string> why_not;
+  unsigned int levels = 0;
+  const std::shared_ptr<PartTables> tables = std::make_shared<PartTables>();
+  std::unique_ptr<TestSpace> space;
+};
+} // namespace hpvi
+
+#endif

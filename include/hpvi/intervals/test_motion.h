@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_test_motion_h
+#define hpvi_test_motion_h
+
+#include <hpvi/checks/supports.h>
+#include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/scene.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** The motion R of a boundary on which its traction does the work that is a resultant. */
+enum class BoundaryMotion
+{
+  x,         ///< R = (1, 0): int T_x
+  y,         ///< R = (0, 1)
+  moment,    ///< R = (-(y - y_c), x - x_c), c the centre of the body
+  normal,    ///< R = n: int T_n
+  tangential ///< R = t: int T_t
+};
+
+/** What is known beforehand of the traction along a direction, beside the loads. */
+enum class TractionKind
+{
+  given,    ///< zero
+  friction, ///< |T| <= g
+  pressure, ///< T <= 0
+  reaction  ///< nothing
+};
+
+/**
+ * Boundary values of a displacement w with which the weak equation of the exact solution says a resultant of one boundary,
+ *
+ *     a(u, w) - L(w) = int (sigma(u) n - G) . w = F + what falls,
+ *
+ * for w = R on that boundary, as far as its traction is not given, and w = 0 where tractions of others are not. Where two boundaries meet, w is one
+ * vector, and what only friction asks of it may be missed: there w falls from that vector to what the boundary wants along
+ * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. Reactions bear no
+ * fall, nor do pressures, which have no upper bound.
+ *
+ * In the plane, on flat sides.
+ */
+class TestMotion
+{
+public:
+  /** @p sides: sides_of(scene); both must outlive this. */
+  TestMotion(const Scene<2> &scene, const std::vector<Side<2>> &sides, unsigned int boundary,
+             BoundaryMotion resultant);
+
+  /** Why there is no such w, in words; else empty. */
+  const std::string &flaw() const;
+
+  bool is_zero() const; ///< has the boundary no traction along R?
+
+  /** How w falls along one boundary from a point where others meet it. */
+  struct Fall
+  {
+    unsigned int boundary;
+    dealii::Point<2> from;
+    dealii::Tensor<1, 2> offset;  ///< of w there from what the boundary wants
+    dealii::Tensor<1, 2> towards; ///< unit vector along the boundary
+
+    /** `int g |offset| (1 - s/l) ds` over the length @p l. */
+    double work(const Scene<2> &scene, double l) const;
+  };
+  const std::vector<Fall> &falls() const;
+
+  /**
+   * What @p boundary asks of w at @p x; the falls have the lengths @p l.
+   */
+  std::vector<PointCondition<2>> conditions(unsigned int boundary, const dealii::Point<2> &x,
+                                            const std::vector<double> &l) const;
+
+  unsigned int body_number() const; ///< of the body that has the boundary: on others w = 0
+
+  double largest() const; ///< |R| on the boundary is no more
+
+private:
+  struct Meeting;
+  struct Row;
+
+  dealii::Tensor<1, 2> motion(unsigned int boundary, const dealii::Point<2> &x) const;
+  std::vector<Row> rows(unsigned int boundary, const dealii::Point<2> &x) const;
+  std::vector<Meeting> meetings() const;
+  void meet(const Meeting &meeting);
+
+  const Scene<2> &original;
+  const std::vector<Side<2>> &sides;
+  const unsigned int goal, body;
+  const BoundaryMotion resultant;
+  std::string why_not;
+  std::vector<Fall> all_falls;
+};
+
+/** Along two orthonormal directions of a boundary at a point with @p normal. */
+struct TractionAlong
+{
+  dealii::Tensor<1, 2> direction;
+  TractionKind kind;
+};
+std::array<TractionAlong, 2> tractions_of(const BoundaryCondition<2> &boundary,
+                                          const dealii::Tensor<1, 2> &normal);
+} // namespace hpvi
+
+#endif

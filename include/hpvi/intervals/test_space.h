@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_test_space_h
+#define hpvi_test_space_h
+
+#include <hpvi/algebra/linear_solver.h>
+#include <hpvi/body/supports.h>
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/intervals/test_motion.h>
+
+#include <deal.II/lac/sparse_matrix.h>
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+namespace hpvi
+{
+/** Shape functions in parts of cells: degree, points, lower corner, size. Halves of halves repeat from cell to cell. */
+using PartTables =
+    std::map<std::tuple<unsigned int, unsigned int, double, double, double>, ShapeTable<2>>;
+
+/**
+ * Continuous displacements w on a mesh of their own, which descends from the coarse mesh of a scene: fine enough that least
+ * energies are near, and bisected again and again at some points, so that w can fall there along a short edge. It does not know
+ * the mesh of any u_N, and serves all steps.
+ */
+class TestSpace
+{
+public:
+  /**
+   * With @p levels bisections at @p points. @p solution lends its scene, its tables and the rules of its loads; @p tables are those of
+   * spaces before this one.
+   */
+  TestSpace(const Solution<2> &solution, const std::vector<dealii::Point<2>> &points,
+            unsigned int levels, std::shared_ptr<PartTables> tables);
+
+  /** The lengths of the edges at which the falls of @p motion end, each the last one of its boundary. */
+  std::vector<double> lengths(const TestMotion &motion) const;
+
+  /** Of least energy under the conditions of @p motion. */
+  dealii::Vector<double> solve(const TestMotion &motion);
+
+  /** a(v, w) of the body without springs. */
+  double product(const dealii::Vector<double> &v, const dealii::Vector<double> &w) const;
+
+  /**
+   * `a(u_N, v_i) - L(v_i)` for every displacement unknown, a without springs and L without what plates bear: w
+   * times this is F_w.
+   */
+  dealii::Vector<double> residual(const Solution<2> &solution) const;
+
+private:
+  /** Which combinations of unknowns are held, and the matrix of the others. */
+  struct System
+  {
+    dealii::AffineConstraints<double> homogeneous;
+    std::vector<unsigned int> place; ///< by displacement unknown: its row; held ones have none
+    std::unique_ptr<const LinearSolver> factor;
+  };
+
+  /** A node on a boundary; one in a corner stands once, with those that meet there. */
+  struct Node
+  {
+    std::array<dealii::types::global_dof_index, 2> dofs;
+    dealii::Point<2> x;
+    std::vector<unsigned int> boundaries;
+  };
+
+  void find_nodes();
+  void assemble();
+  std::vector<SupportedNode<2>> held_nodes(const TestMotion &motion) const;
+  dealii::AffineConstraints<double> constraints(const TestMotion &motion) const;
+  const System &system(const TestMotion &motion);
+  static void factorise(const dealii::SparseMatrix<double> &A, System &of);
+  const ShapeTable<2> &table_in(const dealii::BoundingBox<2> &box, unsigned int degree,
+                                unsigned int n_gauss) const;
+  void add_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
+                const dealii::BoundingBox<2> &in_a,
+                const dealii::Triangulation<2>::cell_iterator &b,
+                const dealii::BoundingBox<2> &in_b, dealii::Vector<double> &result) const;
+
+  const Scene<2> &scene;
+  const std::shared_ptr<const Spaces<2>> lender;
+  const std::shared_ptr<const dealii::Triangulation<2>> mesh;
+  const Degrees degrees;
+  const DisplacementSpace<2> space;                                         ///< without supports
+  std::vector<Node> nodes;                                                  ///< on the boundary
+  std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> stiffness; ///< by cell
+  dealii::SparsityPattern pattern;
+  dealii::SparseMatrix<double> K;
+  dealii::Vector<double> applied;                          ///< L(v_i)
+  std::map<unsigned int, std::unique_ptr<System>> systems; ///< by body
+  const std::shared_ptr<PartTables> tables_in_parts;
+};
+} // namespace hpvi
+
+#endif

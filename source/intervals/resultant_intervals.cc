@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Engineers read forces. The weak equation of the exact solution says them with any displacement $w$ that moves one
+// boundary and leaves the others where they are,
+//
+// $$ F = \int_\Gamma T \cdot w \, ds = a(u, w) - L(w), $$
+//
+// and the same with $u_N$ in the place of $u$ is off by $a(u - u_N, w)$, no more than the guaranteed bound $B$ of the error
+// times $|w|_a$. So all that is wanted are displacements of small energy with known boundary values. They are no part of
+// the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
+// edge than $V_N$ has.
+#include <hpvi/intervals/resultant_intervals.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Of B |w|_a: what falls may add to a half-width, and what a new mesh aims at, so that it serves some steps. */
+constexpr double largest_share = 0.1, aim = 0.01;
+
+/** A corner's edge is not bisected more often: coordinates have 16 digits. */
+constexpr unsigned int most_levels = 30;
+} // namespace
+
+ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene), sides(sides_of(scene))
+{
+}
+
+const std::vector<std::string> &ResultantIntervals::flaws() const
+{
+  return why_not;
+}
+
+const ResultantIntervals::Goal *
+ResultantIntervals::OfBoundary::find(const BoundaryMotion motion) const
+{
+  for (const Goal &goal : goals)
+    if (goal.motion == motion)
+      return &goal;
+  return nullptr;
+}
+
+// Forces along the axes of a boundary in contact are sums of those along its normal and its tangent.
+void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
+{
+  has_goals = true;
+  for (const Resultant<2> &row : forces)
+  {
+    if (row.kind == ForceKind::load || row.boundary >= scene.boundaries.size() ||
+        sides[row.boundary].pieces.empty())
+      continue;
+    OfBoundary &own = boundaries.emplace_back(OfBoundary{row.boundary, {}});
+    const bool is_contact = row.kind == ForceKind::contact;
+    for (const BoundaryMotion motion :
+         {is_contact ? BoundaryMotion::normal : BoundaryMotion::x,
+          is_contact ? BoundaryMotion::tangential : BoundaryMotion::y, BoundaryMotion::moment})
+    {
+      own.goals.push_back({motion, TestMotion(scene, sides, row.boundary, motion), {}});
+      const std::string &flaw = own.goals.back().test.flaw();
+      if (!flaw.empty() && std::find(why_not.begin(), why_not.end(), flaw) == why_not.end())
+        why_not.push_back(flaw);
+    }
+  }
+}
+
+// @sect3{Test displacements}
+//
+void ResultantIntervals::solve_once(const Solution<2> &solution)
+{
+  std::vector<Point<2>> points;
+  for (const OfBoundary &boundary : boundaries)
+    for (const Goal &goal : boundary.goals)
+      for (const TestMotion::Fall &fall : goal.test.falls())
+        points.push_back(fall.from);
+  space = std::make_unique<TestSpace>(solution, points, levels, tables);
+  for (OfBoundary &boundary : boundaries)
+    for (Goal &goal : boundary.goals)
+    {
+      if (!goal.test.flaw().empty() || goal.test.is_zero())
+        continue;
+      goal.w = space->solve(goal.test);
+      goal.norm = std::sqrt(std::max(0., space->product(goal.w, goal.w))); // round-off
+      goal.fall = 0;
+      const std::vector<double> l = space->lengths(goal.test);
+      for (unsigned int k = 0; k < l.size(); ++k)
+        goal.fall += goal.test.falls()[k].work(scene, l[k]);
+    }
+}
+
+/** Bisections after which falls cost no more than @p bound allows; 0: they do. */
+double ResultantIntervals::missing_levels(const double bound) const
+{
+  double result = 0;
+  for (const OfBoundary &boundary : boundaries)
+    for (const Goal &goal : boundary.goals)
+      if (goal.fall > largest_share * bound * goal.norm)
+        result = std::max(result, std::ceil(std::log2(goal.fall / (aim * bound * goal.norm))));
+  return std::min(result, double(most_levels - levels));
+}
+
+void ResultantIntervals::solve(const Solution<2> &solution, const double bound)
+{
+  if (!space)
+    solve_once(solution);
+  for (double missing = missing_levels(bound); missing > 0; missing = missing_levels(bound))
+  {
+    levels += static_cast<unsigned int>(missing);
+    solve_once(solution);
+  }
+}
+
+// @sect3{Forces}
+//
+void ResultantIntervals::measure(const Solution<2> &solution)
+{
+  const Vector<double> residual = space->residual(solution);
+  const LoadRules<2> &loads = *solution.spaces->loads;
+  for (OfBoundary &boundary : boundaries)
+    for (Goal &goal : boundary.goals)
+    {
+      if (goal.w.size() == 0)
+        continue;
+      double absolute = 0;
+      goal.centre = 0;
+      for (types::global_dof_index i = 0; i < residual.size(); ++i)
+      {
+        goal.centre += goal.w[i] * residual[i];
+        absolute += std::abs(goal.w[i] * residual[i]);
+      }
+      goal.rounding =
+          1e-14 * absolute + loads.difference() * loads.sum().absolute * goal.test.largest();
+    }
+}
+
+/** Of a sum of resultants of one boundary. */
+std::optional<Interval>
+ResultantIntervals::interval(const OfBoundary &boundary,
+                             const std::vector<std::pair<BoundaryMotion, double>> &sum,
+                             const double bound) const
+{
+  Interval result;
+  Vector<double> w;
+  for (const auto &[motion, factor] : sum)
+  {
+    const Goal *const goal = boundary.find(motion);
+    if (std::abs(factor) < 1e-14)
+      continue;
+    if (!goal || !goal->test.flaw().empty())
+      return std::nullopt;
+    if (goal->w.size() == 0)
+      continue; // no traction
+    result.centre += factor * goal->centre;
+    result.half_width += std::abs(factor) * (goal->fall + goal->rounding);
+    if (w.size() == 0)
+      w.reinit(goal->w.size());
+    w.add(factor, goal->w);
+  }
+  if (w.size() > 0)
+    result.half_width += bound * std::sqrt(std::max(0., space->product(w, w)));
+  return result;
+}
+
+void ResultantIntervals::set(const OfBoundary &boundary, const double bound,
+                             Resultant<2> &row) const
+{
+  using Motion = BoundaryMotion;
+  const auto of = [&](const std::vector<std::pair<Motion, double>> &sum)
+  { return interval(boundary, sum, bound); };
+  row.moment[0].interval = of({{Motion::moment, 1.}});
+  if (row.kind != ForceKind::contact)
+  {
+    row.force[0].interval = of({{Motion::x, 1.}});
+    row.force[1].interval = of({{Motion::y, 1.}});
+    return;
+  }
+  row.normal.interval = of({{Motion::normal, 1.}});
+  row.friction.interval = of({{Motion::tangential, 1.}});
+  const Side<2> &side = sides[boundary.boundary];
+  if (!side.is_flat())
+    return;
+  const Tensor<1, 2> n = side.normal(side.point(0, 0.5));
+  row.force[0].interval = of({{Motion::normal, n[0]}, {Motion::tangential, -n[1]}});
+  row.force[1].interval = of({{Motion::normal, n[1]}, {Motion::tangential, n[0]}});
+}
+
+void ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &bound,
+                             std::vector<Resultant<2>> &forces)
+{
+  if (!has_goals)
+    find_goals(forces);
+  if (boundaries.empty())
+    return;
+  solve(solution, bound.total);
+  measure(solution);
+  for (Resultant<2> &row : forces)
+    for (const OfBoundary &boundary : boundaries)
+      if (row.kind != ForceKind::load && row.boundary == boundary.boundary)
+        set(boundary, bound.total, row);
+}
+} // namespace hpvi

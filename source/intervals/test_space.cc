@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/element_matrices.h>
+#include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/evaluation/common_refinement.h>
+#include <hpvi/intervals/test_space.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Least energies hang on corners of the body, where cells count and degrees do not. */
+constexpr unsigned int degree_of_w = 2, few_cells = 200;
+
+/** The coarse mesh, bisected until it has some cells, and further at @p points. */
+std::shared_ptr<const Triangulation<2>>
+bisected_mesh(const Scene<2> &scene, const std::vector<Point<2>> &points, const unsigned int levels)
+{
+  const auto mesh = std::make_shared<Triangulation<2>>();
+  make_mesh(scene, *mesh);
+  while (mesh->n_active_cells() < few_cells)
+    mesh->refine_global(1);
+  const double near = 1e-12 * scene.geometry.diameter();
+  for (unsigned int level = 0; level < levels && !points.empty(); ++level)
+  {
+    for (const auto &cell : mesh->active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        for (const Point<2> &x : points)
+          if (cell->vertex(v).distance(x) < near)
+            cell->set_refine_flag();
+    mesh->execute_coarsening_and_refinement();
+  }
+  return mesh;
+}
+
+/** A body that nothing holds. */
+Scene<2> free_body(const Scene<2> &scene)
+{
+  Scene<2> result = scene;
+  for (BoundaryCondition<2> &boundary : result.boundaries)
+  {
+    boundary.displacement = {};
+    boundary.symmetry = false;
+    boundary.contact = Contact::none;
+    boundary.plate.reset();
+  }
+  return result;
+}
+} // namespace
+
+TestSpace::TestSpace(const Solution<2> &solution, const std::vector<Point<2>> &points,
+                     const unsigned int levels, std::shared_ptr<PartTables> tables)
+    : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points, levels)),
+      degrees(mesh->n_active_cells(), degree_of_w),
+      space(free_body(scene), *mesh, degrees, *lender->tables),
+      applied(applied_loads(scene, space, *lender->tables, *lender->loads)),
+      tables_in_parts(std::move(tables))
+{
+  find_nodes();
+  assemble();
+}
+
+void TestSpace::find_nodes()
+{
+  std::map<types::global_dof_index, Node> found;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+    {
+      if (!cell->at_boundary(f))
+        continue;
+      const CellMap<2> map = map_of<2>(cell);
+      const auto dofs = space.cell_dofs(cell->active_cell_index());
+      const auto &on_edge = lender->tables->numbering(degree_of_w).edge[f];
+      for (unsigned int k = 0; k <= degree_of_w; ++k)
+      {
+        Node &node = found[dofs[on_edge[k]]];
+        node.dofs = {{dofs[on_edge[k]], dofs[on_edge[degree_of_w + 1 + k]]}};
+        node.x =
+            map.point(point_on_face<2>(f, lender->tables->gauss_lobatto(degree_of_w + 1).point(k)));
+        node.boundaries.push_back(cell->face(f)->boundary_id());
+      }
+    }
+  for (const auto &node : found)
+    nodes.push_back(node.second);
+}
+
+// @sect3{Energy}
+//
+// The matrix of all unknowns gives energies and, without those that are held, the system.
+void TestSpace::assemble()
+{
+  const auto each_cell = [&](const auto &act)
+  {
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+    {
+      const auto dofs = space.cell_dofs(cell->active_cell_index());
+      act(cell, std::vector<types::global_dof_index>(dofs.begin(), dofs.end()));
+    }
+  };
+  DynamicSparsityPattern entries(space.n_dofs());
+  each_cell([&](const auto &, const auto &dofs)
+            { space.constraints().add_entries_local_to_global(dofs, entries, true); });
+  each_cell(
+      [&](const auto &, const auto &dofs)
+      {
+        for (const auto dof : dofs)
+          entries.add_entries(dof, dofs.begin(), dofs.end());
+      });
+  pattern.copy_from(entries);
+  K.reinit(pattern);
+  const ElementMatrices<2> matrices(scene, *lender->tables);
+  std::map<ElementMatrices<2>::Class, std::shared_ptr<const FullMatrix<double>>> known;
+  each_cell(
+      [&](const auto &cell, const auto &dofs)
+      {
+        const CellMap<2> map = map_of<2>(cell);
+        std::shared_ptr<const FullMatrix<double>> own;
+        auto &matrix = map.is_affine()
+                           ? known[matrices.congruence_class(map, degree_of_w, cell->material_id())]
+                           : own;
+        if (!matrix)
+          matrix = std::make_shared<const FullMatrix<double>>(
+              matrices.stiffness(map, degree_of_w, cell->material_id()));
+        stiffness.push_back(matrix);
+        K.add(dofs, *matrix);
+      });
+}
+
+double TestSpace::product(const Vector<double> &v, const Vector<double> &w) const
+{
+  return K.matrix_scalar_product(v, w);
+}
+
+// @sect3{What is held}
+//
+// A body of which no traction asks for a motion may be moved by it without energy; it is held at some node then.
+namespace
+{
+/** Is a rigid motion left that none of some conditions sees? Conditions are asked one by one. */
+class SeenMotions
+{
+public:
+  SeenMotions(const Point<2> &centre, const double size) : centre(centre), size(size)
+  {
+  }
+
+  /** Does @p direction at @p x see a motion that those before have not? */
+  bool sees_more(const Point<2> &x, const Tensor<1, 2> &direction)
+  {
+    const Tensor<1, 2> arm = (x - centre) / size;
+    Tensor<1, 3> row;
+    row[0] = direction[0];
+    row[1] = direction[1];
+    row[2] = arm[0] * direction[1] - arm[1] * direction[0];
+    for (const Tensor<1, 3> &q : basis)
+      row -= (row * q) * q;
+    if (basis.size() == 3 || row.norm() < 1e-6)
+      return false;
+    basis.push_back(row / row.norm());
+    return true;
+  }
+
+private:
+  const Point<2> centre;
+  const double size;
+  std::vector<Tensor<1, 3>> basis;
+};
+} // namespace
+
+std::vector<SupportedNode<2>> TestSpace::held_nodes(const TestMotion &motion) const
+{
+  const std::vector<double> l = lengths(motion);
+  std::vector<SupportedNode<2>> result;
+  SeenMotions seen(scene.geometry.centre(), scene.geometry.diameter());
+  std::vector<const Node *> own;
+  for (const Node &node : nodes)
+  {
+    SupportedNode<2> held;
+    held.dofs = node.dofs;
+    held.x = node.x;
+    for (const unsigned int boundary : node.boundaries)
+      for (const PointCondition<2> &condition : motion.conditions(boundary, node.x, l))
+      {
+        held.conditions.push_back(condition);
+        seen.sees_more(node.x, condition.direction);
+      }
+    if (!held.conditions.empty())
+      result.push_back(held);
+    if (scene.geometry.body_of_side(scene.boundaries[node.boundaries.front()].side) ==
+        motion.body_number())
+      own.push_back(&node);
+  }
+  for (const Node *const node : own)
+    for (unsigned int c = 0; c < 2; ++c)
+      if (Tensor<1, 2> axis; axis[c] = 1, seen.sees_more(node->x, axis))
+      {
+        SupportedNode<2> held;
+        held.dofs = node->dofs;
+        held.x = node->x;
+        held.conditions.push_back({axis, 0., node->boundaries.front()});
+        result.push_back(held);
+      }
+  return result;
+}
+
+AffineConstraints<double> TestSpace::constraints(const TestMotion &motion) const
+{
+  AffineConstraints<double> result;
+  result.merge(space.constraints());
+  if (!scene.geometry.bodies.empty())
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      if (body_of<2>(scene.geometry, cell) != motion.body_number())
+        for (const auto dof : space.cell_dofs(cell->active_cell_index()))
+          if (!result.is_constrained(dof))
+            result.add_line(dof);
+  constrain_supports(held_nodes(motion), result);
+  result.close();
+  return result;
+}
+
+const TestSpace::System &TestSpace::system(const TestMotion &motion)
+{
+  std::unique_ptr<System> &result = systems[motion.body_number()];
+  if (result)
+    return *result;
+  result = std::make_unique<System>();
+  AffineConstraints<double> &held = result->homogeneous;
+  held.copy_from(constraints(motion));
+  for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
+    if (held.is_constrained(dof))
+      held.set_inhomogeneity(dof, 0.);
+  DynamicSparsityPattern entries(pattern.n_rows());
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    held.add_entries_local_to_global(std::vector<types::global_dof_index>(dofs.begin(), dofs.end()),
+                                     entries, true);
+  }
+  SparsityPattern places;
+  places.copy_from(entries);
+  SparseMatrix<double> A(places);
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    held.distribute_local_to_global(*stiffness[cell->active_cell_index()],
+                                    std::vector<types::global_dof_index>(dofs.begin(), dofs.end()),
+                                    A);
+  }
+  factorise(A, *result);
+  return *result;
+}
+
+/** The rows that are not held. */
+void TestSpace::factorise(const SparseMatrix<double> &A, System &of)
+{
+  of.place.assign(A.m(), numbers::invalid_unsigned_int);
+  unsigned int n = 0;
+  for (types::global_dof_index dof = 0; dof < A.m(); ++dof)
+    if (!of.homogeneous.is_constrained(dof))
+      of.place[dof] = n++;
+  SymmetricMatrix rows;
+  for (types::global_dof_index dof = 0; dof < A.m(); ++dof)
+  {
+    if (of.homogeneous.is_constrained(dof))
+      continue;
+    for (auto entry = A.begin(dof); entry != A.end(dof); ++entry)
+      if (const unsigned int row = of.place[entry->column()]; row <= of.place[dof])
+      {
+        rows.row.push_back(row);
+        rows.value.push_back(entry->value());
+      }
+    rows.column_start.push_back(rows.row.size());
+  }
+  of.factor = std::make_unique<const LinearSolver>(rows, std::vector<unsigned int>());
+}
+
+// w = h + x, h of the values that are held and x of the others, which leave no force on them.
+Vector<double> TestSpace::solve(const TestMotion &motion)
+{
+  const System &with = system(motion);
+  Vector<double> w(space.n_dofs()), forces(w), x(w);
+  constraints(motion).distribute(w);
+  K.vmult(forces, w);
+  with.homogeneous.condense(forces);
+  Vector<double> free(std::count_if(with.place.begin(), with.place.end(),
+                                    [](const unsigned int row)
+                                    { return row != numbers::invalid_unsigned_int; }));
+  for (types::global_dof_index dof = 0; dof < w.size(); ++dof)
+    if (with.place[dof] != numbers::invalid_unsigned_int)
+      free[with.place[dof]] = -forces[dof];
+  free = with.factor->solve(free);
+  for (types::global_dof_index dof = 0; dof < w.size(); ++dof)
+    if (with.place[dof] != numbers::invalid_unsigned_int)
+      x[dof] = free[with.place[dof]];
+  with.homogeneous.distribute(x);
+  w += x;
+  return w;
+}
+
+std::vector<double> TestSpace::lengths(const TestMotion &motion) const
+{
+  std::vector<double> result;
+  for (const TestMotion::Fall &fall : motion.falls())
+  {
+    double nearest = scene.geometry.diameter();
+    for (const Node &node : nodes)
+      if (std::find(node.boundaries.begin(), node.boundaries.end(), fall.boundary) !=
+          node.boundaries.end())
+      {
+        const double distance = node.x.distance(fall.from);
+        if (distance > 1e-14 * nearest && distance > 0)
+          nearest = std::min(nearest, distance);
+      }
+    result.push_back(degree_of_w * nearest);
+  }
+  return result;
+}
+
+// @sect3{What u_N does on w}
+//
+// Where cells of both meshes overlap, the smaller one is integrated over.
+const ShapeTable<2> &TestSpace::table_in(const BoundingBox<2> &box, const unsigned int degree,
+                                         const unsigned int n_gauss) const
+{
+  const ShapeTable<2> &whole = lender->tables->gradients(degree, n_gauss);
+  if (box.volume() == 1.)
+    return whole;
+  const Point<2> &corner = box.get_boundary_points().first;
+  ShapeTable<2> &table =
+      (*tables_in_parts)[{degree, n_gauss, corner[0], corner[1], box.side_length(0)}];
+  if (table.points.empty())
+  {
+    std::vector<Point<2>> points;
+    for (const Point<2> &q : whole.points)
+      points.push_back(box.unit_to_real(q));
+    table = tabulate<2>(degree, points, whole.weights, false);
+  }
+  return table;
+}
+
+void TestSpace::add_part(const Solution<2> &solution, const Triangulation<2>::cell_iterator &a,
+                         const BoundingBox<2> &in_a, const Triangulation<2>::cell_iterator &b,
+                         const BoundingBox<2> &in_b, Vector<double> &result) const
+{
+  const unsigned int cell = a->active_cell_index(), p = solution.displacement_space.degrees()[cell];
+  const CellMap<2> map = map_of<2>(a), other = map_of<2>(b);
+  const bool varies = scene.has_initial_strain() || !map.is_affine();
+  const unsigned int n_gauss = (p + degree_of_w) / 2 + 1 + (varies ? 3 : 0);
+  const ShapeTable<2> &of_u = table_in(in_a, p, n_gauss),
+                      &of_w = table_in(in_b, degree_of_w, n_gauss);
+  const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
+  const HookesLaw<2> law(scene.material_of(a));
+  const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
+  const auto dofs = space.cell_dofs(b->active_cell_index());
+  std::vector<double> forces(2 * of_w.n_shapes);
+  for (unsigned int q = 0; q < of_u.points.size(); ++q)
+  {
+    const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
+    Tensor<2, 2> strain =
+        physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
+    if (scene.has_initial_strain())
+      strain -= scene.initial_strain_in(a, map.point(of_u.points[q]));
+    const double weight = of_u.weights[q] * in_a.volume() * std::abs(determinant(J));
+    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(strain)) *
+                                transpose(invert(other.jacobian(of_w.points[q])));
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int r = 0; r < 2; ++r)
+        for (unsigned int i = 0; i < of_w.n_shapes; ++i)
+          forces[c * of_w.n_shapes + i] +=
+              pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
+  }
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    result[dofs[i]] += forces[numbering.component[i] * of_w.n_shapes + numbering.shape[i]];
+}
+
+Vector<double> TestSpace::residual(const Solution<2> &solution) const
+{
+  if (tables_in_parts->size() > 4000)
+    tables_in_parts->clear();
+  Vector<double> result(space.n_dofs());
+  using Cell = Triangulation<2>::cell_iterator;
+  for_each_common_part(
+      solution.displacement_space.triangulation(), *mesh,
+      [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
+      { add_part(solution, a, in_a, b, in_b, result); });
+  result -= applied;
+  return result;
+}
+} // namespace hpvi
