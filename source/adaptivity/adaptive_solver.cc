@@ -6,6 +6,7 @@
 // program, or in the whole body, on many processes, is the business of a <i>backend</i>; the loop is the
 // same, and so is all that it says of a solution.
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/column_width.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/thickness.h>
@@ -87,6 +88,7 @@ struct AdaptiveSolver<dim>::Stages
   PastStep<dim> past_step(const EstimateNorms &norms, const Energies &energies) const;
   StepReport<dim> report();
   std::string end_of_run(const Refinement &refinement) const;
+  void add_results(StepReport<dim> &step);
   void conclude(StepReport<dim> &step) const;
   void refine(const Refinement &refinement);
   void resume(const RunState<dim> &state);
@@ -242,11 +244,26 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report()
   step.energies = energies;
   step.contact = std::move(contact);
   step.errors = true_error.measure(field, step.contact);
+  add_results(step);
   step.times = std::exchange(backend->times, {});
   step.seconds = past.seconds;
   step.peak_memory = peak_memory(backend->communicator);
   step.peaks = past.peaks;
   return step;
+}
+
+/** What engineers read: forces and probes. */
+template <int dim>
+void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
+{
+  StageTimer timer(backend->times.recover);
+  step.equilibrium = equilibrium(scene, backend->nodal_forces(), backend->communicator);
+  step.forces = resultants(scene, step.equilibrium, step.contact);
+  step.probes = probe_values(step.field);
+  step.probe_lines = probe_lines(step.field);
+  if (!step.bound)
+    step.no_intervals = step.no_bound;
+  history.back().relative_half_width = relative_half_width(step);
 }
 
 /** What makes the last step the last of all; else empty. */
@@ -266,7 +283,7 @@ std::string AdaptiveSolver<dim>::Stages::end_of_run(const Refinement &refinement
 template <int dim>
 void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
 {
-  step.equilibrium = equilibrium(scene, backend->nodal_forces(), backend->communicator);
+  step.largest_displacement = largest_displacement(step.field);
   std::vector<std::vector<StressSample<dim>>> peaks;
   for (const PastStep<dim> &past : history)
     peaks.push_back(past.peaks);
@@ -274,10 +291,11 @@ void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
   const BodyState<dim> body = body_state(step.field);
   Warnings of_all;
   together(backend->communicator, [&]() { of_all = warnings(scene, step.contact, body, history); });
-  step.warnings = joined(of_all, backend->warnings(step.contact, step.equilibrium),
-                         tolerance_warnings(scene.adaptivity, bound.missing),
-                         bound.bound ? bound_warnings(step.relative_bound, bound.bound->imbalance)
-                                     : Warnings());
+  step.warnings = joined(
+      of_all, backend->warnings(step.contact, step.equilibrium),
+      tolerance_warnings(scene.adaptivity, bound.missing),
+      tolerance_warnings(scene.adaptivity, history.back().relative_half_width, no_half_width(step)),
+      bound.bound ? bound_warnings(step.relative_bound, bound.bound->imbalance) : Warnings());
 }
 
 namespace

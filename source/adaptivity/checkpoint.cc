@@ -44,7 +44,7 @@ void write_peaks(std::ostream &out, const std::vector<StressSample<dim>> &peaks)
 
 const FileFormat &run_state_format()
 {
-  static const FileFormat format("run state", 5,
+  static const FileFormat format("run state", 6,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -167,8 +167,8 @@ void RunState<dim>::write(std::ostream &out) const
   for (const PastStep<dim> &step : history)
   {
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
-            << text(step.relative_bound) << ' ' << text(step.seconds) << ' ' << step.lacks_condition
-            << ' ' << text(step.own_stress);
+            << text(step.relative_bound) << ' ' << text(step.relative_half_width) << ' '
+            << text(step.seconds) << ' ' << step.lacks_condition << ' ' << text(step.own_stress);
     write_peaks(content, step.peaks);
   }
   content << "refinements " << refinements.size() << '\n';
@@ -195,6 +195,7 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
     step.estimate = reader.number<double>();
     step.relative_estimate = reader.number<double>();
     step.relative_bound = reader.number<double>();
+    step.relative_half_width = reader.number<double>();
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
     step.own_stress = reader.number<double>();

@@ -95,6 +95,7 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
   {
     next->adaptivity.tolerance = tolerance;
     next->adaptivity.tolerance_on = Indicator::residual;
+    next->adaptivity.tolerance_column.clear();
   }
   const auto last = std::exchange(current, next); // the solver refers to it
   solver = std::make_unique<AdaptiveSolver<dim>>(*current, *solver, slip);

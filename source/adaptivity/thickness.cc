@@ -25,6 +25,17 @@ void take(const double b, const double root, ErrorBound &bound)
 }
 
 template <int dim>
+void take(const double b, Resultant<dim> &row)
+{
+  for (Measured &component : row.force)
+    component.multiply(b);
+  for (Measured &component : row.moment)
+    component.multiply(b);
+  row.normal.multiply(b);
+  row.friction.multiply(b);
+}
+
+template <int dim>
 void take(const double b, ContactState<dim> &state)
 {
   multiply(b, state.normal_resultant, state.friction_resultant, state.friction_force,
@@ -54,7 +65,11 @@ void take_thickness(StepReport<dim> &step)
     multiply(b, force.force, force.moment);
   for (PlateState<dim> &plate : step.equilibrium.plates)
     plate.moment *= b;
+  for (BoundaryForce<dim> &load : step.equilibrium.parts_of_loads)
+    multiply(b, load.force, load.moment);
   multiply(b, step.equilibrium.loads.force, step.equilibrium.loads.moment);
+  for (Resultant<dim> &row : step.forces)
+    take(b, row);
 }
 
 template void take_thickness(StepReport<2> &);

@@ -63,7 +63,21 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
   }
   // Around an axis what is radial balances itself, and turns nothing.
   if (scene.is_axisymmetric())
+  {
     total.force[0] = total.moment = std::numeric_limits<double>::quiet_NaN();
+    for (auto &[boundary, sum] : by_boundary)
+      sum.force[0] = sum.moment = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+template <int dim>
+void LoadRules<dim>::add(LoadSum &sum, const Tensor<1, dim> &force, const Point<dim> &x) const
+{
+  sum.centre = scene.geometry.centre();
+  const Tensor<1, dim> arm = x - sum.centre;
+  sum.force += force;
+  sum.moment += arm[0] * force[1] - arm[1] * force[0];
+  sum.absolute += std::abs(force[0]) + std::abs(force[1]);
 }
 
 /** The load on a coarse edge or cell, to the sum. */
@@ -72,31 +86,32 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
 {
   const unsigned int degree = scene.adaptivity.start_degree;
   const CellMap<dim> map = map_of<dim>(cell);
-  const auto add_point = [&](const Load<dim> &load, const Point<dim> &x, const double weight)
-  {
-    const Tensor<1, dim> force = weight * scene.turn(x) * load_at<dim>(load, x);
-    const Tensor<1, dim> arm = x - total.centre;
-    total.force += force;
-    total.moment += arm[0] * force[1] - arm[1] * force[0];
-    total.absolute += std::abs(force[0]) + std::abs(force[1]);
-  };
+  const auto force_at = [&](const Load<dim> &load, const Point<dim> &x, const double weight)
+  { return weight * scene.turn(x) * load_at<dim>(load, x); };
   if (face == inside)
   {
     const LoadRule<dim> rule = body_force(cell, degree);
     for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
     {
       const Point<dim> &s = rule.quadrature.point(q);
-      add_point(scene.body_force_in(cell), map.point(s),
-                rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s))));
+      const Point<dim> x = map.point(s);
+      add(total,
+          force_at(scene.body_force_in(cell), x,
+                   rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s)))),
+          x);
     }
     return;
   }
+  const types::boundary_id boundary = cell->face(face)->boundary_id();
   const LoadRule<1> rule = traction(cell, face, degree);
   for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
   {
     const Point<dim> s = point_on_face<dim>(face, rule.quadrature.point(q));
-    add_point(scene.boundaries[cell->face(face)->boundary_id()].traction, map.point(s),
-              rule.quadrature.weight(q) * map.face_measure(face, s));
+    const Point<dim> x = map.point(s);
+    const Tensor<1, dim> force = force_at(scene.boundaries[boundary].traction, x,
+                                          rule.quadrature.weight(q) * map.face_measure(face, s));
+    add(total, force, x);
+    add(by_boundary[boundary], force, x);
   }
 }
 
@@ -243,6 +258,12 @@ template <int dim>
 const LoadSum &LoadRules<dim>::sum() const
 {
   return total;
+}
+
+template <int dim>
+const std::map<types::boundary_id, LoadSum> &LoadRules<dim>::sums_by_boundary() const
+{
+  return by_boundary;
 }
 
 template <int dim>

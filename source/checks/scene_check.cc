@@ -53,6 +53,8 @@ void Scene<dim>::check(const SceneUse use) const
   free_motions();
   check_exact_solution(*this);
   check_reference(*this);
+  check_probes(*this);
+  check_tolerance_column(*this);
   check_method(*this, use);
   if (solver.path == SolutionPath::primal && use == SceneUse::solve)
     check_primal_path(*this);

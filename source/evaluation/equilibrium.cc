@@ -21,16 +21,6 @@ using namespace dealii;
 
 namespace
 {
-double moment_of(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
-{
-  return arm[0] * force[1] - arm[1] * force[0];
-}
-
-Tensor<1, 3> moment_of(const Tensor<1, 3> &arm, const Tensor<1, 3> &force)
-{
-  return cross_product_3d(arm, force);
-}
-
 /** The sum over all processes of each number of a vector, or of the one that it is. */
 template <class Numbers>
 Numbers total(Numbers numbers, MPI_Comm communicator)
@@ -65,7 +55,7 @@ struct Resultants
         bodies(scene.geometry.bodies.size())
   {
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-      reactions.push_back({boundary.name, {}, {}});
+      reactions.push_back({boundary.name, {}, {}, boundary.id});
   }
 
   void add(BoundaryForce<dim> &sum, Tensor<1, dim> force, const Point<dim> &x,
@@ -148,6 +138,38 @@ void forget_radial(BoundaryForce<2> &force)
 }
 } // namespace
 
+namespace
+{
+/** What is loaded where: tractions boundary by boundary, and of @p loads what they leave, which is the body force. */
+template <int dim>
+std::vector<BoundaryForce<dim>>
+parts_of_loads(const Scene<dim> &scene, const std::vector<typename NodalForces<dim>::Traction> &own,
+               const BoundaryForce<dim> &loads, MPI_Comm communicator)
+{
+  std::vector<BoundaryForce<dim>> result;
+  BoundaryForce<dim> rest{"body force", loads.force, loads.moment};
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.has_traction())
+    {
+      BoundaryForce<dim> sum{boundary.name, {}, {}, boundary.id};
+      for (const auto &traction : own)
+        if (traction.boundary == boundary.id)
+        {
+          sum.force += traction.force;
+          sum.moment += traction.moment;
+        }
+      sum.force = total(sum.force, communicator);
+      sum.moment = total(sum.moment, communicator);
+      rest.force -= sum.force;
+      rest.moment -= sum.moment;
+      result.push_back(sum);
+    }
+  if (scene.has_body_force())
+    result.push_back(rest);
+  return result;
+}
+} // namespace
+
 template <int dim>
 Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &forces,
                              MPI_Comm communicator)
@@ -164,6 +186,7 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
   sums.sum_up(communicator);
   Equilibrium<dim> result;
   together(communicator, [&]() { result = balance_of(sums, scene); });
+  result.parts_of_loads = parts_of_loads<dim>(scene, forces.tractions, result.loads, communicator);
   result.plates = forces.plates;
   if constexpr (dim == 2)
     for (PlateState<dim> &plate : result.plates)
@@ -175,6 +198,8 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
     if (scene.is_axisymmetric())
     {
       forget_radial(result.loads);
+      for (BoundaryForce<dim> &load : result.parts_of_loads)
+        forget_radial(load);
       for (BoundaryForce<dim> &reaction : result.reactions)
         forget_radial(reaction);
       for (PlateState<dim> &plate : result.plates)
@@ -283,6 +308,9 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (loads[dof] != 0.)
       result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof], nodes.body[dof]});
+
+  for (const auto &[boundary, sum] : solution.spaces->loads->sums_by_boundary())
+    result.tractions.push_back({boundary, sum.force, sum.moment});
 
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)

@@ -6,10 +6,12 @@
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
+#include <hpvi/output/probe_table.h>
 #include <hpvi/output/vtu.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace hpvi
@@ -29,7 +31,17 @@ std::string names_written(const Scene<dim> &scene, const unsigned int n_processe
          (!output.vtu        ? ""
           : n_processes == 1 ? "|" + results::vtu
                              : "|" + results::pieces) +
-         (output.reference ? "|" + results::reference : "");
+         (output.reference ? "|" + results::reference : "") +
+         (std::any_of(scene.probes.begin(), scene.probes.end(),
+                      [](const Probe<dim> &probe) { return probe.kind == ProbeKind::line; })
+              ? "|" + results::probe
+              : "");
+}
+
+template <int dim>
+std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, const unsigned int step)
+{
+  return numbered("probe-" + scene.probes[line.probe].name, step, ".csv");
 }
 
 /** together(), where what goes wrong is that something cannot be written. */
@@ -193,7 +205,11 @@ void Output<dim>::write_pictures(const StepReport<dim> &step)
        {std::make_pair(contact_name, has_contact), {mesh_name, has_mesh}, {vtu_name, has_vtu}})
     if (is_there)
       names.push_back(name);
+  for (const ProbeLine<dim> &line : step.probe_lines)
+    names.insert(names.begin(), probe_file(scene, line, step.number));
   announce(names);
+  for (const ProbeLine<dim> &line : step.probe_lines)
+    write(probe_file(scene, line, step.number), probe_table(line));
   if (has_contact)
     write(contact_name, contact_table(scene, step.contact));
   if constexpr (dim == 2)
@@ -241,6 +257,7 @@ void Output<dim>::write_tables(const StepReport<dim> &step)
   tables.add(step);
   update("convergence.csv", tables.convergence());
   update("degrees.csv", tables.degrees());
+  update("forces.csv", tables.forces());
   if (scene.has_load_history() && is_last)
   {
     announce({"loading.csv"});
@@ -267,7 +284,7 @@ void Output<dim>::write_step(const StepReport<dim> &step)
                  {
                    if (!is_first)
                      return;
-                   announce({"convergence.csv", "degrees.csv"});
+                   announce({"convergence.csv", "degrees.csv", "forces.csv"});
                    write_pictures(step);
                    add_to_collection(step);
                    write_tables(step);

@@ -37,6 +37,14 @@ void add_row(GrowingText &table, const Record &row)
   add_line(table.text, row, &Record::value_type::second);
 }
 
+void add_rows(GrowingText &table, const std::vector<Record> &rows)
+{
+  const std::size_t same = table.text.size();
+  for (const Record &row : rows)
+    add_row(table, row);
+  table.same = same;
+}
+
 std::string json_number(const double value)
 {
   return std::isfinite(value) ? text(value) : "null";

@@ -33,8 +33,8 @@ bool is_result(const std::string &name)
 {
   using namespace results;
   static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
-                                  vtu + "|" + pieces + "|" + reference + "|" + picture +
-                                  ")(\\.tmp)?");
+                                  vtu + "|" + pieces + "|" + reference + "|" + picture + "|" +
+                                  probe + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 
@@ -134,7 +134,8 @@ struct FileNames::Span
 FileNames::Span FileNames::span_of(const std::string &name)
 {
   static const std::regex pattern(
-      "([a-z]+-)(?:([0-9]{2,9})|\\{([0-9]{2,9})\\.\\.([0-9]{2,9})\\})(\\.[0-9a-z.]+)");
+      "(probe-[A-Za-z0-9_ "
+      "-]+-|[a-z]+-)(?:([0-9]{2,9})|\\{([0-9]{2,9})\\.\\.([0-9]{2,9})\\})(\\.[0-9a-z.]+)");
   std::smatch match;
   if (name.size() > 60 || !std::regex_match(name, match, pattern))
     return {{name, 0, ""}, 0, 0};

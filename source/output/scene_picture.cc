@@ -4,6 +4,7 @@
 #include <hpvi/output/arrow_rows.h>
 #include <hpvi/output/axes.h>
 #include <hpvi/output/cell_outline.h>
+#include <hpvi/output/probe_marks.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_marks.h>
 #include <hpvi/output/scene_picture.h>
@@ -248,6 +249,7 @@ std::string scene_picture(const Scene<2> &scene)
   draw_outline(sheet, parts);
   draw_boundaries(sheet, marked);
   draw_body_force(sheet, mesh);
+  draw_probes(sheet, parts);
   sheet.drawing.write_notes();
   draw_axes(sheet);
   draw_key(sheet);

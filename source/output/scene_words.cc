@@ -6,6 +6,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/mesh_words.h>
+#include <hpvi/output/probe_marks.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/scene/elasticity.h>
@@ -299,7 +300,7 @@ std::string scene_in_words(const Scene<dim> &scene)
          (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
                                          " load steps; what follows is at t = 1\n"
                                    : "") +
-         boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) +
+         boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) + probes_in_words(last) +
          resultant_in_words(last, takes_primal_path(scene, 1));
 }
 

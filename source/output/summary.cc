@@ -4,6 +4,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/plate_report.h>
+#include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/reader/scene_entries.h>
@@ -81,6 +82,8 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
     ending.plates = plates_json(step.scene, step.equilibrium);
   ending.balance = balance_json(step.equilibrium);
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
+  ending.largest_displacement = largest_displacement_json(step);
+  ending.no_intervals = known(step.no_intervals);
   ending.von_mises = von_mises_json(step.peaks, step.unbounded);
 }
 
@@ -114,6 +117,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
                  {"balance", ending.balance},
                  {"contact", ending.contact},
                  {"von_mises", ending.von_mises},
+                 {"largest_displacement", ending.largest_displacement},
+                 {"no_intervals", ending.no_intervals},
                  {"seconds", json_object(stage_record(times))},
                  {"warnings", json_lines(warnings)},
                  {"files", json_lines(files)}};

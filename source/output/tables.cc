@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/output/forces_table.h>
+#include <hpvi/output/probe_table.h>
 #include <hpvi/output/tables.h>
 
 #include <deal.II/base/mpi.h>
@@ -204,8 +206,9 @@ template <int dim>
 Record convergence_record(const StepReport<dim> &step)
 {
   Record record;
-  for (const Record &part : {solution_record(step), contact_record(step), coulomb_record(step),
-                             bound_record(step), time_record(step), newton_record(step)})
+  for (const Record &part :
+       {solution_record(step), contact_record(step), coulomb_record(step), bound_record(step),
+        time_record(step), newton_record(step), probe_record(step)})
     record.insert(record.end(), part.begin(), part.end());
   return record;
 }
@@ -250,6 +253,7 @@ void Tables<dim>::add(const StepReport<dim> &step)
 {
   row = convergence_record(step);
   add_row(rows, row);
+  add_rows(force_rows, forces_rows(step));
   elements.push_back(step.size.cells_of_degree);
   add_degrees();
   if (step.load.number > 0 && !step.stopped_by.empty())
@@ -296,6 +300,12 @@ template <int dim>
 const GrowingText &Tables<dim>::degrees() const
 {
   return degree_rows;
+}
+
+template <int dim>
+const GrowingText &Tables<dim>::forces() const
+{
+  return force_rows;
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/evaluation/probe_value.h>
 #include <hpvi/peaks/stress_peak.h>
 
 #include <algorithm>
@@ -81,13 +82,13 @@ constexpr unsigned int most_peaks = 3;
 template <int dim>
 double von_mises(const Material &material, const SymmetricTensor<2, dim> &sigma, const double e33)
 {
-  SymmetricTensor<2, 3> full;
+  FullStress full;
   for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = i; j < dim; ++j)
       full[i][j] = sigma[i][j];
   if constexpr (dim == 2)
     full[2][2] = material.transverse_stress(sigma, e33);
-  return std::sqrt(1.5) * deviator(full).norm();
+  return von_mises(full);
 }
 
 template <int dim>

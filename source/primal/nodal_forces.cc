@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/primal/nodal_forces.h>
 
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/load_quadrature.h>
+
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
@@ -154,6 +158,35 @@ void NodalReactions<dim>::find_nodes()
   }
 }
 
+/** By the rule of the path, face by face. */
+template <int dim>
+std::vector<typename NodalForces<dim>::Traction> tractions(const MomentSpace<dim> &space)
+{
+  const QGauss<dim - 1> rule(space.tables.fe.degree + 1);
+  const Point<dim> centre = space.scene.geometry.centre();
+  std::vector<typename NodalForces<dim>::Traction> result;
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->is_locally_owned() && cell->at_boundary(face) &&
+          space.condition(cell, face).has_traction())
+      {
+        const BoundaryCondition<dim> &condition = space.condition(cell, face);
+        const CellMap<dim> map = map_of<dim>(cell);
+        Tensor<1, dim> force;
+        Moment<dim> moment{};
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const Point<dim> s = point_on_face<dim>(face, rule.point(q)), x = map.point(s);
+          const Tensor<1, dim> part =
+              rule.weight(q) * map.face_measure(face, s) * load_at<dim>(condition.traction, x);
+          force += part;
+          moment += moment_of(x - centre, part);
+        }
+        result.push_back({condition.id, force, moment});
+      }
+  return result;
+}
+
 /** Where several boundaries hold a node they share the reaction. */
 template <int dim>
 NodalForces<dim> NodalReactions<dim>::forces() const
@@ -171,6 +204,7 @@ NodalForces<dim> NodalReactions<dim>::forces() const
       result.reactions.push_back({boundary, force, node.x});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
+  result.tractions = tractions(space);
   return result;
 }
 } // namespace

@@ -4,6 +4,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/output.h>
+#include <hpvi/output/results_report.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/interruption.h>
@@ -142,8 +143,8 @@ void Ending::hear(const StepReport<dim> &step)
                  " of the solution";
   if (!step.stopped_by.empty())
     words = contact_in_words(step.scene, step.contact, step.equilibrium, step.unbounded) +
-            balance_in_words(step) + missing_bound_in_words(step, last_bound) +
-            work_in_words(step.load);
+            results_in_words(step) + balance_in_words(step) +
+            missing_bound_in_words(step, last_bound) + work_in_words(step.load);
 }
 
 /** A signal reaches processes at different times: they stop where the first one has noticed. */

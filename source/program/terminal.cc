@@ -29,6 +29,9 @@ std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivit
     return "stopped: exact to round-off";
   if (stopped_by == "Adapt = first step")
     return "solved once, as Loading/Adapt = first step says";
+  if (stopped_by == "Tolerance" && !adaptivity.tolerance_column.empty())
+    return "done: " + adaptivity.tolerance_column +
+           " is guaranteed to Adaptivity/Tolerance of its value";
   if (stopped_by == "Tolerance" && adaptivity.is_default_tolerance)
     return std::string("done: the error ") +
            (has_bound && adaptivity.tolerance_on == Indicator::bound ? "" : "indicator ") +

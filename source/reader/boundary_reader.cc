@@ -8,6 +8,8 @@
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
 
+#include <deal.II/base/patterns.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,6 +18,96 @@
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
+{
+  std::string all;
+  for (const std::string &word : words)
+    all += (all.empty() ? "" : "|") + word;
+  return std::make_shared<Patterns::Selection>(all);
+}
+} // namespace
+
+std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides)
+{
+  const auto text = std::make_shared<Patterns::Anything>();
+  return {{"Boundary " + part, "On", "", text, listed(sides, "or"),
+           "The side of which this boundary is a part: it takes its faces out of it and inherits "
+           "nothing."},
+          {"Boundary " + part, "Where", "", text, "one expression of x and y",
+           "Positive on the part, at the centre of each face of the coarse mesh. A box gets a grid "
+           "line where the part ends between two."}};
+}
+
+std::vector<Entry> boundary_entries(const std::string &boundary)
+{
+  const auto text = std::make_shared<Patterns::Anything>();
+  const std::string section = "Boundary " + boundary;
+  return {
+      {section, "Displacement", "", text, "ux; uy or nothing",
+       "Prescribed displacement ux; uy as expressions of x and y [length]; `free` for a component "
+       "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
+      {section, "Traction", "", text, "Gx; Gy or nothing",
+       "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
+      {section, "Pressure", "", text, "one expression p or nothing",
+       "Pressure p(x,y) [stress]: adds -p n to Traction, n the outer normal; it presses where it "
+       "is "
+       "positive; empty: none."},
+      {section, "Shear", "", text, "one expression s or nothing",
+       "Shear s(x,y) [stress]: adds s t to Traction, t = (-n_y, n_x) the tangent; empty: none."},
+      {section, "Symmetry", "false", std::make_shared<Patterns::Bool>(), "true or false",
+       "true: a plane of symmetry, u_n = 0 without friction; it may stand alone only."},
+      {section, "Spring", "", text, "kn; kt or nothing",
+       "Elastic foundation that is glued to the body, k_n(x,y); k_t(x,y) >= 0 [stress/length]: "
+       "the "
+       "traction -k_n u_n n - k_t u_t t, whichever way the body moves. It may stand beside a load "
+       "or a prescribed displacement, not beside contact; empty: none."},
+      {section, "Rigid", "false", std::make_shared<Patterns::Bool>(), "true or false",
+       "true: the boundary is glued to a rigid plate, as of a testing machine. Displacement is "
+       "that "
+       "of the plate at the mean point of the boundary then, numbers or functions of t; what "
+       "neither it nor Force, Rotation or Moment names is free. It stands without contact, "
+       "symmetry, springs and tractions."},
+      {section, "Force", "", text, "Fx; Fy or nothing",
+       "Force on a rigid plate in all, at the mean point of the boundary [stress length^2, per "
+       "thickness stress length], numbers or functions of t; `free` for a component that is moved "
+       "by Displacement or not loaded; empty: none."},
+      {section, "Rotation", "", text, "one number or nothing",
+       "Small rotation of a rigid plate about that point, counterclockwise [radians]; empty: "
+       "free."},
+      {section, "Moment", "", text, "one number or nothing",
+       "Moment on a rigid plate about that point, counterclockwise [stress length^3, per "
+       "thickness "
+       "stress length^2]; empty: none."},
+      {section, "Contact", "none", one_of(contact_names),
+       "none, bilateral, unilateral or tangential",
+       "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
+       "obstacle, u_n <= u_0, and pull nowhere, T_n <= 0. tangential: nothing in the normal "
+       "direction, friction alone acts. Friction bound may stand beside all three."},
+      {section, "Gap", "", text, "one expression u_0 or nothing",
+       "Distance u_0(x,y) of the obstacle along the outer normal, or Contact direction, before "
+       "any displacement [length], negative: interference; of Contact = unilateral; empty or 0: "
+       "the body touches it."},
+      {section, "Contact direction", "", text, "dx; dy or nothing",
+       "Direction dx; dy of contact, numbers, out of the body, of whatever length: u_n, T_n and "
+       "Gap are those along it and u_t, T_t those along (-dy, dx), per length of the boundary, as "
+       "of an obstacle with another normal than the body's. The error has no guaranteed bound "
+       "then; empty: the outer normal."},
+      {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
+       "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
+       "empty or 0: no friction."},
+      {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
+       "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f max(0, -T_n), instead of a bound or, "
+       "by Friction law, with one; of unilateral or bilateral contact; empty or 0: no friction."},
+      {section, "Friction law", "automatic", one_of(friction_law_names),
+       "automatic, limited or cohesive",
+       "What Friction bound g and Friction coefficient mu_f make together, with p = max(0, -T_n). "
+       "limited: |T_t| <= min(mu_f p, g), Coulomb's friction until the material shears. cohesive: "
+       "|T_t| <= g + mu_f p, where unilateral contact is open also. automatic: the law of the one "
+       "that is given, Tresca's or Coulomb's."}};
+}
 
 namespace
 {

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/geometry.h>
@@ -96,90 +97,6 @@ void add_problem_entries(std::vector<Entry> &entries, const int dim,
         "times it is an initial strain; empty: 0."}});
 }
 
-/** What a part of a side has beside what it has in common with sides. */
-void add_part_entries(std::vector<Entry> &entries, const std::string &part,
-                      const std::vector<std::string> &sides)
-{
-  entries.insert(
-      entries.end(),
-      {{"Boundary " + part, "On", "", matching(Patterns::Anything()), listed(sides, "or"),
-        "The side of which this boundary is a part: it takes its faces out of it and inherits "
-        "nothing."},
-       {"Boundary " + part, "Where", "", matching(Patterns::Anything()),
-        "one expression of x and y",
-        "Positive on the part, at the centre of each face of the coarse mesh. A box gets a grid "
-        "line where the part ends between two."}});
-}
-
-void add_boundary_entries(std::vector<Entry> &entries, const std::string &boundary)
-{
-  const auto text = matching(Patterns::Anything());
-  const std::string section = "Boundary " + boundary;
-  entries.insert(
-      entries.end(),
-      {{section, "Displacement", "", text, "ux; uy or nothing",
-        "Prescribed displacement ux; uy as expressions of x and y [length]; `free` for a component "
-        "that is not prescribed, `exact` for one or all of the exact solution; empty: none is."},
-       {section, "Traction", "", text, "Gx; Gy or nothing",
-        "Traction Gx; Gy as expressions of x and y [stress], or `exact`; empty: none."},
-       {section, "Pressure", "", text, "one expression p or nothing",
-        "Pressure p(x,y) [stress]: adds -p n to Traction, n the outer normal; it presses where it "
-        "is "
-        "positive; empty: none."},
-       {section, "Shear", "", text, "one expression s or nothing",
-        "Shear s(x,y) [stress]: adds s t to Traction, t = (-n_y, n_x) the tangent; empty: none."},
-       {section, "Symmetry", "false", matching(Patterns::Bool()), "true or false",
-        "true: a plane of symmetry, u_n = 0 without friction; it may stand alone only."},
-       {section, "Spring", "", text, "kn; kt or nothing",
-        "Elastic foundation that is glued to the body, k_n(x,y); k_t(x,y) >= 0 [stress/length]: "
-        "the "
-        "traction -k_n u_n n - k_t u_t t, whichever way the body moves. It may stand beside a load "
-        "or a prescribed displacement, not beside contact; empty: none."},
-       {section, "Rigid", "false", matching(Patterns::Bool()), "true or false",
-        "true: the boundary is glued to a rigid plate, as of a testing machine. Displacement is "
-        "that "
-        "of the plate at the mean point of the boundary then, numbers or functions of t; what "
-        "neither it nor Force, Rotation or Moment names is free. It stands without contact, "
-        "symmetry, springs and tractions."},
-       {section, "Force", "", text, "Fx; Fy or nothing",
-        "Force on a rigid plate in all, at the mean point of the boundary [stress length^2, per "
-        "thickness stress length], numbers or functions of t; `free` for a component that is moved "
-        "by Displacement or not loaded; empty: none."},
-       {section, "Rotation", "", text, "one number or nothing",
-        "Small rotation of a rigid plate about that point, counterclockwise [radians]; empty: "
-        "free."},
-       {section, "Moment", "", text, "one number or nothing",
-        "Moment on a rigid plate about that point, counterclockwise [stress length^3, per "
-        "thickness "
-        "stress length^2]; empty: none."},
-       {section, "Contact", "none", one_of(contact_names),
-        "none, bilateral, unilateral or tangential",
-        "bilateral: the boundary slides along itself, u_n = 0. unilateral: it may leave the "
-        "obstacle, u_n <= u_0, and pull nowhere, T_n <= 0. tangential: nothing in the normal "
-        "direction, friction alone acts. Friction bound may stand beside all three."},
-       {section, "Gap", "", text, "one expression u_0 or nothing",
-        "Distance u_0(x,y) of the obstacle along the outer normal, or Contact direction, before "
-        "any displacement [length], negative: interference; of Contact = unilateral; empty or 0: "
-        "the body touches it."},
-       {section, "Contact direction", "", text, "dx; dy or nothing",
-        "Direction dx; dy of contact, numbers, out of the body, of whatever length: u_n, T_n and "
-        "Gap are those along it and u_t, T_t those along (-dy, dx), per length of the boundary, as "
-        "of an obstacle with another normal than the body's. The error has no guaranteed bound "
-        "then; empty: the outer normal."},
-       {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
-        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
-        "empty or 0: no friction."},
-       {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
-        "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f max(0, -T_n), instead of a bound or, "
-        "by Friction law, with one; of unilateral or bilateral contact; empty or 0: no friction."},
-       {section, "Friction law", "automatic", one_of(friction_law_names),
-        "automatic, limited or cohesive",
-        "What Friction bound g and Friction coefficient mu_f make together, with p = max(0, -T_n). "
-        "limited: |T_t| <= min(mu_f p, g), Coulomb's friction until the material shears. cohesive: "
-        "|T_t| <= g + mu_f p, where unilateral contact is open also. automatic: the law of the one "
-        "that is given, Tresca's or Coulomb's."}});
-}
-
 void add_method_entries(std::vector<Entry> &entries)
 {
   const auto fraction = matching(Patterns::Double(std::numeric_limits<double>::min(), 1));
@@ -233,10 +150,13 @@ void add_method_entries(std::vector<Entry> &entries)
         "1e-3, but 0 where Maximum steps, Maximum unknowns or Maximum seconds is named, in a load "
         "history, with an exact or a reference solution, and where one is written; scene.prm says "
         "which."},
-       {section, "Tolerance on", "bound", one_of(indicator_names), "residual or bound",
+       {section, "Tolerance on", "bound", matching(Patterns::Anything()),
+        "residual, bound, or a number that may have an interval",
         "bound: the guaranteed bound of |u - u_N|_a/|u_N|_a, or the indicator with a warning where "
         "none is guaranteed. residual: the relative indicator eta/((2 mu)^(1/2) |u_N|_a), with "
-        "2 mu + 2 lambda for 2 mu where nu < 0."}});
+        "2 mu + 2 lambda for 2 mu where nu < 0. normal_resultant, friction_resultant, NAME_ux or "
+        "NAME_uy of a Probe NAME, or NAME for both: the half-width of its guaranteed interval over "
+        "its value; where it has none a warning says why, and other limits end the run."}});
 }
 
 void add_loading_entries(std::vector<Entry> &entries)
@@ -377,7 +297,7 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
   for (const std::string &side : names.sides)
     if (!side.empty()) // edges of a mesh in no group are free
     {
-      add_boundary_entries(entries, side);
+      add(entries, boundary_entries(side));
       if (names.is_from_file)
         entries.push_back(curve_entry(side));
     }
@@ -385,8 +305,8 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
     entries.push_back(curve_entry(interface));
   for (const std::string &part : names.parts)
   {
-    add_part_entries(entries, part, names.sides);
-    add_boundary_entries(entries, part);
+    add(entries, part_entries(part, names.sides));
+    add(entries, boundary_entries(part));
   }
   for (const std::string &probe : names.probes)
     add(entries, probe_entries(dim, probe));

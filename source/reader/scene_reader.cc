@@ -109,7 +109,11 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   { value = read_choice<std::decay_t<decltype(value)>>(parameters, section, name, names); };
   choose(scene.adaptivity.method, "Adaptivity", "Method", method_names);
   choose(scene.adaptivity.indicator, "Adaptivity", "Indicator", indicator_names);
-  choose(scene.adaptivity.tolerance_on, "Adaptivity", "Tolerance on", indicator_names);
+  const std::string on = parameters.text("Adaptivity", "Tolerance on");
+  if (std::find(indicator_names.begin(), indicator_names.end(), on) != indicator_names.end())
+    choose(scene.adaptivity.tolerance_on, "Adaptivity", "Tolerance on", indicator_names);
+  else
+    scene.adaptivity.tolerance_column = on;
   choose(scene.adaptivity.reading, "Adaptivity", "Smoothness reading", reading_names);
   choose(scene.output.steps, "Output", "Steps", output_steps_names);
   choose(scene.solver.path, "Solver", "Path", path_names);

@@ -3,6 +3,7 @@
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hpvi
 {
@@ -32,8 +33,22 @@ void keep_worst(Warnings &worst, const Warnings &found, const std::string &place
   }
 }
 
+Warnings tolerance_warnings(const Adaptivity &adaptivity, const double relative_half_width,
+                            const std::string &no_interval)
+{
+  if (adaptivity.tolerance == 0 || adaptivity.tolerance_column.empty() ||
+      !std::isnan(relative_half_width))
+    return {};
+  return {{WarningKind::no_bound, 0.,
+           "Adaptivity/Tolerance was compared with nothing, and other limits ended the run: " +
+               adaptivity.tolerance_column + " has no guaranteed interval, because " +
+               no_interval}};
+}
+
 Warnings tolerance_warnings(const Adaptivity &adaptivity, const std::string &no_bound)
 {
+  if (!adaptivity.tolerance_column.empty())
+    return {};
   if (adaptivity.tolerance == 0 || adaptivity.tolerance_on != Indicator::bound || no_bound.empty())
     return {};
   return {{WarningKind::no_bound, 0.,

@@ -73,6 +73,9 @@ public:
 
   const LoadSum &sum() const;
 
+  /** Of the tractions of each boundary that has any. */
+  const std::map<dealii::types::boundary_id, LoadSum> &sums_by_boundary() const;
+
   /** What both rules differ by where they agree to 1e-9, in all, over LoadSum::absolute. */
   double difference() const;
 
@@ -99,11 +102,13 @@ private:
   Pieces pieces(const Cell &cell, unsigned int face) const;
   bool is_unresolved(const Pieces &pieces) const;
   void add(const Cell &cell, unsigned int face);
+  void add(LoadSum &sum, const dealii::Tensor<1, dim> &force, const dealii::Point<dim> &x) const;
 
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   std::map<Place, Pieces> coarse; ///< what varies
   LoadSum total;
+  std::map<dealii::types::boundary_id, LoadSum> by_boundary;
 };
 } // namespace hpvi
 

@@ -39,6 +39,14 @@ void check_axisymmetry(const Scene<dim> &scene);
 template <int dim>
 void check_method(const Scene<dim> &scene, SceneUse use);
 
+/** Probes lie in the body, and their columns have names of their own. */
+template <int dim>
+void check_probes(const Scene<dim> &scene);
+
+/** Adaptivity::tolerance_column is a number of this scene that may have an interval. */
+template <int dim>
+void check_tolerance_column(const Scene<dim> &scene);
+
 /** Several bodies ask for nothing that is offered for one alone. */
 template <int dim>
 void check_bodies(const Scene<dim> &scene);

@@ -17,6 +17,18 @@ namespace hpvi
 template <int dim>
 using Moment = std::conditional_t<dim == 2, double, dealii::Tensor<1, dim>>;
 
+/** Of @p force with this arm. */
+inline double moment_of(const dealii::Tensor<1, 2> &arm, const dealii::Tensor<1, 2> &force)
+{
+  return arm[0] * force[1] - arm[1] * force[0];
+}
+
+inline dealii::Tensor<1, 3> moment_of(const dealii::Tensor<1, 3> &arm,
+                                      const dealii::Tensor<1, 3> &force)
+{
+  return dealii::cross_product_3d(arm, force);
+}
+
 /** What one boundary exerts on the body through its supports and its contact, without loads. */
 template <int dim>
 struct BoundaryForce
@@ -25,6 +37,8 @@ struct BoundaryForce
   dealii::Tensor<1, dim>
       force;            ///< [stress length^(dim-1)]; of an axisymmetric body x and moment are NaN
   Moment<dim> moment{}; ///< about Equilibrium::centre
+  dealii::types::boundary_id id =
+      dealii::numbers::invalid_boundary_id; ///< of the boundary, where it is one
 };
 
 /** What became of a rigid plate. */
@@ -58,6 +72,8 @@ struct Equilibrium
   std::vector<BoundaryForce<dim>> reactions; ///< of boundaries with supports or contact, by id
   std::vector<PlateState<dim>> plates;       ///< by id; their forces are among the reactions
   BoundaryForce<dim> loads;                  ///< of all tractions and the body force together
+  std::vector<BoundaryForce<dim>>
+      parts_of_loads;                   ///< by boundary, and the body force, where there are any
   double force_imbalance = 0;           ///< |sum of forces| over the sum of absolute nodal forces
   double moment_imbalance = 0;          ///< the same of moments
   std::vector<BodyBalance> bodies = {}; ///< of each, where there are several
@@ -83,7 +99,16 @@ struct NodalForces
     unsigned int body = 0;
   };
 
+  /** A force by itself, not one of nodes. */
+  struct Traction
+  {
+    dealii::types::boundary_id boundary; ///< on which it acts
+    dealii::Tensor<1, dim> force;
+    Moment<dim> moment; ///< about the centre of the body
+  };
+
   std::vector<Load> loads;
+  std::vector<Traction> tractions; ///< of loads what acts on each boundary, of this process
   std::vector<Reaction> reactions;
   std::vector<PlateState<dim>> plates; ///< without their moments
 };

@@ -2,6 +2,7 @@
 #ifndef hpvi_probe_value_h
 #define hpvi_probe_value_h
 
+#include <hpvi/evaluation/field.h>
 #include <hpvi/evaluation/interval.h>
 
 #include <deal.II/base/point.h>
@@ -57,6 +58,18 @@ struct PlacedValue
   double value = std::numeric_limits<double>::quiet_NaN();
   dealii::Point<dim> where;
 };
+
+/** Of each of Scene::probes but lines, in their order, without intervals. Collective. */
+template <int dim>
+std::vector<ProbeValue<dim>> probe_values(const Field<dim> &field);
+
+/** Of each of Scene::probes along a line; where cells meet the mean of their values. Collective. */
+template <int dim>
+std::vector<ProbeLine<dim>> probe_lines(const Field<dim> &field);
+
+/** |u_N| at the node of all cells where it is largest. Collective. */
+template <int dim>
+PlacedValue<dim> largest_displacement(const Field<dim> &field);
 } // namespace hpvi
 
 #endif

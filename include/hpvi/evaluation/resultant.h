@@ -2,12 +2,15 @@
 #ifndef hpvi_resultant_h
 #define hpvi_resultant_h
 
+#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/interval.h>
 
 #include <deal.II/base/types.h>
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace hpvi
 {
@@ -35,6 +38,14 @@ struct Resultant
   Measured normal = {};   ///< of contact: int T_n [stress length^(dim-1)]
   Measured friction = {}; ///< of contact: int T_t, in space the length of that vector; likewise
 };
+
+/**
+ * Of each boundary, part of a side and side of a pair what it exerts, supports and contact first, then loads. Together they
+ * balance. Without intervals.
+ */
+template <int dim>
+std::vector<Resultant<dim>> resultants(const Scene<dim> &scene, const Equilibrium<dim> &equilibrium,
+                                       const std::vector<ContactState<dim>> &contact);
 } // namespace hpvi
 
 #endif

@@ -40,8 +40,10 @@ public:
  * | `scene.prm` | every parameter with its value |
  * | `convergence.csv` | a row per step: `estimate*` in stress length^(dim/2), energies in stress length^dim, times in seconds; empty where nothing was computed |
  * | `degrees.csv` | number of elements of each degree, a row per step |
+ * | `forces.csv` | a row per step and boundary: its force on the body |
  * | `loading.csv` | a row per load step, where the scene has a history |
  * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
+ * | `probe-NAME-NN.csv` | displacement and stress along a line |
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
  * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |

@@ -27,6 +27,9 @@ struct GrowingText
 /** Add a line to a table, the first below a head. */
 void add_row(GrowingText &table, const Record &row);
 
+/** Add several at once. */
+void add_rows(GrowingText &table, const std::vector<Record> &rows);
+
 /** An array of JSON, each item on a line of its own. */
 template <class Lines>
 std::string json_lines(const Lines &lines)

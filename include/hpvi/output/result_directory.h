@@ -18,12 +18,13 @@ namespace hpvi
 /** Regular expressions of the names that results have; no other file is ever touched. */
 namespace results
 {
-inline const std::string always = "scene\\.prm|convergence\\.csv|degrees\\.csv|summary\\.json",
-                         loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv",
-                         mesh = "mesh-[0-9]{2,}\\.svg",
-                         vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
-                         pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
-                         reference = "reference\\.dat", picture = "scene\\.svg";
+inline const std::string
+    always = "scene\\.prm|convergence\\.csv|degrees\\.csv|forces\\.csv|summary\\.json",
+    loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
+    vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
+    pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
+    reference = "reference\\.dat", picture = "scene\\.svg",
+    probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
 /** The words with which a picture of the scene begins: it is known by them, for no summary.json lists it. */
 inline const std::string picture_head = "the scene, drawn by hpvi";

@@ -17,7 +17,7 @@ namespace hpvi
 namespace mark_colours
 {
 constexpr const char *load = "#1f5fa8", *displacement = "#7b3294", *contact = "#c4161c",
-                     *ground = "#333";
+                     *ground = "#333", *probe = "#00796b";
 }
 
 /** Attributes of a line. */

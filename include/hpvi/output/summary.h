@@ -36,7 +36,8 @@ struct Summary
   {
     std::string error_bound = "null", no_error_bound = "null"; ///< or the reason
     std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
-                plates = "null";
+                plates = "null", largest_displacement = "null",
+                no_intervals = "null"; ///< or why forces and probes have none
   };
   Ending ending;
 

@@ -11,8 +11,9 @@
 namespace hpvi
 {
 /**
- * The tables with a row per step: what `convergence.csv` and `degrees.csv` hold; and `loading.csv` with a
- * row per load step of a history. They grow by a row, unless a new degree asks for a new column.
+ * The tables with a row per step: what `convergence.csv` and `degrees.csv` hold; `forces.csv` with a row per boundary
+ * of each; and `loading.csv` with a row per load step of a history. They grow at their ends, unless a new degree asks for
+ * a new column.
  */
 template <int dim>
 class Tables
@@ -23,13 +24,14 @@ public:
   const Record &last_row() const; ///< of convergence()
   const GrowingText &convergence() const;
   const GrowingText &degrees() const;
+  const GrowingText &forces() const;
   const GrowingText &loading() const;
 
 private:
   void add_degrees();
 
   Record row;
-  GrowingText rows, degree_rows, load_steps;
+  GrowingText rows, degree_rows, force_rows, load_steps;
   std::vector<std::vector<dealii::types::global_dof_index>> elements; ///< by step and degree
   std::size_t n_columns = 0; ///< the highest degree so far and 1
 };

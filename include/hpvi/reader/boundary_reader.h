@@ -5,10 +5,19 @@
 #include <hpvi/scene/scene.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hpvi
 {
 class Parameters;
+struct Entry;
+
+/** The entries of `Boundary NAME`. */
+std::vector<Entry> boundary_entries(const std::string &boundary);
+
+/** What a part of a side has beside these. */
+std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides);
 
 /** Takes all that the section of @p boundary says; @p t is the time in a load history. The body must have been read. */
 template <int dim>

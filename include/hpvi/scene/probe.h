@@ -44,6 +44,10 @@ struct Probe
     return k + 1 < n_points ? from + double(k) / (n_points - 1) * (to - from) : to;
   }
 };
+
+/** Those of convergence.csv that @p probe has; of a line none. */
+template <int dim>
+std::vector<std::string> columns_of(const Probe<dim> &probe);
 } // namespace hpvi
 
 #endif

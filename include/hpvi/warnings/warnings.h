@@ -125,6 +125,10 @@ Warnings unseen_warnings(const Solution<dim> &solution);
 /** That a tolerance on the bound was held against the indicator, because of @p no_bound; none: it was not. */
 Warnings tolerance_warnings(const Adaptivity &adaptivity, const std::string &no_bound);
 
+/** That Adaptivity::tolerance_column has no half-width, NaN, because of @p no_interval; none: it has. */
+Warnings tolerance_warnings(const Adaptivity &adaptivity, double relative_half_width,
+                            const std::string &no_interval);
+
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; or none. */
 Warnings bound_warnings(double relative, double imbalance);
 } // namespace hpvi

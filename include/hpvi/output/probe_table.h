@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_probe_table_h
+#define hpvi_probe_table_h
+
+#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/output/record.h>
+
+#include <string>
+
+namespace hpvi
+{
+/** The last columns of convergence.csv: half-widths of the resultants of contact, then what probes say. */
+template <int dim>
+Record probe_record(const StepReport<dim> &step);
+
+/** A table of the points along one line. */
+template <int dim>
+std::string probe_table(const ProbeLine<dim> &line);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/output/forces_table.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+namespace
+{
+std::string known(const double value)
+{
+  return std::isfinite(value) ? text(value) : "";
+}
+
+/** The centre of its interval, where there is one, and half the width of that. */
+void add(Record &record, const std::string &name, const Measured &number)
+{
+  record.emplace_back(name, known(number.best()));
+  record.emplace_back(name + "_bound", number.interval ? text(number.interval->half_width) : "");
+}
+
+std::string name_of(const ForceKind kind)
+{
+  return kind == ForceKind::support ? "support" : kind == ForceKind::contact ? "contact" : "load";
+}
+} // namespace
+
+template <int dim>
+std::vector<Record> forces_rows(const StepReport<dim> &step)
+{
+  const bool is_history = step.load.number > 0;
+  std::vector<Record> rows;
+  for (const Resultant<dim> &force : step.forces)
+  {
+    Record row{{"step", text(step.number)},
+               {"load_step", is_history ? text(step.load.number) : ""},
+               {"t", is_history ? text(step.load.t) : ""},
+               {"name", force.name},
+               {"kind", name_of(force.kind)}};
+    for (unsigned int d = 0; d < dim; ++d)
+      add(row, std::string("F") + "xyz"[d], force.force[d]);
+    for (unsigned int d = 0; d < force.n_moments; ++d)
+      add(row, dim == 2 ? "M" : std::string("M") + "xyz"[d], force.moment[d]);
+    add(row, "normal", force.normal);
+    add(row, "friction", force.friction);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+template std::vector<Record> forces_rows(const StepReport<2> &);
+template std::vector<Record> forces_rows(const StepReport<3> &);
+} // namespace hpvi

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/column_width.h>
+#include <hpvi/output/probe_table.h>
+
+#include <array>
+#include <cmath>
+
+namespace hpvi
+{
+namespace
+{
+std::string known(const double value)
+{
+  return std::isfinite(value) ? text(value) : "";
+}
+
+/** About the value that stands beside it. */
+std::string bound_of(const Measured *const number)
+{
+  return number ? known(number->half_width_about(number->value)) : "";
+}
+
+/** By the ends of their names, as columns_of() has them. */
+template <int dim>
+std::array<std::pair<const char *, double>, 4> invariants(const FullStress &stress)
+{
+  const std::array<double, 3> principal = principal_stresses<dim>(stress);
+  return {{{"s1", principal[0]},
+           {"s2", principal[1]},
+           {dim == 2 ? "szz" : "s3", principal[2]},
+           {"mises", von_mises(stress)}}};
+}
+} // namespace
+
+template <int dim>
+Record probe_record(const StepReport<dim> &step)
+{
+  Record record;
+  for (const char *const column : {"normal_resultant", "friction_resultant"})
+    record.emplace_back(column + std::string("_bound"), bound_of(measured_in(step, column)));
+  for (const ProbeValue<dim> &value : step.probes)
+  {
+    const std::string &name = step.scene.probes[value.probe].name;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const std::string column = name + "_u" + "xyz"[d];
+      record.emplace_back(column, known(value.displacement[d].value));
+      record.emplace_back(column + "_bound", bound_of(&value.displacement[d]));
+    }
+    for (const auto &[end, number] : invariants<dim>(value.stress))
+      record.emplace_back(name + "_" + end, known(number));
+  }
+  return record;
+}
+
+template <int dim>
+std::string probe_table(const ProbeLine<dim> &line)
+{
+  std::vector<Record> rows;
+  for (const LinePoint<dim> &point : line.points)
+  {
+    Record row;
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(std::string("u") + "xyz"[d], known(point.displacement[d]));
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[d], known(point.stress[d][d]));
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int e = d + 1; e < dim; ++e)
+        row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[e], known(point.stress[d][e]));
+    for (const auto &[end, number] : invariants<dim>(point.stress))
+      row.emplace_back(end, known(number));
+    rows.push_back(row);
+  }
+  return csv(rows);
+}
+
+template Record probe_record(const StepReport<2> &);
+template Record probe_record(const StepReport<3> &);
+template std::string probe_table(const ProbeLine<2> &);
+template std::string probe_table(const ProbeLine<3> &);
+} // namespace hpvi

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
+#include <hpvi/output/boundary_words.h>
+#include <hpvi/output/contact_report.h>
+#include <hpvi/output/record.h>
+#include <hpvi/output/results_report.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+std::string interval_in_words(const Interval &interval)
+{
+  const auto [centre, half_width] = interval;
+  if (!(half_width > 0) || !std::isfinite(half_width) || !std::isfinite(centre))
+    return text(centre) + " +- " + text(half_width);
+  const double unit = std::pow(10., std::floor(std::log10(half_width)) - 1),
+               rounded = unit * std::round(centre / unit),
+               widened = std::ceil((half_width + std::abs(centre - rounded)) / unit) * unit;
+  const int digits = rounded == 0
+                         ? 1
+                         : std::clamp(int(std::floor(std::log10(std::abs(rounded)) + 1e-9)) -
+                                          int(std::round(std::log10(unit))) + 1,
+                                      1, 16);
+  return text(rounded, digits) + " +- " + text(widened, 3);
+}
+
+namespace
+{
+constexpr int digits = 6;
+
+void add(std::string &words, const std::string &what, const Measured &number)
+{
+  if (number.interval)
+    words += what + " " + interval_in_words(*number.interval) + " (guaranteed)\n";
+}
+
+/** Those of forces that have any. */
+template <int dim>
+std::string intervals_in_words(const std::vector<Resultant<dim>> &forces)
+{
+  std::string words;
+  for (const Resultant<dim> &row : forces)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      add(words, std::string("force ") + "xyz"[d] + " on " + row.name, row.force[d]);
+    for (unsigned int d = 0; d < row.n_moments; ++d)
+      add(words, "moment " + (dim == 2 ? "" : std::string(1, "xyz"[d]) + " ") + "on " + row.name,
+          row.moment[d]);
+    add(words, "normal force on " + row.name, row.normal);
+    add(words, "friction on " + row.name, row.friction);
+  }
+  return words;
+}
+
+/** As in "probe tip: ux 0.0123, uy -4e-05 mm; s1 3, s2 0, szz 0, von Mises 3 MPa". */
+template <int dim>
+std::string probe_in_words(const ProbeValue<dim> &value, const Scene<dim> &scene)
+{
+  const Probe<dim> &probe = scene.probes[value.probe];
+  std::string words = "probe " + probe.name + ":";
+  if (!std::isfinite(value.displacement[0].value))
+    return words + " not in the body\n";
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    const Measured &number = value.displacement[d];
+    words += std::string(d > 0 ? ", u" : " u") + "xyz"[d] + " " +
+             (number.interval ? interval_in_words(*number.interval) + " (guaranteed)"
+                              : text(number.value, digits));
+  }
+  const auto unit = [](const std::string &label)
+  { return unit_name(label).empty() ? "" : " " + unit_name(label); };
+  const std::array<double, 3> principal = principal_stresses<dim>(value.stress);
+  return words + unit(scene.length_unit) + "; s1 " + text(principal[0], digits) + ", s2 " +
+         text(principal[1], digits) + (dim == 2 ? ", szz " : ", s3 ") + text(principal[2], digits) +
+         ", von Mises " + text(von_mises(value.stress), digits) + unit(scene.stress_unit) + "\n";
+}
+
+template <int dim>
+const StressSample<dim> &largest_von_mises(const StepReport<dim> &step)
+{
+  return *std::find_if(step.peaks.begin(), step.peaks.end(),
+                       [](const auto &peak)
+                       { return peak.boundary == numbers::invalid_boundary_id; });
+}
+
+template <int dim>
+std::string extremes_in_words(const StepReport<dim> &step)
+{
+  const Scene<dim> &scene = step.scene;
+  const PlacedValue<dim> &displacement = step.largest_displacement;
+  std::string words = "largest displacement " +
+                      with_unit(displacement.value, scene.length_unit, digits) +
+                      (displacement.value > 0 ? " at " + to_string(displacement.where) : "") + "\n";
+  if (std::none_of(step.unbounded.begin(), step.unbounded.end(),
+                   [](const UnboundedStress<dim> &stress)
+                   { return stress.peak.boundary == numbers::invalid_boundary_id; }))
+  {
+    const StressSample<dim> &stress = largest_von_mises(step);
+    words += "largest von Mises' stress " + with_unit(stress.value, scene.stress_unit, digits) +
+             (stress.value > 0 ? " at " + to_string(stress.where) : "") + "\n";
+  }
+  return words;
+}
+} // namespace
+
+template <int dim>
+std::string results_in_words(const StepReport<dim> &step)
+{
+  std::string words = "\n" + intervals_in_words(step.forces);
+  if (!step.no_intervals.empty() && step.bound) // else it is why the error has no bound
+    words += "no intervals of forces and mean displacements: " + step.no_intervals + "\n";
+  for (const ProbeValue<dim> &value : step.probes)
+    words += probe_in_words(value, step.scene);
+  return words + extremes_in_words(step);
+}
+
+template <int dim>
+std::string largest_displacement_json(const StepReport<dim> &step)
+{
+  const PlacedValue<dim> &largest = step.largest_displacement;
+  return "{\n    \"value\": " + json_number(largest.value) +
+         ",\n    \"at\": " + (largest.value > 0 ? json_point<dim>(largest.where) : "null") +
+         "\n  }";
+}
+
+template std::string results_in_words(const StepReport<2> &);
+template std::string results_in_words(const StepReport<3> &);
+template std::string largest_displacement_json(const StepReport<2> &);
+template std::string largest_displacement_json(const StepReport<3> &);
+} // namespace hpvi
