@@ -72,11 +72,22 @@ def tidy(axes, names, run):
 # ------------------------------------------------------------------ in the plane
 
 
+def node_of(row, point, resting, displacement):
+    """Where the body of `boundary` is near to a point: of two bodies at one place that which moves as the row says."""
+    distances = ((resting - point) ** 2).sum(axis=1)
+    if not row.get("master"):
+        return np.argmin(distances)
+    near = np.argsort(distances)[:16]
+    size = np.hypot(float(row["normal_displacement"]), float(row["tangential_displacement"]))
+    misses = np.abs(np.hypot(*displacement[near].T) - size)
+    return near[np.argmax(misses <= 2 * misses.min() + 1e-9 * size)]
+
+
 def draw_contact(axes, rows, patches, moved):
     """The state of each Gauss point along its boundary, as far as halfway to its neighbours."""
     points = np.array([[float(row["x"]), float(row["y"])] for row in rows])
-    resting = patches.points.reshape(-1, 2)
-    nearest = [np.argmin(((resting - point) ** 2).sum(axis=1)) for point in points]
+    resting, displacement = patches.points.reshape(-1, 2), patches.displacement.reshape(-1, 2)
+    nearest = [node_of(row, point, resting, displacement) for row, point in zip(rows, points)]
     points += moved.reshape(-1, 2)[nearest] - resting[nearest]
     for boundary in {row["boundary"] for row in rows}:
         of_it = [k for k, row in enumerate(rows) if row["boundary"] == boundary]

@@ -18,9 +18,6 @@ void check_bodies(const Scene<dim> &scene)
            "in a scene " + bodies + "set multiplier, whose moments bodies hand over", "nodes");
   if (scene.exact_solution)
     reject(scene, "Exact solution", "Solution", "in a scene " + bodies + "set none");
-  if (scene.is_axisymmetric())
-    reject(scene, "Material", "Plane", "in a scene " + bodies + "set stress or strain",
-           "axisymmetric");
   if (scene.solver.multiplier_offset != -2)
     reject(scene, "Solver", "Multiplier degree offset",
            "in a scene " + bodies + "set -2 or remove it",

@@ -20,7 +20,7 @@ unsigned int degree_of_past(const ContactFace<dim> &face)
 {
   unsigned int degree = face.degree;
   for (const ContactSegment<dim> &segment : face.segments)
-    degree = std::max(degree, segment.degree);
+    degree = std::max(degree, segment.degree + (segment.drawn ? 4 : 0));
   return degree;
 }
 /** The points of the rules for g and mu_f: of both, where both are there, on their common pieces. */
@@ -138,16 +138,26 @@ void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTable
     add_past(face, tables.gauss(std::max(degree_of_past(face), face.n_points) + 1));
 }
 
-/** What slip is counted from is a polynomial of degree p, between bodies on each segment: @p gauss is exact. */
+namespace
+{
+/** Where edges of the body opposite end, gaps and jumps may have kinks. */
 template <int dim>
-void ContactSpace<dim>::add_past(const ContactFace<dim> &face, const QGauss<1> &gauss)
+std::vector<std::array<double, 2>> pieces_of(const ContactFace<dim> &face)
 {
   std::vector<std::array<double, 2>> pieces;
   for (const ContactSegment<dim> &segment : face.segments)
     pieces.push_back({{segment.begin, segment.end}});
   if (pieces.empty())
     pieces.push_back({{0., 1.}});
-  for (const auto &[begin, end] : pieces)
+  return pieces;
+}
+} // namespace
+
+/** What slip is counted from is a polynomial of degree p, between bodies on each segment: @p gauss is exact. */
+template <int dim>
+void ContactSpace<dim>::add_past(const ContactFace<dim> &face, const QGauss<1> &gauss)
+{
+  for (const auto &[begin, end] : pieces_of(face))
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double s = begin + (end - begin) * gauss.point(q)[0];
@@ -175,14 +185,17 @@ void ContactSpace<dim>::number_pressures(ContactFace<dim> &face, const ShapeTabl
     unknowns.push_back({Kind::pressure, frame.x, frame.normal, face.basis_integral(points, i)});
     unknowns.back().is_bilateral = !face.condition->is_unilateral();
   }
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-  {
-    const ContactFrame<dim> frame = face.frame(gauss.point(q)[0]);
-    const double gap = gauss.weight(q) * frame.measure * checked_gap(face, frame.x);
-    const std::vector<double> basis = lagrange_basis(face.normal_points, gauss.point(q)[0]);
-    for (unsigned int i = 0; i < basis.size(); ++i)
-      unknowns[face.pressures[i]].gap += gap * basis[i];
-  }
+  for (const auto &[begin, end] : pieces_of(face))
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double s = begin + (end - begin) * gauss.point(q)[0];
+      const ContactFrame<dim> frame = face.frame(s);
+      const double gap =
+          (end - begin) * gauss.weight(q) * frame.measure * checked_gap(face, frame.x);
+      const std::vector<double> basis = lagrange_basis(face.normal_points, s);
+      for (unsigned int i = 0; i < basis.size(); ++i)
+        unknowns[face.pressures[i]].gap += gap * basis[i];
+    }
 }
 
 /** Nodes of equal normal share an unknown, which has the smaller gap. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/contact/multiplier_trace.h>
 
+#include <limits>
 #include <numeric>
 
 namespace hpvi
@@ -20,10 +21,25 @@ MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
                       {first, first + face.n_multipliers},
                       face.normal_points,
                       {},
-                      face.condition->pair});
+                      face.condition->pair,
+                      face.map.is_curved() && face.map.bows()[face.face_no]
+                          ? face.map.bows()[face.face_no].curve()
+                          : CurvePiece()});
     for (const unsigned int i : face.pressures)
       pieces.back().pressures.push_back(z[i]);
   }
+}
+
+template <int dim>
+double MultiplierTrace<dim>::Piece::place(const Point<dim> &x) const
+{
+  return curve ? curve.nearest(x) : (x - begin) * edge / edge.norm_square();
+}
+
+template <int dim>
+Point<dim> MultiplierTrace<dim>::Piece::point(const double s) const
+{
+  return curve ? curve.point(s) : begin + s * edge;
 }
 
 /** Pressure and friction are the same numbers in the frames of both sides. */
@@ -35,25 +51,33 @@ void MultiplierTrace<dim>::take_opposite(const ContactFace<dim> &face,
 {
   const auto take = [&](const unsigned int unknown, const bool is_pressure)
   {
+    const Point<dim> &x = finer.multipliers()[unknown].x;
+    const Piece *nearest = nullptr; // along a ring several see the point
+    double least = std::numeric_limits<double>::max(), at = 0;
     for (const Piece &piece : pieces)
     {
-      const double s =
-          (finer.multipliers()[unknown].x - piece.begin) * piece.edge / piece.edge.norm_square();
-      if (piece.pair != face.condition->pair || s < 0 || s > 1)
+      if (piece.pair != face.condition->pair)
         continue;
-      const std::vector<double> &values = is_pressure ? piece.pressures : piece.values;
-      std::vector<double> points = piece.normal_points;
-      if (!is_pressure)
-      {
-        points.clear();
-        for (const Point<1> &point : tables.gauss(values.size()).get_points())
-          points.push_back(point[0]);
-      }
-      const std::vector<double> basis = lagrange_basis(points, s);
-      if (!values.empty())
-        result[unknown] = std::inner_product(basis.begin(), basis.end(), values.begin(), 0.);
-      return;
+      const double s = piece.place(x), distance = piece.point(s).distance(x);
+      if (s < 0 || s > 1 || distance >= least)
+        continue;
+      nearest = &piece;
+      least = distance;
+      at = s;
     }
+    if (!nearest)
+      return;
+    const std::vector<double> &values = is_pressure ? nearest->pressures : nearest->values;
+    std::vector<double> points = nearest->normal_points;
+    if (!is_pressure)
+    {
+      points.clear();
+      for (const Point<1> &point : tables.gauss(values.size()).get_points())
+        points.push_back(point[0]);
+    }
+    const std::vector<double> basis = lagrange_basis(points, at);
+    if (!values.empty())
+      result[unknown] = std::inner_product(basis.begin(), basis.end(), values.begin(), 0.);
   };
   for (const unsigned int unknown : face.pressures)
     take(unknown, true);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/contact/pairing.h>
 
@@ -12,8 +14,37 @@ using namespace dealii;
 
 namespace
 {
-constexpr double hair = 1e-9; ///< of an edge: round-off of ends that lie opposite to each other
+constexpr double hair = 1e-9, ///< of an edge: round-off of ends that lie opposite to each other
+    parallel = 1e-9,          ///< of unit vectors
+    hole = 1e-6;              ///< of an edge: more without anybody opposite is no round-off
 } // namespace
+
+double DrawnFace::on_path(const double s) const
+{
+  return is_reversed ? 1 - s : s;
+}
+
+double FacingFaces::opposite(const double s, const double near) const
+{
+  const double here = slave.on_path(s);
+  const auto place = place_opposite(master.path, slave.path.point(here), slave.path.normal(here),
+                                    master.on_path(near));
+  return place ? master.on_path(place->s) : near; // round-off at an end
+}
+
+/** The vertices of a boundary face are points of its curve. */
+template <int dim>
+DrawnFace Pairing<dim>::drawn(const Cell &cell, const unsigned int face_no)
+{
+  const auto end = [&](const unsigned int k)
+  { return cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, k)); };
+  DrawnFace result{{{{end(0), end(1)}}}, face_no == 0 || face_no == 3};
+  if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved() && map.bows()[face_no])
+    result.path.curve = map.bows()[face_no].curve();
+  if (result.is_reversed)
+    result.path = result.path.reversed();
+  return result;
+}
 
 template <int dim>
 Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &space)
@@ -22,17 +53,11 @@ Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &spa
   if (!scene.has_pairs())
     return;
   std::vector<std::vector<Face>> faces(scene.boundaries.size());
-  std::vector<Tensor<1, dim>> tangents(scene.boundaries.size());
   for (const Cell &cell : space.dof_handler().active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary() && scene.boundaries[cell->face(f)->boundary_id()].pair)
-      {
-        const types::boundary_id id = cell->face(f)->boundary_id();
-        faces[id].push_back({cell, f, space.degrees()[cell->active_cell_index()], 0., 0.});
-        Point<dim> middle;
-        middle = point_on_face<dim>(f, Point<dim - 1>(0.5));
-        tangents[id] = -cross_product_2d(map_of<dim>(cell).normal(f, middle));
-      }
+        faces[cell->face(f)->boundary_id()].push_back(
+            {cell, f, space.degrees()[cell->active_cell_index()], drawn(cell, f)});
   const auto n_multipliers = [&](const types::boundary_id id)
   {
     unsigned int sum = 0;
@@ -40,13 +65,29 @@ Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &spa
       sum += std::max(0, static_cast<int>(face.degree) + scene.solver.multiplier_offset + 1);
     return sum;
   };
+  /** Of the first side and, turned round, the other one; null where edges have several. */
+  const auto direction = [&](const ContactPair &pair)
+  {
+    Tensor<1, dim> result;
+    for (const unsigned int k : {0, 1})
+      for (const Face &face : faces[pair.parts[k]])
+      {
+        const Tensor<1, dim> own =
+            (k == 0 ? -1. : 1.) * cross_product_2d(face.drawn.path.normal(0.5));
+        if (face.drawn.path.curve || (result.norm() > 0 && (own - result).norm() > parallel))
+          return Tensor<1, dim>();
+        result = result.norm() > 0 ? result : own;
+      }
+    return result;
+  };
   for (const ContactPair &pair : scene.pairs)
   {
     const bool second_is_slave =
         pair.slave ? *pair.slave == 1 : n_multipliers(pair.parts[1]) > n_multipliers(pair.parts[0]);
-    Masters masters{
-        pair.parts[second_is_slave ? 1 : 0], pair.parts[second_is_slave ? 0 : 1], {}, {}};
-    masters.along = tangents[pair.parts[0]];
+    Masters masters{pair.parts[second_is_slave ? 1 : 0],
+                    pair.parts[second_is_slave ? 0 : 1],
+                    direction(pair),
+                    {}};
     masters.faces = std::move(faces[masters.master]);
     for (Face &face : masters.faces)
     {
@@ -70,18 +111,32 @@ template <int dim>
 std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
                                                         const unsigned int face_no) const
 {
-  std::vector<ContactSegment<dim>> result;
   const auto pair = std::find_if(pairs.begin(), pairs.end(),
                                  [&](const Masters &one)
                                  { return one.slave == cell->face(face_no)->boundary_id(); });
   if (pair == pairs.end())
-    return result;
+    return {};
+  std::vector<ContactSegment<dim>> result = pair->along.norm() > 0
+                                                ? on_line(*pair, cell, face_no)
+                                                : on_curve(*pair, drawn(cell, face_no));
+  std::sort(result.begin(), result.end(),
+            [](const auto &a, const auto &b) { return a.begin < b.begin; });
+  for (unsigned int k = 0; k + 1 < result.size(); ++k) // round-off leaves no hole
+    result[k].end = result[k + 1].begin;
+  return result;
+}
+
+template <int dim>
+std::vector<ContactSegment<dim>> Pairing<dim>::on_line(const Masters &pair, const Cell &cell,
+                                                       const unsigned int face_no)
+{
+  std::vector<ContactSegment<dim>> result;
   std::array<double, 2> ends;
   for (const unsigned int end : {0, 1})
-    ends[end] = pair->along * cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, end));
+    ends[end] = pair.along * cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, end));
   const auto on_slave = [&](const double place)
   { return std::clamp((place - ends[0]) / (ends[1] - ends[0]), 0., 1.); };
-  for (const Face &face : pair->faces)
+  for (const Face &face : pair.faces)
   {
     const double one = on_slave(face.begin), two = on_slave(face.end), begin = std::min(one, two),
                  end = std::max(one, two);
@@ -95,10 +150,59 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
     result.push_back(
         {begin, end, face.cell, face.face_no, face.degree, on_master(begin), on_master(end)});
   }
-  std::sort(result.begin(), result.end(),
-            [](const auto &a, const auto &b) { return a.begin < b.begin; });
-  for (unsigned int k = 0; k + 1 < result.size(); ++k) // round-off leaves no hole
-    result[k].end = result[k + 1].begin;
+  return result;
+}
+
+/**
+ * X goes along the normal of the slave, so that a vertex of the master lies opposite to the point of the slave that is nearest to it. An
+ * edge on the far side of a ring seems to lie between two such places as well: the normal in their middle tells.
+ */
+template <int dim>
+std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, const DrawnFace &slave)
+{
+  std::vector<ContactSegment<dim>> result;
+  std::vector<double> distances;
+  for (const Face &face : pair.faces)
+  {
+    const auto on_slave = [&](const unsigned int end)
+    { return slave.on_path(slave.path.nearest(face.drawn.path.ends[end])); };
+    const double one = on_slave(0), two = on_slave(1), begin = std::min(one, two),
+                 end = std::max(one, two);
+    if (end - begin < hair)
+      continue;
+    const double middle = slave.on_path((begin + end) / 2);
+    const auto place =
+        place_opposite(face.drawn.path, slave.path.point(middle), slave.path.normal(middle));
+    if (!place)
+      continue;
+    const auto both = std::make_shared<const FacingFaces>(FacingFaces{slave, face.drawn});
+    const double near = face.drawn.on_path(place->s);
+    result.push_back({begin, end, face.cell, face.face_no, face.degree, both->opposite(begin, near),
+                      both->opposite(end, near), both});
+    distances.push_back(std::abs(place->distance));
+  }
+  // What lies behind another edge is not opposite.
+  for (unsigned int a = result.size(); a-- > 0;)
+    for (unsigned int b = 0; b < result.size(); ++b)
+      if (a != b && distances[b] < distances[a] &&
+          std::min(result[a].end, result[b].end) - std::max(result[a].begin, result[b].begin) >
+              hole)
+      {
+        result.erase(result.begin() + a);
+        distances.erase(distances.begin() + a);
+        break;
+      }
+  double covered = 0;
+  for (ContactSegment<dim> &segment : result)
+  {
+    covered += segment.end - segment.begin;
+    segment.begin = segment.begin < hole ? 0. : segment.begin;
+    segment.end = segment.end > 1 - hole ? 1. : segment.end;
+  }
+  if (covered < 1 - hole)
+    throw NumericalFailure("an edge of a body at " + to_string(slave.path.point(0.5)) +
+                           " lies opposite to no edge of the other one along a part of its length; "
+                           "give both bodies more edges there");
   return result;
 }
 

@@ -90,7 +90,7 @@ Tensor<1, dim> edge_value(const typename DoFHandler<dim>::active_cell_iterator &
 }
 } // namespace
 
-/** Of two bodies the jump of u_t, a polynomial on each segment. */
+/** Of two bodies the jump of u_t, a polynomial on each segment; along curves one through some points more. */
 template <int dim>
 void TangentialTrace<dim>::add_jump(const ContactFace<dim> &face,
                                     const DisplacementSpace<dim> &space,
@@ -98,19 +98,23 @@ void TangentialTrace<dim>::add_jump(const ContactFace<dim> &face,
 {
   for (const ContactSegment<dim> &segment : face.segments)
   {
-    const QGaussLobatto<1> &rule = tables.gauss_lobatto(std::max(face.degree, segment.degree) + 1);
+    const unsigned int degree = std::max(face.degree, segment.degree + (segment.drawn ? 4 : 0));
+    const QGaussLobatto<1> &rule = tables.gauss_lobatto(degree + 1);
     const std::array<Point<dim>, 2> ends{{face.point(segment.begin), face.point(segment.end)}};
     Piece piece{(ends[0] - origin) * tangent, (ends[1] - origin) * tangent, {}, {}, ends, {}};
+    if (face.map.is_curved() && face.map.bows()[face.face_no])
+      piece.curve = face.map.bows()[face.face_no].curve().between(segment.begin, segment.end);
     for (const Point<1> &node : rule.get_points())
     {
       const double s = segment.begin + node[0] * (segment.end - segment.begin);
+      const Tensor<1, dim> t = is_straight ? tangent : face.frame(s).tangent;
       piece.nodes.push_back(node[0]);
-      piece.u_t.push_back(tangent *
+      piece.u_t.push_back(t *
                           (edge_value(face.cell, face.face_no, face.degree, s, space, tables, u) -
                            edge_value(segment.cell, segment.face_no, segment.degree,
                                       segment.opposite(s), space, tables, u)));
     }
-    if (piece.begin > piece.end)
+    if (piece.begin > piece.end && is_straight)
     {
       std::swap(piece.begin, piece.end);
       std::swap(piece.ends[0], piece.ends[1]);
@@ -118,8 +122,9 @@ void TangentialTrace<dim>::add_jump(const ContactFace<dim> &face,
     }
     pieces.push_back(piece);
   }
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece &a, const Piece &b) { return a.begin < b.begin; });
+  if (is_straight)
+    std::sort(pieces.begin(), pieces.end(),
+              [](const Piece &a, const Piece &b) { return a.begin < b.begin; });
 }
 
 template <int dim>

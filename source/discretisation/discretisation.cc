@@ -56,6 +56,18 @@ void Spaces<dim>::keep_bound(const Scene<dim> &scene, Refinement &refinement) co
 // none of this.
 namespace
 {
+/** How far the normals of polynomial edges between bodies are off those of their curves; a foundation has pressures at nodes. */
+template <int dim>
+double precision_of_normals(const ContactSpace<dim> &contact_space)
+{
+  double result = 0;
+  for (const ContactFace<dim> &face : contact_space.faces())
+    for (const double s : {0., 0.25, 0.5, 0.75, 1.})
+      if (face.condition->pair && face.map.is_curved())
+        result = std::max(result, (face.node_frame(s).normal - face.frame(s).normal).norm());
+  return result;
+}
+
 template <int dim>
 std::optional<RigidMotions<dim>>
 motions_of(const Scene<dim> &scene, const Spaces<dim> &spaces, const Unknowns<dim> &unknowns,
@@ -65,7 +77,8 @@ motions_of(const Scene<dim> &scene, const Spaces<dim> &spaces, const Unknowns<di
   if (basis.empty())
     return std::nullopt;
   return RigidMotions<dim>(basis, scene.geometry, spaces.displacement_space, unknowns, rows,
-                           spaces.contact_space.multipliers(), system);
+                           spaces.contact_space.multipliers(), system,
+                           precision_of_normals(spaces.contact_space));
 }
 } // namespace
 

@@ -93,7 +93,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
                                 const Geometry<dim> &geometry, const DisplacementSpace<dim> &space,
                                 const Unknowns<dim> &unknowns, const ConditionRows &rows,
                                 const std::vector<ContactMultiplier<dim>> &multipliers,
-                                const ElasticSystem<dim> &system)
+                                const ElasticSystem<dim> &system, const double precision)
     : basis(basis)
 {
   const unsigned int n = basis.size();
@@ -111,7 +111,7 @@ RigidMotions<dim>::RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis,
     for (Vector<double> &column : weighted)
       column[i] /= std::sqrt(multipliers[i].weight);
   }
-  split_by_contact(std::move(weighted), 1e-20 * contact);
+  split_by_contact(std::move(weighted), std::max(1e-20, precision * precision) * contact);
   equations.G.reinit(multipliers.size(), n_seen());
   equations.e.reinit(n_seen());
   equations.round_off.reinit(n_seen());

@@ -58,21 +58,16 @@ std::optional<FacingSides> facing_sides(const Side<2> &first, const Side<2> &sec
 {
   Tensor<1, 2> along;
   const std::optional<Line> one = line_of(first, along, size), two = line_of(second, along, size);
+  problem.clear();
   if (!one || !two)
-  {
-    problem = "are not straight, and bodies touch along straight lines alone";
     return std::nullopt;
-  }
   if ((one->normal - two->normal).norm() <= parallel)
   {
     problem = "look the same way and do not face each other";
     return std::nullopt;
   }
   if ((one->normal + two->normal).norm() > parallel)
-  {
-    problem = "do not face each other: they are not parallel";
     return std::nullopt;
-  }
   FacingSides result{along, std::max(one->begin, two->begin), std::min(one->end, two->end),
                      -two->height - one->height};
   if (std::abs(result.distance) <= same_place * size)

@@ -62,13 +62,22 @@ for side in bottom upper.inner third.top upper lower.Top; do
 done
 invalid "Contact joint/Between" "sides of one body" "of two" -- "Contact joint/Between=upper.bottom, upper.top"
 invalid "Contact joint/Between" "sides of one body" -- "Contact joint/Between=upper.bottom, upper.bottom"
-invalid "Contact joint/Between" "not parallel" "two that lie opposite" -- "Contact joint/Between=upper.bottom, lower.left"
+invalid "Contact joint/Between" "do not face each other" "60 degrees" "two that lie opposite" -- "Contact joint/Between=upper.bottom, lower.left"
 invalid "Contact joint/Between" "look the same way" -- "Contact joint/Between=upper.bottom, lower.bottom"
 invalid "Contact joint/Between" "do not face each other" -- "Contact joint/Between=upper.bottom, lower.bottom" # both look down
-invalid "Contact joint/Between" "do not face each other" "not parallel" -- "Body upper/Shape=quadrilateral" "Body upper/Corners=1, 1; 2, 1.001; 2, 2; 1, 2"
+invalid "Contact joint/Between" "do not face each other" "60 degrees" -- "Body upper/Shape=quadrilateral" "Body upper/Corners=1, 1; 2, 3; 2, 5; 1, 4"
+invalid "Contact joint/Law = tied" "lie apart" -- "Body upper/Shape=quadrilateral" "Body upper/Corners=1, 1; 2, 1.001; 2, 2; 1, 2" "Contact joint/Law=tied"
 invalid "Contact joint/Between" "one ends before the other begins" -- "Body upper/Lower corner=3, 1" "Body upper/Upper corner=4, 2"
 invalid "Contact joint/Between" "inside each other" "0.25" "negative Gap" -- "Body upper/Lower corner=1, 0.75"
-invalid "Contact lid/Between" "not straight" "straight lines alone" -- "${disc[@]}" "Contact lid/Between=upper.top, disc.arc"
+lid=("${disc[@]}" "Contact lid/Between=upper.top, disc.arc" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0")
+invalid "Contact lid/Between" "inside each other" "0.1" "negative Gap" -- "${lid[@]}" "Body disc/Centre=1.5, 2.9"
+invalid "Contact lid/Between" "do not face each other" "60 degrees" -- "${lid[@]}" "Contact lid/Between=upper.left, disc.arc"
+invalid "Contact lid/Between" "do not face each other" -- "${lid[@]}" "Body disc/Angle=0"
+invalid "Contact lid/Slave = disc.arc" "edge of the slave that hangs over" "automatic" -- "${lid[@]}" "Contact lid/Slave=disc.arc"
+invalid "Contact lid/Law = bilateral" "lie apart" "move them together" -- "${lid[@]}" "Contact lid/Law=bilateral"
+invalid "Contact lid/Law = tied" "lie apart" -- "${lid[@]}" "Contact lid/Law=tied"
+invalid "Contact lid/Gap" "not an expression" "no body here" -- "${lid[@]}" "Contact lid/Gap=mu*x"
+invalid "Contact again/Between" "overlaps Contact lid/Between" -- "${lid[@]}" "Contact again/Between=upper.top, disc.arc"
 invalid "Contact again/Between" "edges of lower.top that Contact joint has, too" "one body" -- "Contact again/Between=lower.top, upper.bottom"
 invalid "Contact joint/Between" "edges of both sides that hang over" "a vertex" -- "Body lower/Shape=quadrilateral" \
   "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Body upper/Shape=quadrilateral" "Body upper/Corners=2, 1; 4, 1; 4, 2; 2, 2" "Body upper/Subdivisions=1, 1"
@@ -113,7 +122,11 @@ invalid "Body third" "translation in y" "it touches nothing" -- "${third[@]}" "B
 
 # --- what several bodies do not offer
 invalid "Solver/Path = primal" "several bodies is not offered" "auto or reduced" -- "Solver/Path=primal" "Adaptivity/Method=hup2"
-invalid "Material/Plane = axisymmetric" "several bodies is not offered" "stress or strain" -- "Material/Plane=axisymmetric"
+invalid "Material/Plane = axisymmetric" "x < 0" -- "Material/Plane=axisymmetric" "Body lower/Lower corner=-1, 0"
+invalid "Material/Elasticity = orthotropic" "axisymmetric" -- "Material/Plane=axisymmetric" "Material/Elasticity=orthotropic" "Material/Young's modulus=" \
+  "Material/Poisson's ratio=" "Material/Young's moduli=1, 2, 3" "Material/Poisson's ratios=0.1, 0.1, 0.1" "Material/Shear moduli=1, 1, 1" "Material soft/Elasticity=isotropic" \
+  "Material soft/Poisson's ratio=0.3"
+invalid "Material/Thickness" "is that of a plane body" -- "Material/Plane=axisymmetric" "Material/Thickness=2" "Boundary lower.bottom/Displacement=free; 0" "Boundary upper.top/Displacement=free; -0.02"
 invalid "Solver/Multiplier degree offset = -3" "several bodies is not offered" -- "Solver/Multiplier degree offset=-3"
 invalid "Exact solution/Solution = smooth" "several bodies is not offered" "set none" -- "Exact solution/Solution=smooth"
 
@@ -137,6 +150,10 @@ valid "a history" "Loading/Steps=4"
 valid "an edge that hangs over" "Body lower/Shape=quadrilateral" "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1"
 valid "a body on springs" "Boundary upper.top/Displacement=" "Boundary upper.top/Spring=1; 1"
 valid "ends that a box cuts" "Body upper/Lower corner=0.9, 1" "Body upper/Upper corner=1.7, 2"
+valid "sides at an angle" "Body upper/Shape=quadrilateral" "Body upper/Corners=1, 1; 2, 1.001; 2, 2; 1, 2"
+valid "a disc on a block" "${lid[@]}"
+valid "a disc on a wider block" "${lid[@]}" "Body disc/Radius=0.4" "Body disc/Centre=1.5, 2.4" "Contact lid/Slave=disc.arc"
+valid "bodies of revolution" "Material/Plane=axisymmetric" "Boundary lower.bottom/Displacement=free; 0" "Boundary upper.top/Displacement=free; -0.02"
 valid "--set opens a section" "Boundary lower.left/Traction=1; 0"
 valid "friction of two kinds" "Contact joint/Friction coefficient=0.3 + x/10"
 valid "a disc that lies with its flat side on a block" "Body disc/Shape=half disc" "Body disc/Centre=1.5, 2" "Body disc/Radius=0.5" "Body disc/Angle=0" \

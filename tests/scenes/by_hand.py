@@ -77,6 +77,24 @@ CORNER = {"Body low/Lower corner": "0, -1", "Body low/Upper corner": "2, 0", "Bo
              for entry, value in (("Between", sides), ("Law", "tied"))}, "Adaptivity/Method": "hup3", "Adaptivity/Maximum steps": "1"}
 CORNER_ENERGY = 4 * 0.5 * (10 / 0.91 * (0.01 ** 2 + 0.03 ** 2 - 0.6 * 0.01 * 0.03) + 10 / 2.6 * 0.025 ** 2)
 
+# A shaft of radius 1 in a hub from 1 to 2, E = 10 and 30, both as long as their planes are apart: Lame's two cylinders, that want 0.01 more.
+HUB = {"Body shaft/Upper corner": "1, 1", "Body shaft/Subdivisions": "2, 2", "Body hub/Lower corner": "1, 0", "Body hub/Upper corner": "2, 1",
+       "Body hub/Subdivisions": "3, 3", "Body hub/Material": "hard", "Material/Plane": "axisymmetric", "Material/Young's modulus": "10",
+       "Material/Poisson's ratio": "0.3", "Material hard/Young's modulus": "30", "Contact fit/Between": "shaft.right, hub.left",
+       **{f"Boundary {body}.{side}/Displacement": "free; 0" for body in ("shaft", "hub") for side in ("bottom", "top")},
+       "Adaptivity/Method": "pu", "Adaptivity/Start degree": "12", "Adaptivity/Maximum steps": "1"}
+FIT = 2 * math.pi * 0.01 / (1.3 * 0.4 / 10 + 1.3 * (0.4 + 4) / (30 * 3))  # the force of a fit of 0.01 around the turn
+COLUMN = {**{path: value for path, value in STACK.items() if path != "Material/Plane"}, "Material/Plane": "axisymmetric",
+          "Boundary lower.bottom/Displacement": "free; 0", "Boundary upper.top/Displacement": "free; -0.2"}  # STACK turned about its left side
+# A ring in a ring that is held outside, both in plane stress: 2 r^2 s_rt is the moment of the shear 0.3 inside; pressed into each other by Gap.
+RINGS = {"Body in/Shape": "ring sector", "Body in/Angles": "0, 360", "Body in/Radii": "1, 1.5", "Body in/Subdivisions": "1, 7",
+         "Body out/Shape": "ring sector", "Body out/Angles": "0, 360", "Body out/Radii": "1.5, 2", "Body out/Subdivisions": "1, 5",
+         "Material/Young's modulus": "10", "Material/Poisson's ratio": "0", "Material/Plane": "stress", "Contact fit/Between": "in.outer, out.inner",
+         "Contact fit/Gap": "-0.1", "Contact fit/Friction coefficient": "0.5", "Boundary in.inner/Shear": "0.1", "Boundary out.outer/Spring": "0; 5",
+         "Adaptivity/Method": "pu", "Adaptivity/Start degree": "12", "Adaptivity/Maximum steps": "1"}
+# nu = 0: a ring from a to b under p at its side b shrinks by p b (a^2 + b^2)/(10 (b^2 - a^2)) there.
+GRIP = 0.1 / (1.5 / 10 * ((1 + 1.5 ** 2) / (1.5 ** 2 - 1) + (4 + 1.5 ** 2) / (4 - 1.5 ** 2)))
+
 
 def timoshenko(strain, h1, E1, h2, E2):
     """Curvature of two strips, the first one below and longer by @p strain (J. Opt. Soc. Am. 11, 1925, 233)."""
@@ -342,6 +360,43 @@ ROWS = [
     ("three bodies that meet in a corner", CORNER, {"final.energy": CORNER_ENERGY}),
     ("a block on a part of another", {**STACK, "Body lower/Lower corner": "-1, 0", "Body lower/Upper corner": "2.5, 1", "Boundary lower.top/Pressure": "2"},
      {"forces.lower.bottom.1+forces.upper.top.1": 2 * 1.5}),
+    ("a block on another on springs", {**STACK, "Boundary lower.bottom/Displacement": None, "Boundary lower.bottom/Spring": "5; 5"},
+     {"forces.lower.bottom.1": 2 * 0.6, "final.energy": 0.5 * 2 * 0.6 * 0.2}),
+    ("a plate on a block on another", {**STACK, "Boundary upper.top/Displacement": "0; free", "Boundary upper.top/Rigid": "true",
+                                       "Boundary upper.top/Force": "free; -3", "Boundary upper.top/Rotation": "0"},
+     {"plates.upper.top.displacement.1": -0.2, "final.energy": -0.5 * 3 * 0.2, "contact.upper.bottom.normal_resultant": -3}),
+    ("a block of two materials on another", {**STACK, "Body lower/Subdivisions": "3, 2", "Material hard/Where": "0.5 - y", "Material hard/Young's modulus": "20"},
+     {"forces.lower.bottom.1": 2 * 0.2 / (0.5 / 10 + 0.5 / 20 + 1 / 30)}),
+    ("a block of fibres on another", {**STACK, "Body lower/Material": "wood", "Material wood/Elasticity": "orthotropic", "Material wood/Young's moduli": "40, 5",
+                                      "Material wood/Poisson's ratios": "0", "Material wood/Shear moduli": "2, 3, 4"},
+     {"forces.lower.bottom.1": 2 * 0.2 / (1 / 5 + 1 / 30)}),
+    ("a hot block on a cold one", {**STACK, "Boundary upper.top/Displacement": "free; 0", "Material stiff/Thermal expansion": "0.002", "Temperature/Expression": "50",
+                                   "Boundary upper.left/Symmetry": "true"}, {"forces.lower.bottom.1": 2 * 0.1 / (1 / 10 + 1 / 30)}),
+    ("blocks, springs, a plate and initial strain in time",
+     {**STACK, **HISTORY, "Boundary lower.bottom/Displacement": None, "Boundary lower.bottom/Spring": "5; 5", "Boundary upper.top/Displacement": "0; free",
+      "Boundary upper.top/Rigid": "true", "Boundary upper.top/Force": "free; -3*t", "Boundary upper.top/Rotation": "0",
+      "Material stiff/Initial strain": "0; 0.1*t; 0", "Contact joint/Friction coefficient": "0.2"},
+     {"plates.upper.top.displacement.1": 0.1 - 1.5 * (1 / 5 + 1 / 10 + 1 / 30), "forces.lower.bottom.1": 3}),
+    ("a column of two, squeezed", COLUMN, {"final.energy": 0.5 * 1.5 * 4 * math.pi * 0.2, "forces.lower.bottom.1": 6 * math.pi,
+                                           "contact.upper.bottom.normal_resultant": -6 * math.pi, "contact.upper.bottom.area": 4 * math.pi}),
+    ("the same with either slave", {**COLUMN, "Contact joint/Slave": "lower.top"}, {"forces.lower.bottom.1": 6 * math.pi}),
+    ("a column that is glued", {**COLUMN, "Contact joint/Law": "tied", "Boundary upper.top/Displacement": "free; 0.2"}, {"forces.lower.bottom.1": -6 * math.pi}),
+    ("a floating column", {**COLUMN, "Boundary upper.top/Displacement": None, "Boundary upper.top/Pressure": "3"}, {"forces.lower.bottom.1": 12 * math.pi}),
+    ("a column with a rigid plate", {**COLUMN, "Boundary upper.top/Displacement": None, "Boundary upper.top/Rigid": "true", "Boundary upper.top/Force": "free; -3"},
+     {"plates.upper.top.displacement.1": -3 / (4 * math.pi) * (1 / 10 + 1 / 30), "contact.upper.bottom.normal_resultant": -3}),
+    ("a shaft in a hub", {**HUB, "Contact fit/Gap": "-0.01"}, {"contact.shaft.right.normal_resultant": -FIT, "final.energy": 0.5 * 0.01 * FIT}),
+    ("the same with either slave", {**HUB, "Contact fit/Gap": "-0.01", "Contact fit/Slave": "shaft.right"}, {"contact.shaft.right.normal_resultant": -FIT}),
+    ("the same seen from the hub", {**HUB, "Contact fit/Gap": "-0.01", "Contact fit/Between": "hub.left, shaft.right"},
+     {"contact.hub.left.normal_resultant": -FIT}),
+    ("a hot shaft in a cold hub", {**HUB, "Material/Thermal expansion": "0.001", "Material hard/Thermal expansion": "0", "Temperature/Expression": "10/1.3"},
+     {"contact.shaft.right.normal_resultant": -FIT}),
+    ("a shaft that gets hot in a hub, with friction", {**HUB, **HISTORY, "Material/Thermal expansion": "0.001", "Material hard/Thermal expansion": "0",
+                                                       "Temperature/Expression": "10/1.3*t", "Contact fit/Friction coefficient": "0.3", "Adaptivity/Method": "pu"},
+     {"contact.shaft.right.normal_resultant": -FIT, "contact.shaft.right.friction_resultant": 0}),
+    ("a ring in a ring", RINGS, {"contact.in.outer.normal_resultant": -3 * math.pi * GRIP, "contact.in.outer.friction_resultant": 2 * math.pi * 0.1 / 1.5,
+                                 "contact.in.outer.slipping_area": 0}),
+    ("the same in time", {**RINGS, "Loading/Steps": "2", "Boundary in.inner/Shear": "0.1*t"},
+     {"contact.in.outer.normal_resultant": -3 * math.pi * GRIP, "contact.in.outer.friction_resultant": 2 * math.pi * 0.1 / 1.5}),
     ("symmetry on the primal path", {**BLOCK, "Boundary left/Displacement": None, "Boundary left/Symmetry": "true",
                                      "Boundary right/Traction": "3; 0", "Solver/Path": "primal",
                                      "Solver/Primal tolerance": "1e-12"},
@@ -378,6 +433,12 @@ ROWS = [
      {"forces.flank.1": -500, "contact.flank.normal_resultant": -500 * 2 ** 0.5 / 1.15,
       "contact.flank.friction_resultant": -0.15 * 500 * 2 ** 0.5 / 1.15, "forces.middle.0": 500 * 0.85 / 1.15}),
     ("brake-shoe.prm", SCENES / "brake-shoe.prm", {"forces.outer.1": -400, "forces.inner.0+forces.outer.0": 0}),
+    ("ssnp154.prm", SCENES / "ssnp154.prm",
+     {"contact.cylinder.arc (line).force.1": 35000, "forces.block.bottom.1": 35000, "forces.block.bottom.0": 0, "plates.cylinder.flat.moment": 0}),
+    ("bush.prm", SCENES / "bush.prm",
+     {"contact.bush.outer.friction_resultant": 2 * math.pi * 30 * 5 / 2.25,
+      "contact.bush.outer.normal_resultant": -2 * math.pi * 0.03 / ((1300 / 500 - 0.34) / 110000 + (2925 / 1125 + 0.3) / 210000)}),
+    ("shrink-fit.prm", SCENES / "shrink-fit.prm", {"forces.hub.top.1": -20 * math.pi * 400, "contact.shaft.right (fit).friction_resultant": -20 * math.pi * 400}),
     ("seal.prm", SCENES / "seal.prm",
      {"forces.floor.0+forces.wall.0+forces.shoulder.0": -0.1 * 3 * (1 + 0.5 ** 0.5), "forces.floor.1+forces.crown.1": 0.1 * 3 * (1 - 0.5 ** 0.5),
       "forces.wall.1+forces.shoulder.1+forces.crown.0": 0}),

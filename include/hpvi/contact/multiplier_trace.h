@@ -36,6 +36,10 @@ private:
     std::vector<double> normal_points; ///< as in ContactFace, along the edge
     std::vector<double> pressures;     ///< there
     std::optional<unsigned int> pair;  ///< of bodies, on either side
+    CurvePiece curve;                  ///< what the edge follows; none: straight
+
+    double place(const dealii::Point<dim> &x) const; ///< of the nearest point, in [0,1] on it
+    dealii::Point<dim> point(double s) const;
   };
 
   void take_opposite(const ContactFace<dim> &face, const ContactSpace<dim> &finer,

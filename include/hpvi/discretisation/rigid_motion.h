@@ -15,17 +15,22 @@ namespace hpvi
  * force, and u is not unique.
  *
  * Motions are chosen so that they are orthogonal over the contact, `G' W^-1 G` diagonal with the weights
- * W of the multipliers: then one is seen where its entry is above round-off.
+ * W of the multipliers: then one is seen where its entry is above round-off. Two bodies that touch along a circle may turn about its
+ * middle; the polynomials that stand for the circle would press by as much as their normals differ from those of the circle, and that is no
+ * more than round-off.
  */
 template <int dim>
 class RigidMotions
 {
 public:
-  /** @p basis of the motions. Throws NumericalFailure where loads push along one that no contact sees. */
+  /**
+   * @p basis of the motions; @p precision of the normals of contact. Throws NumericalFailure where loads push along one that no
+   * contact sees.
+   */
   RigidMotions(const std::vector<RigidBodyMotion<dim>> &basis, const Geometry<dim> &geometry,
                const DisplacementSpace<dim> &space, const Unknowns<dim> &unknowns,
                const ConditionRows &rows, const std::vector<ContactMultiplier<dim>> &multipliers,
-               const ElasticSystem<dim> &system);
+               const ElasticSystem<dim> &system, double precision = 0);
 
   unsigned int n_seen() const; ///< by contact
 

@@ -22,7 +22,7 @@ struct FacingSides
 
 /**
  * The part of two sides of bodies of @p size that lie opposite to each other. Nothing where they do not; @p problem says
- * why then, in words that go on after "the sides".
+ * why then, in words that go on after "the sides", or is empty where one bends or they are at an angle (opposite_edges()).
  */
 std::optional<FacingSides> facing_sides(const Side<2> &first, const Side<2> &second, double size,
                                         std::string &problem);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_pair_sides_h
+#define hpvi_pair_sides_h
+
+#include <hpvi/scene/facing_sides.h>
+#include <hpvi/scene/scene.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+class Parameters;
+
+/** The body and its side that `BODY.side` names. */
+struct NamedSide
+{
+  std::string name;
+  unsigned int body, side;
+};
+
+/** The two sides of a pair before the bodies are one geometry. */
+struct PairSides
+{
+  std::string name, section;
+  std::array<NamedSide, 2> sides;
+  std::array<Expression<2>, 2>
+      where; ///< of either side positive on its edges in the pair, else not
+  /** From either side to the other along its normal [length]; null: they touch all along. */
+  std::array<Expression<2>, 2> distance;
+  std::optional<unsigned int> slave;
+  std::optional<FacingSides> line = std::nullopt; ///< of straight sides that are parallel
+};
+
+/**
+ * `Between` and `Slave` of @p section. Boxes of @p singles get grid lines where the other side ends opposite to an edge. An edge of
+ * another shape may hang over that end; its side is the master then, for a multiplier there would press where nobody is.
+ */
+PairSides read_pair_sides(const Parameters &parameters, const std::string &section,
+                          const std::string &name, const std::vector<std::string> &bodies,
+                          std::vector<Scene<2>> &singles);
+
+/** Each edge belongs to one pair. */
+void check_overlap(const Parameters &parameters, const std::vector<PairSides> &pairs);
+
+/** A part of each of the two sides, as `Where` of a boundary would make it. */
+void add_parts(const PairSides &read, Scene<2> &scene);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_opposite_edges_h
+#define hpvi_opposite_edges_h
+
+#include <hpvi/scene/drawn_side.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** Of two sides, curved or at an angle to each other, the edges that make a pair. */
+struct OppositeEdges
+{
+  std::array<std::vector<bool>, 2> in_pair; ///< by edge of either side
+  std::optional<unsigned int> slave;        ///< which has to be it; nothing: either may
+  double least = 0, largest = 0; ///< distance along the normal of the first slave [length]
+  /** The least distance of an edge of that slave that is left out, for a part of it alone lies opposite; nothing: there is none. */
+  std::optional<double> left_out;
+
+  bool is_empty() const;
+};
+
+/**
+ * An edge of the slave has every one of its points opposite to the other side; edges of the master may hang over. @p asked: the
+ * side that shall be slave. Where both may be and lie opposite to the same edges from either side, either is. Throws nothing: where
+ * there is no pair @p problem says why in words that go on after "the sides", and none is in it.
+ */
+OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
+                             std::optional<unsigned int> asked, double size, std::string &problem);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/scene/opposite_edges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int n_samples = 32; ///< of an edge, and both of its ends
+constexpr double same_place = 1e-9,    ///< of the size of the bodies
+    near = 0.02,        ///< of the size: what hangs over at a larger distance touches nobody
+    smooth = 1 - 1e-10; ///< cosine between edges that meet: a spline in pieces is smooth to less
+
+/** What the normals of one edge meet. */
+struct Sight
+{
+  unsigned int n_met = 0;
+  std::set<unsigned int> edges; ///< of the other side
+  double least = std::numeric_limits<double>::max(),
+         largest = std::numeric_limits<double>::lowest(); ///< distances
+
+  bool is_whole() const
+  {
+    return n_met == n_samples + 1;
+  }
+};
+
+/** A side as a slave. */
+struct Candidate
+{
+  std::vector<Sight> sights;
+  bool hangs_over = false;
+  std::optional<Point<2>> corner; ///< between two of its edges: no normal there
+
+  bool is_whole(const unsigned int edge) const
+  {
+    return sights[edge].is_whole();
+  }
+
+  bool is_empty() const
+  {
+    return std::none_of(sights.begin(), sights.end(),
+                        [](const Sight &sight) { return sight.is_whole(); });
+  }
+
+  bool is_fit() const
+  {
+    return !is_empty() && !hangs_over && !corner;
+  }
+};
+
+Sight sight_of(const EdgePath &path, const DrawnSide &other)
+{
+  Sight result;
+  for (unsigned int k = 0; k <= n_samples; ++k)
+  {
+    const double s = double(k) / n_samples;
+    const auto there = other.opposite(path.point(s), path.normal(s));
+    if (!there)
+      continue;
+    ++result.n_met;
+    if (there->place.s > 1e-6 && there->place.s < 1 - 1e-6) // a vertex belongs to two edges
+      result.edges.insert(there->edge);
+    result.least = std::min(result.least, there->place.distance);
+    result.largest = std::max(result.largest, there->place.distance);
+  }
+  return result;
+}
+
+Candidate candidate(const DrawnSide &own, const DrawnSide &other, const double size)
+{
+  Candidate result;
+  const std::vector<EdgePath> &edges = own.edges();
+  for (const EdgePath &path : edges)
+  {
+    result.sights.push_back(sight_of(path, other));
+    const Sight &sight = result.sights.back();
+    result.hangs_over =
+        result.hangs_over || (sight.n_met > 1 && !sight.is_whole() && sight.least <= near * size);
+  }
+  for (unsigned int a = 0; a < edges.size(); ++a)
+    for (unsigned int b = 0; b < edges.size(); ++b)
+      if (a != b && result.is_whole(a) && result.is_whole(b) &&
+          edges[a].ends[1].distance(edges[b].ends[0]) <= same_place * size &&
+          edges[a].normal(1) * edges[b].normal(0) < smooth)
+        result.corner = edges[a].ends[1];
+  return result;
+}
+
+/** Do the normals of the edges that take part meet edges alone that take part on the other side? */
+bool meets_its_like(const Candidate &one, const Candidate &other)
+{
+  return std::all_of(one.sights.begin(), one.sights.end(),
+                     [&](const Sight &sight)
+                     {
+                       return !sight.is_whole() ||
+                              std::all_of(sight.edges.begin(), sight.edges.end(),
+                                          [&](const unsigned int e) { return other.is_whole(e); });
+                     });
+}
+
+std::string why_not(const Candidate &one, const bool is_asked)
+{
+  if (one.corner)
+    return "have a corner at " + to_string(*one.corner) +
+           " where they should be smooth, for it has no normal";
+  if (one.hangs_over)
+    return is_asked ? "have an edge of the slave that hangs over the end of the other side"
+                    : "have edges of both sides that hang over the end of the other";
+  return "do not face each other: on neither is there an edge whose normals all meet the other "
+         "side "
+         "at 60 degrees or less to its own";
+}
+} // namespace
+
+bool OppositeEdges::is_empty() const
+{
+  return in_pair[0].empty();
+}
+
+OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
+                             const std::optional<unsigned int> asked, const double size,
+                             std::string &problem)
+{
+  const std::array<Candidate, 2> candidates{
+      {candidate(sides[0], sides[1], size), candidate(sides[1], sides[0], size)}};
+  OppositeEdges result;
+  const unsigned int slave = asked ? *asked : candidates[0].is_fit() ? 0 : 1;
+  const Candidate &chosen = candidates[slave];
+  if (!chosen.is_fit())
+  {
+    const bool first_says_more = !asked && !candidates[0].is_empty();
+    problem = why_not(candidates[first_says_more ? 0 : slave], asked.has_value());
+    return result;
+  }
+  const bool is_either = candidates[0].is_fit() && candidates[1].is_fit() &&
+                         meets_its_like(candidates[0], candidates[1]) &&
+                         meets_its_like(candidates[1], candidates[0]);
+  if (asked || !is_either)
+    result.slave = slave;
+  for (const unsigned int k : {0, 1})
+    result.in_pair[k].resize(sides[k].edges().size());
+  result.least = std::numeric_limits<double>::max();
+  result.largest = std::numeric_limits<double>::lowest();
+  for (unsigned int e = 0; e < chosen.sights.size(); ++e)
+    if (chosen.is_whole(e))
+    {
+      result.in_pair[slave][e] = true;
+      for (const unsigned int other : chosen.sights[e].edges)
+        result.in_pair[1 - slave][other] = true;
+      result.least = std::min(result.least, chosen.sights[e].least);
+      result.largest = std::max(result.largest, chosen.sights[e].largest);
+    }
+    else if (const Sight &sight = chosen.sights[e]; sight.n_met > 1)
+      result.left_out = std::min(sight.least, result.left_out.value_or(sight.least));
+  return result;
+}
+} // namespace hpvi
