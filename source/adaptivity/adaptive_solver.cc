@@ -9,6 +9,7 @@
 #include <hpvi/adaptivity/column_width.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
+#include <hpvi/adaptivity/mean_intervals.h>
 #include <hpvi/adaptivity/thickness.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/processes.h>
@@ -53,6 +54,11 @@ double peak_memory(MPI_Comm communicator)
   return Utilities::MPI::sum(1024. * memory.VmHWM, communicator);
 }
 
+std::string joined_words(const std::string &one, const std::string &other)
+{
+  return one + (one.empty() || other.empty() ? "" : "; ") + other;
+}
+
 /** Part of a whole that may be zero, which has no parts. */
 double ratio(const double part, const double whole)
 {
@@ -70,6 +76,7 @@ struct AdaptiveSolver<dim>::Stages
   const Scene<dim> &scene;
   const std::unique_ptr<Backend<dim>> backend;
   const TrueError<dim> true_error;
+  MeanIntervals<dim> mean_intervals;
   DataScale data;
   ErrorEstimate estimate; ///< of the current step, as the next
   BoundOfStep bound;
@@ -77,7 +84,7 @@ struct AdaptiveSolver<dim>::Stages
   std::vector<Refinement> refinements; ///< from the coarse mesh to that of the current step
 
   Stages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
-      : scene(scene), backend(std::move(backend)), true_error(scene)
+      : scene(scene), backend(std::move(backend)), true_error(scene), mean_intervals(scene)
   {
     together(this->backend->communicator, [&]() { data = data_scale(scene); });
   }
@@ -261,7 +268,10 @@ void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
   step.forces = resultants(scene, step.equilibrium, step.contact);
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
-  if (!step.bound)
+  if (step.bound)
+    step.no_intervals =
+        joined_words(backend->bound_forces(*step.bound, step.forces), mean_intervals.set(step));
+  else
     step.no_intervals = step.no_bound;
   history.back().relative_half_width = relative_half_width(step);
 }

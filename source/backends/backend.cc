@@ -42,6 +42,12 @@ void Backend<dim>::begin(const std::string &stage, const std::string &note) cons
 }
 
 template <int dim>
+std::string Backend<dim>::bound_forces(const ErrorBound &, std::vector<Resultant<dim>> &)
+{
+  return {};
+}
+
+template <int dim>
 double Backend<dim>::round_off_estimate() const
 {
   return round_off_of_estimate(field());

@@ -278,6 +278,17 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
   return result;
 }
 
+template <int dim>
+std::string ReducedBackend<dim>::bound_forces(const ErrorBound &bound,
+                                              std::vector<Resultant<dim>> &forces)
+{
+  begin("bounding forces");
+  if (!resultant_intervals)
+    resultant_intervals = std::make_unique<ResultantIntervals>(scene);
+  resultant_intervals->set(*solution, bound, forces);
+  return resultant_intervals->flaws();
+}
+
 // @sect3{What no indicator can see}
 //
 // A jump of the friction bound or the coefficient inside an edge, contact that the points of the

@@ -77,6 +77,8 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
   for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
     result.squares.push_back(std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
                              std::max(0., correction.energy()[cell]));
+  result.moved.assign(correction.energy().begin(), correction.energy().end());
+  result.lifted = data.lifts;
   const auto &faces = solution.contact_space.faces();
   for (unsigned int face = 0; face < faces.size(); ++face)
     result.squares[faces[face].cell->active_cell_index()] +=

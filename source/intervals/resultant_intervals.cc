@@ -31,9 +31,22 @@ ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene), si
 {
 }
 
-const std::vector<std::string> &ResultantIntervals::flaws() const
+std::string ResultantIntervals::flaws() const
 {
-  return why_not;
+  std::string result;
+  const auto add = [&](const std::string &flaw)
+  {
+    if (result.find(flaw) == std::string::npos)
+      result += (result.empty() ? "" : "; ") + flaw;
+  };
+  for (const OfBoundary &boundary : boundaries)
+    for (const Goal &goal : boundary.goals)
+      if (!goal.test.flaw().empty())
+        add(goal.test.flaw());
+      else if (goal.is_pressed)
+        add("the pressure on " + scene.boundaries[boundary.boundary].name +
+            " in a corner that is held has no upper bound");
+  return result;
 }
 
 const ResultantIntervals::Goal *
@@ -61,69 +74,89 @@ void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
           is_contact ? BoundaryMotion::tangential : BoundaryMotion::y, BoundaryMotion::moment})
     {
       own.goals.push_back({motion, TestMotion(scene, sides, row.boundary, motion), {}});
-      const std::string &flaw = own.goals.back().test.flaw();
-      if (!flaw.empty() && std::find(why_not.begin(), why_not.end(), flaw) == why_not.end())
-        why_not.push_back(flaw);
+      for (const TestMotion::Fall &fall : own.goals.back().test.falls())
+        if (std::none_of(graded.begin(), graded.end(),
+                         [&](const GradedPoint &point) { return point.x == fall.from; }))
+          graded.push_back({fall.from, 0});
     }
   }
 }
 
 // @sect3{Test displacements}
 //
-void ResultantIntervals::solve_once(const Solution<2> &solution)
+bool ResultantIntervals::is_solved(const Goal &goal) const
 {
-  std::vector<Point<2>> points;
-  for (const OfBoundary &boundary : boundaries)
-    for (const Goal &goal : boundary.goals)
-      for (const TestMotion::Fall &fall : goal.test.falls())
-        points.push_back(fall.from);
-  space = std::make_unique<TestSpace>(solution, points, levels, tables);
+  return goal.test.flaw().empty() && !goal.test.is_zero();
+}
+
+void ResultantIntervals::solve(const Solution<2> &solution)
+{
+  space = std::make_unique<TestSpace>(solution, graded, tables);
   for (OfBoundary &boundary : boundaries)
     for (Goal &goal : boundary.goals)
     {
-      if (!goal.test.flaw().empty() || goal.test.is_zero())
+      if (!is_solved(goal))
         continue;
       goal.w = space->solve(goal.test);
       goal.norm = std::sqrt(std::max(0., space->product(goal.w, goal.w))); // round-off
-      goal.fall = 0;
+      goal.friction = 0;
       const std::vector<double> l = space->lengths(goal.test);
       for (unsigned int k = 0; k < l.size(); ++k)
-        goal.fall += goal.test.falls()[k].work(scene, l[k]);
+        goal.friction += goal.test.falls()[k].work(scene, l[k]);
     }
 }
 
-/** Bisections after which falls cost no more than @p bound allows; 0: they do. */
-double ResultantIntervals::missing_levels(const double bound) const
+// A fall along friction is short enough where it costs little, one along a pressure where contact is open all along.
+double ResultantIntervals::missing_levels(const Goal &goal, const unsigned int fall,
+                                          const double length, const Solution<2> &solution,
+                                          const ErrorBound &bound) const
 {
-  double result = 0;
-  for (const OfBoundary &boundary : boundaries)
-    for (const Goal &goal : boundary.goals)
-      if (goal.fall > largest_share * bound * goal.norm)
-        result = std::max(result, std::ceil(std::log2(goal.fall / (aim * bound * goal.norm))));
-  return std::min(result, double(most_levels - levels));
+  const TestMotion::Fall &from = goal.test.falls()[fall];
+  if (from.kind == TractionKind::friction)
+    return goal.friction > largest_share * bound.total * goal.norm
+               ? std::ceil(std::log2(goal.friction / (aim * bound.total * goal.norm)))
+               : 0.;
+  const double open = OpenContact(solution, bound, from.boundary, from.from).length();
+  return open > 0 && length > open ? std::ceil(std::log2(length / open)) : 0.;
 }
 
-void ResultantIntervals::solve(const Solution<2> &solution, const double bound)
+/** More bisections where falls ask for them; false: all are there. */
+bool ResultantIntervals::grade(const Solution<2> &solution, const ErrorBound &bound)
 {
-  if (!space)
-    solve_once(solution);
-  for (double missing = missing_levels(bound); missing > 0; missing = missing_levels(bound))
-  {
-    levels += static_cast<unsigned int>(missing);
-    solve_once(solution);
-  }
+  std::vector<GradedPoint> next = graded;
+  for (const OfBoundary &boundary : boundaries)
+    for (const Goal &goal : boundary.goals)
+    {
+      if (!is_solved(goal))
+        continue;
+      const std::vector<double> l = space->lengths(goal.test);
+      for (unsigned int k = 0; k < l.size(); ++k)
+        for (unsigned int point = 0; point < graded.size(); ++point)
+          if (graded[point].x == goal.test.falls()[k].from)
+            next[point].levels = std::max(
+                next[point].levels,
+                std::min(most_levels, graded[point].levels +
+                                          static_cast<unsigned int>(std::min(
+                                              double(most_levels),
+                                              missing_levels(goal, k, l[k], solution, bound)))));
+    }
+  bool is_finer = false;
+  for (unsigned int point = 0; point < graded.size(); ++point)
+    is_finer = is_finer || next[point].levels > graded[point].levels;
+  graded = next;
+  return is_finer;
 }
 
 // @sect3{Forces}
 //
-void ResultantIntervals::measure(const Solution<2> &solution)
+void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &bound)
 {
   const Vector<double> residual = space->residual(solution);
   const LoadRules<2> &loads = *solution.spaces->loads;
   for (OfBoundary &boundary : boundaries)
     for (Goal &goal : boundary.goals)
     {
-      if (goal.w.size() == 0)
+      if (!is_solved(goal))
         continue;
       double absolute = 0;
       goal.centre = 0;
@@ -134,7 +167,26 @@ void ResultantIntervals::measure(const Solution<2> &solution)
       }
       goal.rounding =
           1e-14 * absolute + loads.difference() * loads.sum().absolute * goal.test.largest();
+      measure_pressure(goal, solution, bound);
     }
+}
+
+void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solution,
+                                          const ErrorBound &bound) const
+{
+  goal.pressure = 0;
+  goal.is_pressed = false;
+  const std::vector<double> l = space->lengths(goal.test);
+  for (unsigned int k = 0; k < l.size(); ++k)
+  {
+    const TestMotion::Fall &fall = goal.test.falls()[k];
+    if (fall.kind != TractionKind::pressure)
+      continue;
+    const OpenContact open(solution, bound, fall.boundary, fall.from);
+    goal.is_pressed = goal.is_pressed || !(l[k] <= open.length() * (1 + 1e-9));
+    if (!goal.is_pressed)
+      goal.pressure += fall.offset.norm() * open.kappa(l[k]) * bound.energy;
+  }
 }
 
 /** Of a sum of resultants of one boundary. */
@@ -150,12 +202,12 @@ ResultantIntervals::interval(const OfBoundary &boundary,
     const Goal *const goal = boundary.find(motion);
     if (std::abs(factor) < 1e-14)
       continue;
-    if (!goal || !goal->test.flaw().empty())
+    if (!goal || !goal->test.flaw().empty() || goal->is_pressed)
       return std::nullopt;
     if (goal->w.size() == 0)
       continue; // no traction
     result.centre += factor * goal->centre;
-    result.half_width += std::abs(factor) * (goal->fall + goal->rounding);
+    result.half_width += std::abs(factor) * (goal->friction + goal->pressure + goal->rounding);
     if (w.size() == 0)
       w.reinit(goal->w.size());
     w.add(factor, goal->w);
@@ -195,8 +247,11 @@ void ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &boun
     find_goals(forces);
   if (boundaries.empty())
     return;
-  solve(solution, bound.total);
-  measure(solution);
+  if (!space)
+    solve(solution);
+  while (grade(solution, bound))
+    solve(solution);
+  measure(solution, bound);
   for (Resultant<2> &row : forces)
     for (const OfBoundary &boundary : boundaries)
       if (row.kind != ForceKind::load && row.boundary == boundary.boundary)

@@ -199,14 +199,17 @@ void TestMotion::meet(const Meeting &meeting)
     const double missed = row.direction * w - row.value;
     if (std::abs(missed) <= tolerance)
       continue;
-    if (row.kind != TractionKind::friction)
+    if (row.kind == TractionKind::reaction)
     {
-      std::string others;
+      std::vector<std::string> names;
       for (const unsigned int b : meeting.boundaries)
-        if (b != goal)
-          others += (others.empty() ? "" : " and ") + original.boundaries[b].name;
-      why_not = original.boundaries[goal].name + " meets " + others + " at " +
-                to_string(meeting.at) + ", and what each of them carries there is not known apart";
+        names.push_back(original.boundaries[b].name);
+      std::sort(names.begin(), names.end());
+      std::string all_names;
+      for (const std::string &name : names)
+        all_names += (all_names.empty() ? "" : " and ") + name;
+      why_not = "what each of " + all_names + " carries where they meet, at " +
+                to_string(meeting.at) + ", has no interval";
       return;
     }
     const Side<2> &side = sides[row.boundary];
@@ -215,12 +218,14 @@ void TestMotion::meet(const Meeting &meeting)
       for (unsigned int end = 0; end < 2; ++end)
         if (piece[end].distance(meeting.at) < 1e-9 * original.geometry.diameter())
           towards = (piece[1 - end] - piece[end]) / piece[0].distance(piece[1]);
-    all_falls.push_back({row.boundary, meeting.at, missed * row.direction, towards});
+    all_falls.push_back({row.boundary, meeting.at, missed * row.direction, towards, row.kind});
   }
 }
 
 double TestMotion::Fall::work(const Scene<2> &scene, const double l) const
 {
+  if (kind != TractionKind::friction)
+    return 0.;
   const QGauss<1> gauss(24);
   double result = 0;
   for (unsigned int q = 0; q < gauss.size(); ++q)

@@ -21,21 +21,27 @@ namespace
 constexpr unsigned int degree_of_w = 2, few_cells = 200;
 
 /** The coarse mesh, bisected until it has some cells, and further at @p points. */
-std::shared_ptr<const Triangulation<2>>
-bisected_mesh(const Scene<2> &scene, const std::vector<Point<2>> &points, const unsigned int levels)
+std::shared_ptr<const Triangulation<2>> bisected_mesh(const Scene<2> &scene,
+                                                      const std::vector<GradedPoint> &points)
 {
   const auto mesh = std::make_shared<Triangulation<2>>();
   make_mesh(scene, *mesh);
   while (mesh->n_active_cells() < few_cells)
     mesh->refine_global(1);
   const double near = 1e-12 * scene.geometry.diameter();
-  for (unsigned int level = 0; level < levels && !points.empty(); ++level)
+  bool is_done = false;
+  for (unsigned int level = 0; !is_done; ++level)
   {
-    for (const auto &cell : mesh->active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        for (const Point<2> &x : points)
-          if (cell->vertex(v).distance(x) < near)
-            cell->set_refine_flag();
+    is_done = true;
+    for (const GradedPoint &point : points)
+      if (level < point.levels)
+        for (const auto &cell : mesh->active_cell_iterators())
+          for (const unsigned int v : cell->vertex_indices())
+            if (cell->vertex(v).distance(point.x) < near)
+            {
+              cell->set_refine_flag();
+              is_done = false;
+            }
     mesh->execute_coarsening_and_refinement();
   }
   return mesh;
@@ -56,9 +62,9 @@ Scene<2> free_body(const Scene<2> &scene)
 }
 } // namespace
 
-TestSpace::TestSpace(const Solution<2> &solution, const std::vector<Point<2>> &points,
-                     const unsigned int levels, std::shared_ptr<PartTables> tables)
-    : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points, levels)),
+TestSpace::TestSpace(const Solution<2> &solution, const std::vector<GradedPoint> &points,
+                     std::shared_ptr<PartTables> tables)
+    : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points)),
       degrees(mesh->n_active_cells(), degree_of_w),
       space(free_body(scene), *mesh, degrees, *lender->tables),
       applied(applied_loads(scene, space, *lender->tables, *lender->loads)),

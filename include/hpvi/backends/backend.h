@@ -12,6 +12,7 @@
 #include <hpvi/evaluation/equilibrium.h>
 #include <hpvi/evaluation/field.h>
 #include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/evaluation/resultant.h>
 #include <hpvi/evaluation/true_error.h>
 #include <hpvi/primal/moment_newton.h>
 #include <hpvi/warnings/warnings.h>
@@ -106,6 +107,12 @@ public:
 
   /** @p own_stress: ErrorBound::own_stress of the step before. */
   virtual BoundOfStep bound(double own_stress) = 0;
+
+  /**
+   * Sets the guaranteed intervals of @p forces, where there are any; returns why some have none. With the @p bound of
+   * the step.
+   */
+  virtual std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces);
 
   /** The decay rate of Legendre coefficients in a cell of Refinement; asked for marked cells alone. */
   virtual double decay_rate(unsigned int cell) const = 0;

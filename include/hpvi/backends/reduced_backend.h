@@ -6,6 +6,7 @@
 #include <hpvi/backends/backend.h>
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/evaluation/legendre_smoothness.h>
+#include <hpvi/intervals/resultant_intervals.h>
 
 namespace hpvi
 {
@@ -45,6 +46,7 @@ public:
 
   std::optional<ReducedPart<dim>> reduced() const override;
   BoundOfStep bound(double own_stress) override;
+  std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override;
   double decay_rate(const unsigned int cell) const override
   {
     return smoothness.decay_rate(*solution, cell);
@@ -87,6 +89,7 @@ private:
   std::shared_ptr<const LoadRules<dim>> loads;
   const LegendreSmoothness<dim> smoothness;
   ErrorBounds error_bounds;
+  std::unique_ptr<ResultantIntervals> resultant_intervals; ///< once they are asked for
   std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as all that follows
   std::vector<MissedDisplacement<dim>> missed_displacements;
   std::unique_ptr<const Discretisation<dim>> discretisation;

@@ -48,6 +48,9 @@ struct ErrorBound
 
   std::vector<double> indicators() const; ///< roots of squares
 
+  /** By active cell: |w|_K^2 and |d|_K, of what makes U of u_N. */
+  std::vector<double> moved, lifted;
+
   /** Largest imbalance of a patch, relative to its tractions: what round-off leaves of equilibrium. */
   double imbalance = 0;
 

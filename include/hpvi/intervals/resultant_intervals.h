@@ -4,6 +4,7 @@
 
 #include <hpvi/equilibration/error_bound.h>
 #include <hpvi/evaluation/resultant.h>
+#include <hpvi/intervals/open_contact.h>
 #include <hpvi/intervals/test_space.h>
 
 #include <memory>
@@ -31,8 +32,8 @@ public:
   /** Sets those of @p forces whose boundaries have one. */
   void set(const Solution<2> &solution, const ErrorBound &bound, std::vector<Resultant<2>> &forces);
 
-  /** Why some have none, one line for each cause. */
-  const std::vector<std::string> &flaws() const;
+  /** Why some have none in the last step, in words; empty: all have one. */
+  std::string flaws() const;
 
 private:
   /** A resultant of one boundary with its w. */
@@ -41,10 +42,12 @@ private:
     BoundaryMotion motion;
     TestMotion test;
     dealii::Vector<double> w;
-    double norm = 0;     ///< |w|_a
-    double fall = 0;     ///< what friction may do where w falls
-    double centre = 0;   ///< F_w
-    double rounding = 0; ///< what arithmetic and quadrature may add
+    double norm = 0;         ///< |w|_a
+    double friction = 0;     ///< what it may do where w falls
+    double pressure = 0;     ///< likewise, in this step
+    bool is_pressed = false; ///< or that is not known
+    double centre = 0;       ///< F_w
+    double rounding = 0;     ///< what arithmetic and quadrature may add
   };
 
   struct OfBoundary
@@ -56,10 +59,13 @@ private:
   };
 
   void find_goals(const std::vector<Resultant<2>> &forces);
-  void solve(const Solution<2> &solution, double bound);
-  void solve_once(const Solution<2> &solution);
-  double missing_levels(double bound) const;
-  void measure(const Solution<2> &solution);
+  bool is_solved(const Goal &goal) const;
+  void solve(const Solution<2> &solution);
+  bool grade(const Solution<2> &solution, const ErrorBound &bound);
+  double missing_levels(const Goal &goal, unsigned int fall, double length,
+                        const Solution<2> &solution, const ErrorBound &bound) const;
+  void measure(const Solution<2> &solution, const ErrorBound &bound);
+  void measure_pressure(Goal &goal, const Solution<2> &solution, const ErrorBound &bound) const;
   std::optional<Interval> interval(const OfBoundary &boundary,
                                    const std::vector<std::pair<BoundaryMotion, double>> &sum,
                                    double bound) const;
@@ -70,7 +76,7 @@ private:
   std::vector<OfBoundary> boundaries;
   bool has_goals = false;
   std::vector<std::string> why_not;
-  unsigned int levels = 0;
+  std::vector<GradedPoint> graded; ///< the ends of all falls
   const std::shared_ptr<PartTables> tables = std::make_shared<PartTables>();
   std::unique_ptr<TestSpace> space;
 };

@@ -38,8 +38,8 @@ enum class TractionKind
  *
  * for w = R on that boundary, as far as its traction is not given, and w = 0 where tractions of others are not. Where two boundaries meet, w is one
  * vector, and what only friction asks of it may be missed: there w falls from that vector to what the boundary wants along
- * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. Reactions bear no
- * fall, nor do pressures, which have no upper bound.
+ * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. What a pressure does there is
+ * known where contact is open (open_contact.h). Reactions bear no fall.
  *
  * In the plane, on flat sides.
  */
@@ -62,8 +62,9 @@ public:
     dealii::Point<2> from;
     dealii::Tensor<1, 2> offset;  ///< of w there from what the boundary wants
     dealii::Tensor<1, 2> towards; ///< unit vector along the boundary
+    TractionKind kind;            ///< friction or pressure, whose work there is not counted
 
-    /** `int g |offset| (1 - s/l) ds` over the length @p l. */
+    /** Of friction, `int g |offset| (1 - s/l) ds` over the length @p l. */
     double work(const Scene<2> &scene, double l) const;
   };
   const std::vector<Fall> &falls() const;

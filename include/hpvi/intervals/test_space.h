@@ -20,6 +20,13 @@ namespace hpvi
 using PartTables =
     std::map<std::tuple<unsigned int, unsigned int, double, double, double>, ShapeTable<2>>;
 
+/** A point at which cells are bisected so often. */
+struct GradedPoint
+{
+  dealii::Point<2> x;
+  unsigned int levels;
+};
+
 /**
  * Continuous displacements w on a mesh of their own, which descends from the coarse mesh of a scene: fine enough that least
  * energies are near, and bisected again and again at some points, so that w can fall there along a short edge. It does not know
@@ -29,11 +36,11 @@ class TestSpace
 {
 public:
   /**
-   * With @p levels bisections at @p points. @p solution lends its scene, its tables and the rules of its loads; @p tables are those of
+   * Bisected at @p points. @p solution lends its scene, its tables and the rules of its loads; @p tables are those of
    * spaces before this one.
    */
-  TestSpace(const Solution<2> &solution, const std::vector<dealii::Point<2>> &points,
-            unsigned int levels, std::shared_ptr<PartTables> tables);
+  TestSpace(const Solution<2> &solution, const std::vector<GradedPoint> &points,
+            std::shared_ptr<PartTables> tables);
 
   /** The lengths of the edges at which the falls of @p motion end, each the last one of its boundary. */
   std::vector<double> lengths(const TestMotion &motion) const;

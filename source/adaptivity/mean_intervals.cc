@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/mean_intervals.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/intervals/dual_scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+const std::string moves = "the mean moves with a motion that contact alone resists";
+
+bool is_held(const Scene<2> &scene)
+{
+  try
+  {
+    return scene.free_motions().empty();
+  }
+  catch (const InputError &)
+  {
+    return false;
+  }
+}
+
+/** Do rules of quadrature see all of q? Each of a load that is too narrow may miss it. */
+bool sees_all(const Solution<2> &solution, const unsigned int component)
+{
+  return std::abs(solution.spaces->loads->sum().force[component] - 1) < 1e-9;
+}
+
+/** Is d zero where the probe is? It lives in cells at prescribed displacements and gaps. */
+bool is_away_from_lifts(const Probe<2> &probe, const StepReport<2> &step)
+{
+  const ErrorBound &bound = *step.bound;
+  if (bound.data == 0)
+    return true;
+  if (probe.kind == ProbeKind::boundary)
+    return std::all_of(probe.on.begin(), probe.on.end(),
+                       [&](const types::boundary_id id)
+                       {
+                         const BoundaryCondition<2> &boundary = step.scene.boundaries[id];
+                         return !boundary.has_displacement() && !boundary.has_contact();
+                       });
+  for (const auto &cell : step.field.dof_handler.active_cell_iterators())
+    if (bound.lifted[cell->active_cell_index()] > 0 &&
+        cell->bounding_box().point_inside(probe.at, probe.size / cell->minimum_vertex_distance()))
+      return false;
+  return true;
+}
+} // namespace
+
+template <int dim>
+MeanIntervals<dim>::MeanIntervals(const Scene<dim> &scene) : scene(scene)
+{
+}
+
+// @sect3{The norm of a mean}
+//
+template <>
+const MeanIntervals<2>::Norm &MeanIntervals<2>::norm(const unsigned int number,
+                                                     const unsigned int component)
+{
+  const auto [place, is_new] =
+      norms.emplace(std::array<unsigned int, 2>{{number, component}}, Norm());
+  Norm &result = place->second;
+  if (!is_new)
+    return result;
+  const Probe<2> &probe = scene.probes[number];
+  const Scene<2> dual = dual_scene(scene, probe, component);
+  result.why = moves;
+  if (!is_held(dual))
+    return result;
+  try
+  {
+    AdaptiveSolver<2>(dual).run(
+        [&](const StepReport<2> &step)
+        {
+          result.why = step.no_bound;
+          if (!step.bound)
+            return;
+          if (!sees_all(step.solution(), component))
+          {
+            result.why = "the disc is too small beside the body";
+            return;
+          }
+          const double norm = std::hypot(step.energies.norm, step.bound->total);
+          result.value = result.value ? std::min(*result.value, norm) : norm;
+        },
+        [](const Progress &) {});
+  }
+  catch (const InputError &error)
+  {
+    result.why = error.what();
+  }
+  catch (const NumericalFailure &error)
+  {
+    result.why = error.what();
+  }
+  if (result.value && probe.kind == ProbeKind::disc)
+    *result.value += smooth_mean(scene, probe).remainder;
+  return result;
+}
+
+// @sect3{Intervals}
+//
+template <>
+std::string MeanIntervals<2>::set(StepReport<2> &step)
+{
+  std::string why;
+  for (ProbeValue<2> &value : step.probes)
+  {
+    const Probe<2> &probe = scene.probes[value.probe];
+    if (!probe.is_mean())
+      continue;
+    std::string flaw;
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      const Norm &q = norm(value.probe, c);
+      if (!q.value)
+        flaw = q.why;
+      else if (!is_away_from_lifts(probe, step))
+        flaw = "prescribed displacements there are no polynomials of the mesh";
+      else
+      {
+        Measured &mean = value.displacement[c];
+        mean.interval = Interval{mean.value, (step.bound->total + step.bound->data) * *q.value +
+                                                 1e-14 * std::abs(mean.value)};
+      }
+    }
+    if (!flaw.empty())
+      why += (why.empty() ? "probe " : "; probe ") + probe.name + ": " + flaw;
+  }
+  return why;
+}
+
+template <>
+std::string MeanIntervals<3>::set(StepReport<3> &)
+{
+  return {};
+}
+
+template class MeanIntervals<2>;
+template class MeanIntervals<3>;
+} // namespace hpvi
