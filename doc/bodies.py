@@ -325,16 +325,109 @@ def speed_table(program, output):
     put_table("speed", rows, page=PAGE)
 
 
+# ---------------------------------------------------------------- curves
+
+RINGS = {"in": ("1, 1.5", 10, 0.3), "out": ("1.5, 2", 30, 0.2)}
+
+
+def rings(angle, inner, outer, **settings):
+    scene = {"Contact fit/Between": "in.outer, out.inner"}
+    for (name, (radii, E, nu)), edges in zip(RINGS.items(), (inner, outer)):
+        scene.update({f"Body {name}/Shape": "ring sector", f"Body {name}/Radii": radii, f"Body {name}/Angles": f"0, {angle}",
+                      f"Body {name}/Subdivisions": f"1, {edges}", f"Body {name}/Material": f"of {name}",
+                      f"Material of {name}/Young's modulus": str(E), f"Material of {name}/Poisson's ratio": str(nu)})
+        for side in ("start", "end") if angle < 360 else ():
+            scene[f"Boundary {name}.{side}/Symmetry"] = "true"
+    scene.update({"Adaptivity/Method": "pu", "Adaptivity/Start degree": "2", "Adaptivity/Maximum steps": "9", "Adaptivity/Tolerance": "0",
+                  "Output/Steps": "all"})
+    return {**scene, **settings}
+
+
+def lame(inside, gap):
+    """u_r at r = 1 and the pressure at r = 1.5 of Lame's two rings, by A and B of u_r = A r + B/r in each."""
+    def moduli(E, nu):
+        return E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
+
+    def stress(name, r):
+        lam, mu = moduli(*RINGS[name][1:])
+        return [2 * (lam + mu), -2 * mu / r ** 2]
+
+    rows = [stress("in", 1) + [0, 0, -inside], stress("in", 1.5) + [-s for s in stress("out", 1.5)] + [0], [0, 0] + stress("out", 2) + [0],
+            [1.5, 1 / 1.5, -1.5, -1 / 1.5, gap]]
+    for k in range(4):
+        pivot = max(range(k, 4), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows = [row if i == k else [a - row[k] / rows[k][k] * b for a, b in zip(row, rows[k])] for i, row in enumerate(rows)]
+    A, B = (rows[k][4] / rows[k][k] for k in (0, 1))
+    return A + B, -(stress("in", 1.5)[0] * A + stress("in", 1.5)[1] * B)
+
+
+def farthest(home, step, column, value):
+    """The largest error of a column of the table of points, over the value."""
+    with open(home / f"out/contact-{step:02}.csv", newline="") as file:
+        return max(abs(float(row[column]) / value - 1) for row in csv.DictReader(file))
+
+
+def rings_table(program, output):
+    def mu(name):
+        return RINGS[name][1] / (2 * (1 + RINGS[name][2]))
+
+    u, pressure = lame(1, 0)
+    _, fit = lame(0, -0.01)
+    turned = 0.02 / ((1 - 1 / 2.25) / (2 * mu("in")) + (1 / 2.25 - 0.25) / (2 * mu("out"))) / 2.25
+    cases = {"loaded": rings(90, 2, 3, **{"Boundary in.inner/Pressure": "1"}), "pressed": rings(90, 2, 3, **{"Contact fit/Gap": "-0.01"}),
+             "turned": rings(360, 7, 5, **{"Contact fit/Law": "tied", "Boundary in.inner/Displacement": "-0.02*y; 0.02*x",
+                                           "Boundary out.outer/Displacement": "0; 0"})}
+    found = {name: run(program, output / f"rings-{name}", settings)[0] for name, settings in cases.items()}
+    rows = []
+    for k, row in enumerate(found["loaded"]):
+        J, step = -u * math.pi / 4, int(row["step"])
+        error = math.sqrt(abs(float(row["energy"]) / J - 1))
+        rows.append({"p": int(row["p_max"]), "energy": number(error, 2) if error > 5e-8 else "< 5e-08",
+                     "pressure": number(farthest(output / "rings-loaded", step, "normal_traction", -pressure), 2),
+                     "pressed into each other": number(farthest(output / "rings-pressed", step, "normal_traction", -fit), 2),
+                     "turned": number(farthest(output / "rings-turned", step, "tangential_traction", -turned), 2)})
+    put_table("rings", rows, page=PAGE)
+
+
+def cylinder_table(program, output):
+    """SSNP154 with both normals, and with a hundredth of its load."""
+    rows = []
+    for force in (35000, 3500, 350):
+        a = math.sqrt(4 * force * 50 / (math.pi / (0.91 / 210000 + 0.91 / 70000)))
+        rows.append({"F [N/mm]": force, "normals of": "Hertz's parabola", "a [mm]": f"{a:.4f}", "p_0 [N/mm^2]": f"{2 * force / (math.pi * a):.2f}",
+                     "p_0 over Hertz's": "1", "N": ""})
+        hertz_pressure = 2 * force / (math.pi * a)
+        for slave in ("cylinder.arc", "block.top"):
+            home = output / f"cylinder-{force}-{slave}"
+            home.mkdir(parents=True, exist_ok=True)
+            scene = pathlib.Path(__file__).resolve().parent.parent / "prm/ssnp154.prm"
+            options = {"Boundary cylinder.flat/Force": f"free; {-force}", "Contact line/Slave": slave, "Adaptivity/Maximum steps": "30",
+                       "Adaptivity/Tolerance": "3e-4", **QUIET}
+            done = subprocess.run([program, scene, "--output", home / "out", *(part for name, value in options.items() for part in ("--set", f"{name}={value}"))],
+                                  text=True, capture_output=True, env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
+            if done.returncode:
+                sys.exit(f"{home}: {done.stderr}")
+            summary = json.loads((home / "out/summary.json").read_text())
+            p = summary["contact"]["cylinder.arc (line)"]["largest_pressure"]
+            rows.append({"F [N/mm]": force, "normals of": slave.split(".")[0], "a [mm]": f"{2 * force / (math.pi * p):.4f}", "p_0 [N/mm^2]": f"{p:.2f}",
+                         "p_0 over Hertz's": f"{p / hertz_pressure:.5f}",
+                         "N": summary["final"]["dofs_free"]})
+    put_table("cylinder", rows, page=PAGE)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi", type=pathlib.Path)
     parser.add_argument("--output", default="output/bodies", type=pathlib.Path)
+    parser.add_argument("--table", help="only this one, as in rings")
     options = parser.parse_args()
     program, output = options.program.resolve(), options.output
     (pathlib.Path(__file__).resolve().parent / PAGE).mkdir(exist_ok=True)
     for table in (graded_table, exponential_chart, adaptive_table, cases_table, inf_sup_table, jump_table, bound_table,
-                  speed_table):
-        table(program, output)
+                  rings_table, cylinder_table, speed_table):
+        if not options.table or table.__name__.startswith(options.table):
+            table(program, output)
     progress("doc/bodies.md, doc/bodies/*.csv")
 
 

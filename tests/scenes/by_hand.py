@@ -707,6 +707,15 @@ class ByHand(RunTest):
                 value = 2 ** power * float(thin[name])
                 self.assertAlmostEqual(float(thick[name]), value, delta=1e-12 * abs(value), msg=name)
 
+    def test_a_cylinder_on_a_block(self):
+        """SSNP154: Hertz's largest pressure and width, from which the slope of the cylinder and its finite size differ by little."""
+        self.run_scene("Adaptivity/Maximum steps=12", "Output/VTU=false", scene=SCENES / "ssnp154.prm")
+        contact = self.summary()["contact"]["cylinder.arc (line)"]
+        self.assertAlmostEqual(contact["largest_pressure"] / 3585.36, 1, delta=0.001)
+        pressed = [zone for zone in contact["zones"] if zone["state"] != "open"]
+        self.assertEqual(len(pressed), 1)
+        self.assertAlmostEqual(pressed[0]["length"] / (2 * 6.2146), 1, delta=0.01)
+
     def test_a_strip_of_two_metals(self):
         """Far from its ends a heated strip bends as Timoshenko says: they cost less than a third of a percent."""
         self.run_scene("Adaptivity/Maximum steps=4", "Output/VTU=false", scene=SCENES / "bimetal.prm")

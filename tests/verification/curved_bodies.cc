@@ -164,6 +164,83 @@ TEST(CurvedBodies, CloseTheGapOfTheDrawing)
            });
 }
 
+/** Quarters of both rings as surfaces of one mesh file, @p n cells along each arc, that share the curve between them. */
+std::string file_of_rings(const unsigned int n)
+{
+  std::ostringstream nodes, lines, cells;
+  unsigned int n_elements = 0;
+  const auto node = [n](const unsigned int ring, const unsigned int k)
+  { return ring * (n + 1) + k + 1; };
+  const auto line = [&](const unsigned int group, const unsigned int a, const unsigned int b)
+  { lines << ++n_elements << " 1 2 " << group << " " << group << " " << a << " " << b << "\n"; };
+  for (const unsigned int ring : {0, 1, 2})
+    for (unsigned int k = 0; k <= n; ++k)
+    {
+      const Point<2> x = Circle(Point<2>(), 1 + ring / 2.).point(k * numbers::PI / (2 * n));
+      nodes << node(ring, k) << " " << text(x[0]) << " " << text(x[1]) << " 0\n";
+      if (k < n)
+        line(1 + ring, node(ring, k), node(ring, k + 1));
+    }
+  for (const unsigned int ring : {0, 1})
+  {
+    line(4, node(ring, 0), node(ring + 1, 0));
+    line(5, node(ring, n), node(ring + 1, n));
+    for (unsigned int k = 0; k < n; ++k)
+      cells << ++n_elements << " 3 2 " << 6 + ring << " " << 6 + ring << " " << node(ring, k) << " "
+            << node(ring + 1, k) << " " << node(ring + 1, k + 1) << " " << node(ring, k + 1)
+            << "\n";
+  }
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n7\n1 1 \"hole\"\n1 2 \"joint\"\n1 "
+         "3 "
+         "\"rim\"\n1 4 \"start\"\n1 5 \"end\"\n2 6 \"core\"\n2 7 "
+         "\"shell\"\n$EndPhysicalNames\n$Nodes\n" +
+         std::to_string(3 * (n + 1)) + "\n" + nodes.str() + "$EndNodes\n$Elements\n" +
+         std::to_string(n_elements) + "\n" + lines.str() + cells.str() + "$EndElements\n";
+}
+
+/** Surfaces of a drawing that share a circle, or a spline, touch along it. */
+TEST(CurvedBodies, ShareACurveOfAMeshFile)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / "hpvi-rings.msh";
+  std::ofstream(file) << file_of_rings(4);
+  for (const std::string curve : {"circle", "spline"})
+    for (const std::string law : {"unilateral", "tied"})
+    {
+      Overrides entries{{"Material/Young's modulus", "10"},
+                        {"Material/Poisson's ratio", "0.3"},
+                        {"Body out/Material", "hard"},
+                        {"Material hard/Young's modulus", "30"},
+                        {"Material hard/Poisson's ratio", "0.2"},
+                        {"Body in/Surfaces", "core"},
+                        {"Body out/Surfaces", "shell"},
+                        {"Contact fit/Between", "in.joint, out.joint"},
+                        {"Contact fit/Law", law},
+                        {"Boundary in.hole/Pressure", "1"},
+                        {"Boundary in.hole/Curve", curve},
+                        {"Boundary in.joint/Curve", curve},
+                        {"Boundary out.joint/Curve", curve},
+                        {"Boundary out.rim/Curve", curve},
+                        {"Adaptivity/Method", "pu"},
+                        {"Adaptivity/Start degree", "8"},
+                        {"Adaptivity/Maximum steps", "1"}};
+      for (const std::string body : {"in", "out"})
+      {
+        entries.emplace_back("Body " + body + "/Shape", "file");
+        entries.emplace_back("Body " + body + "/File", file.string());
+        for (const char *const side : {".start", ".end"})
+          entries.emplace_back("Boundary " + body + side + "/Symmetry", "true");
+      }
+      solved(entries,
+             [&](const StepReport<2> &step)
+             {
+               for (const ContactPoint<2> &point : step.contact.at(0).points)
+                 EXPECT_NEAR(-point.normal_traction / fit_pressure(1, 0), 1,
+                             curve == "circle" ? 1e-7 : 1e-2)
+                     << curve << " " << law;
+             });
+    }
+}
+
 /** Rings that turn: what friction or glue carries around, u_t = C r + D/r, and what slips. */
 TEST(CurvedBodies, TurnEachOther)
 {
