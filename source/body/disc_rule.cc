@@ -18,6 +18,7 @@ namespace
 {
 constexpr double hair = 1e-9;        ///< of the cell or the radius: nothing is smaller
 constexpr double longest_arc = 0.25; ///< [rad]
+constexpr std::array<double, 3> samples = {{0.31, 0.5, 0.77}}; ///< of a piece between crossings
 
 double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
 {
@@ -145,9 +146,12 @@ void CutCell::find_edge(const unsigned int k)
   for (unsigned int i = 0; i + 1 < ends.size(); ++i)
   {
     const double begin = ends[i], end = ends[i + 1];
-    const Point<2> middle = on_edge(k, 0.5 * (begin + end));
-    double here = level(middle);
-    if (std::abs(here) < hair)
+    double here = 0;
+    for (const double share : samples) // the circle may touch the edge at one of them
+      if (const double value = level(on_edge(k, begin + share * (end - begin)));
+          std::abs(value) > std::abs(here))
+        here = value;
+    if (const Point<2> middle = on_edge(k, 0.5 * (begin + end)); std::abs(here) < hair)
       here = level(middle + 1e-3 * (inwards - middle));
     if (here > 0)
       continue;
@@ -191,14 +195,19 @@ void CutCell::find_arcs()
   angles.push_back(angles.front() + 2 * numbers::PI);
   for (unsigned int i = 0; i + 1 < angles.size(); ++i)
   {
-    const double middle = 0.5 * (angles[i] + angles[i + 1]);
-    const Point<2> x = centre + radius * Tensor<1, 2>({std::cos(middle), std::sin(middle)});
-    if (angles[i + 1] - angles[i] < hair)
+    const double begin = angles[i], end = angles[i + 1];
+    if (end - begin < hair)
       continue;
-    if (const auto inside = reference(x, {0.5, 0.5}))
+    for (const double share : samples) // it may touch an edge at one of them
     {
-      has_arcs = true;
-      add_arc(angles[i], angles[i + 1], *inside);
+      const double angle = begin + share * (end - begin);
+      const Point<2> x = centre + radius * Tensor<1, 2>({std::cos(angle), std::sin(angle)});
+      if (const auto inside = reference(x, {0.5, 0.5}))
+      {
+        has_arcs = true;
+        add_arc(begin, end, *inside);
+        break;
+      }
     }
   }
 }

@@ -37,6 +37,11 @@ base=ring.prm
 invalid "Boundary punch.inner" "this scene has no bodies" "Boundary inner" -- "Boundary punch.inner/Traction=0; 0"
 base=bodies.prm
 
+# --- probes
+invalid "Probe tip/At = 1.5, 1" "lower and upper touch" "On = BODY.side" -- "Probe tip/At=1.5, 1"
+invalid "Probe tip/Size = 0.3" "leaves the body" "is 0.2 away" -- "Probe tip/At=1.5, 1.2" "Probe tip/Size=0.3"
+invalid "Probe tip/On = top" "is no boundary" "upper.bottom" -- "Probe tip/On=top"
+
 # --- each body by itself
 invalid "Body upper/Shape = cone" "give box, quadrilateral" -- "Body upper/Shape=cone"
 invalid "Body upper/Surfaces = a" "are those of a mesh file" "Shape = file" -- "Body upper/Surfaces=a"

@@ -29,7 +29,8 @@ NAMED = [f"{section}/{entry}" for section, entries in (
     ("Material soft", ("Where", "Young's modulus", "Poisson's ratio", "Density", "Plane", "Thickness", "Elasticity", "Young's moduli", "Poisson's ratios", "Shear moduli", "Angle", "Initial strain", "Thermal expansion")),
     ("Boundary foot", ("On", "Where", "Displacement", "Traction", "Pressure", "Shear", "Rigid", "Force", "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound")),
     ("Body upper", ("Shape", "Lower corner", "Upper corner", "Corners", "Subdivisions", "Graded towards", "Grading levels", "Material")),
-    ("Contact joint", ("Between", "Law", "Gap", "Friction bound", "Friction coefficient", "Slave")))
+    ("Contact joint", ("Between", "Law", "Gap", "Friction bound", "Friction coefficient", "Slave")),
+    ("Probe tip", ("At", "Size", "On", "From", "To", "Points")))
     for entry in entries]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 11, 12, 13, 27, 32, 34, 35, 40, 41, 44, 45, 46, 48, 57, 59, 61, 92, 101, 127,
                               128, 133, 192, 237, 244, 255)] + [c.encode() for c in "é\u0085\u2028\u202e😀"]

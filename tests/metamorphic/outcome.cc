@@ -40,6 +40,11 @@ StepOutcome outcome_of(const StepReport<2> &step, const Frame &frame)
   result.bound = step.bound ? step.bound->total / std::sqrt(frame.energy()) : unknown;
   result.low = step.bound ? result.energy - step.bound->energy_below / frame.energy() : unknown;
   result.high = step.bound ? result.energy + step.bound->energy_above / frame.energy() : unknown;
+  for (const ProbeValue<2> &probe : step.probes)
+  {
+    result.mises = von_mises(probe.stress) / (frame.amplitude * frame.stress);
+    result.across = probe.stress[2][2] / (frame.amplitude * frame.stress);
+  }
   result.t = step.load.t;
   if (step.load.number > 0 && !step.stopped_by.empty())
   {
@@ -247,6 +252,9 @@ std::vector<std::string> differences(const Outcome &one, const Outcome &other,
     compare_meshes(a, b, tolerances, place, comparison);
     compare_energies(a, b, norm, tolerances, place, comparison);
     compare_bounds(a, b, norm, tolerances, place, comparison);
+    const double stress = 10 * tolerances.friction * norm * std::sqrt(one.stiffness);
+    comparison.near(place + "stress of the disc", a.mises, b.mises, stress);
+    comparison.near(place + "stress of the disc across", a.across, b.across, stress);
   }
   for (unsigned int k = 0; k < one.sides.size(); ++k)
   {

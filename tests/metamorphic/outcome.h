@@ -38,6 +38,7 @@ struct StepOutcome
   unsigned int n_unknowns = 0, n_multipliers = 0;
   double energy = unknown, lagrangian = unknown, norm = unknown, estimate = unknown;
   double bound = unknown, low = unknown, high = unknown; ///< where it is guaranteed
+  double mises = unknown, across = unknown;              ///< of the mean stress over a disc
   double t = 0, work = unknown, dissipated = unknown;    ///< of a load history
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -451,6 +452,24 @@ Section RandomScene::geometry(const Frame &frame) const
   return section;
 }
 
+/** The mean over a disc in the middle, half as wide as there is room. */
+Section RandomScene::probe(const Frame &frame) const
+{
+  using metamorphic::text;
+  Point<2> middle;
+  for (const Point<2> &corner : corners)
+    middle += corner / 4.;
+  double room = std::numeric_limits<double>::max();
+  for (unsigned int k = 0; k < 4; ++k)
+  {
+    const Tensor<1, 2> way = corners[(k + 1) % 4] - corners[k], out = middle - corners[k];
+    room = std::min(room, std::abs(way[0] * out[1] - way[1] * out[0]) / way.norm());
+  }
+  const Point<2> x = frame.point(middle);
+  return {"Probe core",
+          {{"At", text(x[0]) + ", " + text(x[1])}, {"Size", text(0.5 * room * frame.length)}}};
+}
+
 Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
 {
   const std::array<std::string, 4> names = {{"bottom", "right", "top", "left"}};
@@ -582,6 +601,7 @@ std::string RandomScene::text(const Frame &frame) const
         {"Temperature", {{"Expression", frame.function(temperature, frame.amplitude)}}});
   for (unsigned int k = 0; k < sides.size(); ++k)
     sections.push_back(boundary(k, frame));
+  sections.push_back(probe(frame));
   for (const auto &[path, value] : settings)
   {
     const std::string section = path.substr(0, path.find('/'));

@@ -82,6 +82,7 @@ struct RandomScene
 
 private:
   Section geometry(const Frame &frame) const;
+  Section probe(const Frame &frame) const;
   void add_initial_strain(const Frame &frame, Section &material) const;
   Section boundary(unsigned int k, const Frame &frame) const; ///< side k as the frame counts them
   std::vector<Section> material_sections(const Frame &frame) const;

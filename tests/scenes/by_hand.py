@@ -35,6 +35,10 @@ C, S = math.cos(FIBRES), math.sin(FIBRES)
 ALONG = C ** 4 / 10 + S ** 4 / 2 + (1 / 1.5 - 2 * 0.4 / 10) * S * S * C * C
 ASIDE = (1 / 10 + 1 / 2 - 1 / 1.5) * S * S * C * C - 0.4 / 10 * (S ** 4 + C ** 4)
 SHEAR = (2 / 10 + 2 * 0.4 / 10 - 1 / 1.5) * S * C ** 3 - (2 / 2 + 2 * 0.4 / 10 - 1 / 1.5) * S ** 3 * C
+# Under sigma_xx = 3 in plane strain with E = 10, nu = 0.25: u_x = 3 (1 - nu^2)/E x, u_y = -3 nu (1 + nu)/E y, sigma_zz = 0.75.
+PROBED = {**BLOCK, "Material/Poisson's ratio": "0.25", "Material/Plane": "strain", "Boundary right/Traction": "3; 0",
+          "Probe tip/At": "2, 1", "Probe core/At": "0.9, 0.5", "Probe core/Size": "0.4", "Probe side/On": "right"}
+STRETCH, SQUEEZE = 3 * (1 - 0.25 ** 2) / 10, -3 * 0.25 * 1.25 / 10
 HISTORY = {"Loading/Steps": "2", "Adaptivity/Method": "hup2"}
 # A block whose stress is uniform, s_xy = 0.6 p + 0.8 z and s_yy = -0.8 p + 0.6 z under p along -d = (-0.6, 0.8) and z
 # along -t = -(0.8, 0.6); with E = 10, nu = 0 its bottom moves by the top's displacement less (s_xy/5, s_yy/10).
@@ -104,6 +108,24 @@ def timoshenko(strain, h1, E1, h2, E2):
 
 # Name, settings, {path in summary.json: value}; J = -L(u)/2 where loads alone act, a(u,u)/2 under displacements.
 ROWS = [
+    ("probes of a uniform stress", PROBED,
+     {"final.tip_ux": 2 * STRETCH, "final.tip_uy": SQUEEZE, "final.core_ux": 0.9 * STRETCH, "final.core_uy": 0.5 * SQUEEZE,
+      "final.side_ux": 2 * STRETCH, "final.side_uy": 0.5 * SQUEEZE,
+      **{f"final.{probe}_{stress}": value for probe in ("tip", "core", "side")
+         for stress, value in (("s1", 3), ("s2", 0), ("szz", 0.75), ("mises", (9 + 0.75 ** 2 - 3 * 0.75) ** 0.5))},
+      "largest_displacement.value": math.hypot(2 * STRETCH, SQUEEZE), "largest_displacement.at.0": 2,
+      "largest_displacement.at.1": 1}),
+    ("probes of a thick body", {**PROBED, "Material/Thickness": "4"},
+     {"final.tip_ux": 2 * STRETCH, "final.core_s1": 3}),
+    ("probes of a body of revolution", {**TURNED, "Probe tip/At": "0.5, 1", "Probe core/At": "0.6, 0.5", "Probe core/Size": "0.2"},
+     {"final.tip_ux": 0, "final.tip_uy": -0.3, "final.core_uy": -0.15, "final.tip_s2": -3, "final.tip_szz": 0, "final.tip_mises": 3}),
+    ("a disc turns around the axis", {**TURNED, "Boundary top/Pressure": None, "Boundary right/Pressure": "2",
+                                      "Probe core/At": "0.6, 0.5", "Probe core/Size": "0.2"},
+     {"final.core_ux": -0.2 * (0.6 + 0.2 ** 2 / 4 / 0.6), "final.core_s1": 0, "final.core_s2": -2, "final.core_szz": -2}),
+    ("probes in space", {**SPACE, "Boundary top/Pressure": "2", "Probe tip/At": "2, 1, 0.5", "Probe roof/On": "top"},
+     {"final.tip_uy": -0.2, "final.roof_uy": -0.2, "final.tip_s1": 0, "final.tip_s3": -2, "final.roof_mises": 2}),
+    ("probes on the primal path", {**PROBED, "Solver/Path": "primal"},
+     {"final.tip_ux": 2 * STRETCH, "final.core_ux": 0.9 * STRETCH, "final.side_uy": 0.5 * SQUEEZE, "final.core_szz": 0.75}),
     ("materials in series", {**HALVES, "Material stiff/Where": "x - 1"}, {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 30)}),
     ("a grid line where a material ends", {**HALVES, "Material stiff/Where": "x > 0.6"},
      {"final.energy": -0.5 * 3 * (3 / 10 * 0.6 + 3 / 30 * 1.4), "final.elements": 3}),
@@ -498,6 +520,96 @@ class ByHand(RunTest):
     def run_shipped(self, scene, *settings):
         self.run_scene("Output/VTU=false", *settings, scene=SCENES / f"{scene}.prm")
         return self.summary()
+
+    def forces(self):
+        """By step, kind and name."""
+        return {(int(row["step"]), row["kind"], row["name"]): row for row in self.rows("forces.csv")}
+
+    def test_forces_of_a_part_beside_loads(self):
+        """Contact and weight, a pressure on the same boundary, a support; about the centre (1, 0.5)."""
+        self.run_settings({**HEAVY, "Boundary bottom/Displacement": None, "Boundary bottom/Contact": "bilateral",
+                           "Boundary bottom/Traction": "0; 0.5", "Boundary foot/On": "top", "Boundary foot/Where": "x - 1",
+                           "Boundary foot/Pressure": "1", "Material/Thickness": "3", "Adaptivity/Start degree": "3"})
+        forces = self.forces()
+        self.assertEqual(set(forces), {(1, "support", "left"), (1, "contact", "bottom"), (1, "load", "bottom"),
+                                       (1, "load", "foot"), (1, "load", "body force")})
+        for (_, kind, name), fx, fy, moment in (((1, "load", "bottom"), 0, 3, 0), ((1, "load", "foot"), 0, -3, -1.5),
+                                                ((1, "load", "body force"), 0, -36, 0)):
+            row = forces[1, kind, name]
+            for column, value in (("Fx", fx), ("Fy", fy), ("M", moment)):
+                self.assertAlmostEqual(float(row[column]), value, delta=1e-11, msg=(name, column))
+            self.assertEqual((row["normal"], row["friction"], row["load_step"], row["t"]), ("",) * 4)
+        contact = forces[1, "contact", "bottom"]
+        self.assertAlmostEqual(float(contact["Fy"]), 36, delta=1e-9)
+        self.assertAlmostEqual(float(contact["normal"]), -36, delta=1e-6)
+        self.assertAlmostEqual(float(contact["friction"]), 0, delta=1e-9)
+        for column in ("Fx", "Fy", "M"):
+            self.assertAlmostEqual(sum(float(row[column]) for row in forces.values()), 0, delta=1e-9)
+        self.assertTrue(all(value == "" for row in forces.values() for column, value in row.items() if column.endswith("_bound")))
+
+    def test_forces_of_both_sides_of_a_pair(self):
+        """In each side's own frame tractions are the same; forces are opposite. Of a history each load step has its rows."""
+        self.run_settings({**sheared(0.6, Friction_bound="0.6"), "Loading/Steps": "2", "Boundary upper.top/Displacement": "0.3*t; -0.2*t"})
+        forces = self.forces()
+        steps = {step for step, _, _ in forces}
+        for step in steps:
+            upper, lower = (forces[step, "contact", side] for side in ("upper.bottom", "lower.top"))
+            for column in ("Fx", "Fy"):
+                self.assertAlmostEqual(float(upper[column]), -float(lower[column]), delta=1e-10)
+            for column in ("normal", "friction"):
+                self.assertEqual(upper[column], lower[column])
+            self.assertAlmostEqual(sum(float(row["Fx"]) for key, row in forces.items() if key[0] == step), 0, delta=1e-9)
+        self.assertEqual({(row["load_step"], row["t"]) for row in forces.values()}, {("1", "0.5"), ("2", "1")})
+        last = forces[max(steps), "contact", "upper.bottom"]
+        self.assertAlmostEqual(float(last["normal"]), -3, delta=1e-9)
+        self.assertAlmostEqual(abs(float(last["friction"])), 1.2, delta=1e-9)
+
+    def test_forces_around_an_axis_and_in_space(self):
+        self.run_settings(TURNED)
+        row = self.forces()[1, "load", "top"]
+        self.assertEqual((row["Fx"], row["M"]), ("", ""))
+        self.assertAlmostEqual(float(row["Fy"]), -3 * math.pi, delta=1e-9)
+        self.run_settings({**SPACE, "Boundary top/Pressure": "2"})
+        bottom, top = self.forces()[1, "support", "bottom"], self.forces()[1, "load", "top"]
+        for column, value in (("Fx", 0), ("Fy", -4), ("Fz", 0), ("Mx", 0), ("My", 0), ("Mz", 0)):
+            self.assertAlmostEqual(float(top[column]), value, delta=1e-10, msg=column)
+            self.assertAlmostEqual(float(bottom[column]), -value, delta=1e-9, msg=column)
+
+    def test_a_line_through_a_hole(self):
+        """Uniform stress along a line, of each step; where the line leaves the body fields are empty."""
+        line = {"Probe my cut/From": "0, 0.25", "Probe my cut/To": "2, 0.75", "Probe my cut/Points": "5"}
+        self.run_settings({**PROBED, **line, "Adaptivity/Method": "pu", "Adaptivity/Maximum steps": "2", "Adaptivity/Tolerance": "0"})
+        self.assertIn("probe-my cut-01.csv", self.files())
+        rows = self.rows("probe-my cut-01.csv")
+        self.assertEqual(len(rows), 5)
+        for k, row in enumerate(rows):
+            x, y = 0.5 * k, 0.25 + 0.125 * k
+            for column, value in (("x", x), ("y", y), ("ux", STRETCH * x), ("uy", SQUEEZE * y), ("s_xx", 3), ("s_yy", 0),
+                                  ("s_xy", 0), ("s1", 3), ("s2", 0), ("szz", 0.75)):
+                self.assertAlmostEqual(float(row[column]), value, delta=1e-10, msg=column)
+        self.run_shipped("plate-hole", "Adaptivity/Maximum steps=1", "Output/Steps=last", "Probe cut/From=-40, 10",
+                         "Probe cut/To=40, 90", "Probe cut/Points=3")
+        self.assertEqual([row["ux"] == "" for row in self.rows("probe-cut-01.csv")], [False, True, False])
+        self.assertNotIn("probe-my cut-01.csv", self.names())
+
+    def test_a_propped_cantilever(self):
+        """Beam theory, which a deep end and shear leave half a percent from."""
+        summary = self.run_shipped("propped")
+        final = summary["final"]
+        force = 3 * 210000 * 1000 / 12 / 200 ** 3 * (0.05 * 200 ** 4 / (8 * 210000 * 1000 / 12) - 0.3)
+        self.assertAlmostEqual(summary["contact"]["prop"]["normal_resultant"] / -force, 1, delta=0.03)
+        self.assertAlmostEqual(final["end_uy"], -0.3, delta=0.01)
+        last = self.rows(f"probe-root-{int(final['step']):02}.csv")
+        moment = 0.05 * 190 ** 2 / 2 + summary["contact"]["prop"]["normal_resultant"] * 190
+        self.assertAlmostEqual(float(last[-1]["s_xx"]) / (6 * moment / 100), 1, delta=0.02)
+        self.assertAlmostEqual(float(last[0]["s_xx"]) / (-6 * moment / 100), 1, delta=0.02)
+        self.assertEqual(float(last[10]["y"]), 5)
+
+    def test_a_tolerance_without_an_interval(self):
+        """The run says why, and ends by another limit."""
+        said = self.run_settings({**PROBED, "Adaptivity/Tolerance on": "tip", "Adaptivity/Tolerance": "0.1"})
+        self.assertIn("tip has no guaranteed interval, because a value at a point has none; give the probe a Size", said)
+        self.assertNotIn("Adaptivity/Tolerance\n", said)
 
     def test_a_bush_in_a_bore(self):
         """Lame and pure torsion, the body a shape and a mesh: all of it exponentially close at degree 10."""

@@ -27,7 +27,7 @@ class OutputDirectory(RunTest):
         self.run_scene(SHORT)
         self.assertEqual(self.check_whole(), 2)
         self.run_scene(SHORT, *QUIET)
-        self.assertEqual(self.names(), ["convergence.csv", "degrees.csv", "scene.prm",
+        self.assertEqual(self.names(), ["convergence.csv", "degrees.csv", "forces.csv", "scene.prm",
                                         "summary.json"])
 
     def test_foreign_files_stay(self):
@@ -44,7 +44,7 @@ class OutputDirectory(RunTest):
 
     def test_a_foreign_file_of_a_results_name_is_refused(self):
         self.out.mkdir()
-        for name in ("scene.prm", "convergence.csv", "degrees.csv", "contact-17.csv",
+        for name in ("scene.prm", "convergence.csv", "degrees.csv", "forces.csv", "contact-17.csv",
                      "mesh-123.svg", "solution-01.vtu", "solution.pvd"):
             (self.out / name).write_text("mine")
             self.refuse(words=[f"output directory '{self.out}'", name, "--output"])
@@ -145,7 +145,7 @@ class OutputDirectory(RunTest):
     def test_steps_are_listed_as_ranges(self):
         self.run_scene(LONG, "Output/Mesh picture=false")
         self.assertEqual(self.summary()["files"],
-                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "scene.prm",
+                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "forces.csv", "scene.prm",
                           "solution-{01..04}.vtu", "solution.pvd", "summary.json"])
 
     def test_the_last_step_alone(self):

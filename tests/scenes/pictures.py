@@ -294,6 +294,22 @@ class Words(PictureTest):
             "free: top, front, back",
             "loads: force (36 -6 4), moment (0 8 28) about (2 2 1)"])
 
+    def test_probes(self):
+        """A cross, a circle of the disc's size, lines along a side and through the body; and the same in words."""
+        probes = ("Probe tip/At=1, 2", "Probe core/At=2, 2", "Probe core/Size=0.5", "Probe foot/On=bottom",
+                  "Probe cut/From=0, 1", "Probe cut/To=4, 3", "Probe cut/Points=7")
+        picture = self.draw(*probes)
+        for name, kind, number in (("tip", "path", 1), ("core", "circle", 1), ("foot", "path", 1), ("cut", "path", 1)):
+            marks = [mark for mark in picture.marks("probe", "probe", name) if mark.tag == SVG + kind]
+            self.assertEqual(len(marks), number, name)
+            self.assertIn(name, picture.words("probe", name))
+        circle = next(mark for mark in picture.marks("probe", "probe", "core") if mark.tag == SVG + "circle")
+        self.assertAlmostEqual(float(circle.get("r")), 0.5 * 480 / 4, delta=0.1)
+        said = self.run_with("--validate", *probes, output=False)
+        for line in ("probe tip: at (1, 2)", "probe core: mean over the disc of radius 0.5", "probe foot: mean along bottom",
+                     "probe cut: 7 points from (0, 1) to (4, 3)"):
+            self.assertIn(line, said)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -12,8 +12,9 @@ import tempfile
 
 HPVI, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
 # Together these write every kind of table.
-RUNS = (["prm/han-6-12.prm"], ["prm/ssnv128.prm"], ["prm/slab.prm"], ["prm/blocks.prm"],
-        ["--set", "Loading/Steps=2", "prm/fretting.prm"])
+SPACE = ["--set", "Probe spot/At=0.5, 0.5, 0.1", "--set", "Probe cut/From=0.5, 0.5, 0.1", "--set", "Probe cut/To=0.6, 0.5, 0.1"]
+RUNS = (["prm/han-6-12.prm"], ["prm/ssnv128.prm"], [*SPACE, "prm/slab.prm"], ["prm/blocks.prm"],
+        ["--set", "Loading/Steps=2", "prm/fretting.prm"], ["prm/propped.prm"])
 
 
 def documented():
@@ -42,7 +43,7 @@ def written():
             if done.returncode != 0:
                 sys.exit(done.stdout)
             for file in pathlib.Path(directory).glob("*.csv"):
-                table = re.sub(r"\d+", "NN", file.name)
+                table = re.sub(r"^probe-.+-", "probe-NAME-", re.sub(r"\d+", "NN", file.name))
                 with open(file) as lines:
                     columns.setdefault(table, set()).update(next(lines).strip().split(","))
     return columns

@@ -42,7 +42,7 @@ void run(const Scene<2> &scene, const fs::path &directory)
   output.finish();
   for (const std::string &name :
        std::vector<std::string>{"solution" + last + ".vtu", "mesh" + last + ".svg",
-                                "convergence.csv", "degrees.csv", "scene.prm", "summary.json"})
+                                "convergence.csv", "degrees.csv", "forces.csv", "scene.prm", "summary.json"})
     EXPECT_GT(fs::file_size(directory / name), 20U) << name;
   EXPECT_EQ(fs::exists(directory / ("contact" + last + ".csv")), scene.has_contact());
 }
