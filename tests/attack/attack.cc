@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A random attack on the guaranteed bound: scenes with rough data, long and skew cells and any method, each beside a finer
 // run. The distance of both solutions is at most the sum of their bounds; and all steps of both have an interval for the
-// least energy, of which any two meet. A scene in which they do not is kept, to be repeated.
+// least energy, of which any two meet, and for each force and mean displacement. A scene in which they do not is kept, to be repeated.
 //
 //     attack SECONDS SEED DIRECTORY       as many scenes as fit
 //     attack --scenes N SEED DIRECTORY    that many
@@ -44,7 +44,31 @@ struct Step
   unsigned int number;
   double norm, bound, low, high;
   double error; ///< distance from the reference; NaN where there is none
+  std::map<std::string, Interval> intervals; ///< of forces and mean displacements
 };
+
+/** What a step guarantees of forces and probes, by name. */
+std::map<std::string, Interval> intervals_of(const StepReport<2> &step)
+{
+  std::map<std::string, Interval> result;
+  const auto add = [&](const std::string &name, const Measured &number)
+  {
+    if (number.interval)
+      result[name] = *number.interval;
+  };
+  for (const Resultant<2> &row : step.forces)
+  {
+    add("force x on " + row.name, row.force[0]);
+    add("force y on " + row.name, row.force[1]);
+    add("moment on " + row.name, row.moment[0]);
+    add("normal force on " + row.name, row.normal);
+    add("friction on " + row.name, row.friction);
+  }
+  for (const ProbeValue<2> &probe : step.probes)
+    for (unsigned int c = 0; c < 2; ++c)
+      add("probe " + step.scene.probes[probe.probe].name + " " + "xy"[c], probe.displacement[c]);
+  return result;
+}
 
 /** A run of a scene, and how it ended where it was not done. */
 struct Run
@@ -73,7 +97,7 @@ Run solve(const std::string &file, const Overrides &overrides,
           const double energy = step.energies.energy;
           run.steps.push_back({step.number, step.energies.norm, step.bound->total,
                                energy - step.bound->energy_below, energy + step.bound->energy_above,
-                               step.errors.energy});
+                               step.errors.energy, intervals_of(step)});
           if (finished)
             finished(step);
         });
@@ -96,7 +120,7 @@ Run solve(const std::string &file, const Overrides &overrides,
 /** What all scenes together came to. */
 struct Score
 {
-  unsigned int n_scenes = 0, n_bounds = 0, n_compared = 0, n_violations = 0;
+  unsigned int n_scenes = 0, n_bounds = 0, n_compared = 0, n_violations = 0, n_intervals = 0;
   std::map<std::string, unsigned int> refusals, reasons;  ///< how often, by their first words
   double least = std::numeric_limits<double>::infinity(); ///< of bound/error
   std::string where;                                      ///< the step with it
@@ -134,6 +158,7 @@ private:
   Run solve_reference(double &bound) const;
   std::vector<std::string> flaws(const Run &run, const Run &reference, double of_reference,
                                  unsigned int number);
+  void compare_intervals(const std::vector<Step> &all, std::vector<std::string> &result);
   void keep(unsigned int number, const std::vector<std::string> &flaws) const;
 
   const unsigned int seed;
@@ -202,7 +227,45 @@ std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
              << (&other >= &all[0] + run.steps.size() ? " of the reference" : " of the scene");
         result.push_back(line.str());
       }
+  compare_intervals(all, result);
   return result;
+}
+
+/** Intervals of forces and means of any two steps meet. */
+void Attack::compare_intervals(const std::vector<Step> &all, std::vector<std::string> &result)
+{
+  struct Ends
+  {
+    double low = -std::numeric_limits<double>::infinity(), high = -low, size = 0;
+    unsigned int step_of_low = 0, step_of_high = 0;
+  };
+  std::map<std::string, Ends> ends;
+  for (const Step &step : all)
+    for (const auto &[name, interval] : step.intervals)
+    {
+      ++score.n_intervals;
+      Ends &known = ends[name];
+      if (interval.centre - interval.half_width > known.low)
+      {
+        known.low = interval.centre - interval.half_width;
+        known.step_of_low = step.number;
+      }
+      if (interval.centre + interval.half_width < known.high)
+      {
+        known.high = interval.centre + interval.half_width;
+        known.step_of_high = step.number;
+      }
+      known.size = std::max(known.size, std::abs(interval.centre));
+    }
+  for (const auto &[name, known] : ends)
+    if (known.low > known.high + floor_of_errors * known.size)
+    {
+      std::ostringstream line;
+      line.precision(12);
+      line << "intervals of " << name << " do not meet: above " << known.low << " in step "
+           << known.step_of_low << ", below " << known.high << " in step " << known.step_of_high;
+      result.push_back(line.str());
+    }
 }
 
 /** The scene, with what it contradicts. */
@@ -225,6 +288,11 @@ void Attack::try_scene(const unsigned int number)
   std::mt19937 random(seed + 1000003 * number);
   std::ofstream(stem + ".prm") << (has_bodies ? attack::touching_scene(random)
                                               : attack::rough_scene(random));
+  if (!has_bodies)
+    std::ofstream(stem + ".prm", std::ios::app)
+        << "subsection Probe attacked\n  set On = "
+        << std::array<const char *, 4>{{"left", "right", "bottom", "top"}}[random() % 4]
+        << "\nend\n";
   ++score.n_scenes;
   double of_reference;
   const Run reference = solve_reference(of_reference);
@@ -278,7 +346,8 @@ int main(int argc, char *argv[])
     std::cout << n << " scenes given up: " << words << "...\n";
   for (const auto &[words, n] : score.reasons)
     std::cout << n << " steps without a bound: " << words << "...\n";
-  std::cout << score.n_scenes << " scenes, " << score.n_bounds << " steps with a bound\n"
+  std::cout << score.n_scenes << " scenes, " << score.n_bounds << " steps with a bound, "
+            << score.n_intervals << " intervals of forces and means\n"
             << "least bound/error of " << score.n_compared << " steps: " << score.least
             << (score.where.empty() ? "" : " (" + score.where + ")") << "; " << score.n_violations
             << " scenes contradict" << std::endl;

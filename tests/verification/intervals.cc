@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Guaranteed intervals of forces and mean displacements: do they hold what is known, and do all of one run meet?
+#include "discretisation.h"
+
+#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/intervals/dual_scene.h>
+#include <hpvi/intervals/resultant_intervals.h>
+#include <hpvi/reader/scene_reader.h>
+
+#include <cmath>
+#include <map>
+
+namespace
+{
+using namespace verification;
+
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/** By name of the row, of all steps with a bound. */
+struct Numbers
+{
+  std::map<std::string, std::vector<Interval>> intervals;
+  std::map<std::string, double> last; ///< as the discrete solution has them
+  double bound = 0;                   ///< of the last step
+  std::string none;                   ///< of the last step: why some have no interval
+  unsigned int n_steps = 0;
+
+  void add(const std::string &name, const Measured &number)
+  {
+    last[name] = number.value;
+    if (number.interval)
+      intervals[name].push_back(*number.interval);
+  }
+};
+
+Numbers numbers_of(const Scene<2> &scene)
+{
+  Numbers result;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (!step.bound)
+          return;
+        ++result.n_steps;
+        result.bound = step.bound->total;
+        result.none = step.no_intervals;
+        for (const Resultant<2> &row : step.forces)
+        {
+          if (row.kind == ForceKind::load)
+            continue;
+          result.add(row.name + ".x", row.force[0]);
+          result.add(row.name + ".y", row.force[1]);
+          result.add(row.name + ".M", row.moment[0]);
+          result.add(row.name + ".N", row.normal);
+          result.add(row.name + ".T", row.friction);
+        }
+        for (const ProbeValue<2> &probe : step.probes)
+          for (unsigned int c = 0; c < 2; ++c)
+            result.add(scene.probes[probe.probe].name + "." + "xy"[c], probe.displacement[c]);
+      },
+      [](const Progress &) {});
+  return result;
+}
+
+Numbers numbers_of(const std::string &file, Overrides overrides, const unsigned int steps)
+{
+  overrides.emplace_back("Adaptivity/Maximum steps", std::to_string(steps));
+  return numbers_of(read_scene<2>("prm/" + file + ".prm", overrides));
+}
+
+double low(const Interval &interval)
+{
+  return interval.centre - interval.half_width;
+}
+
+double high(const Interval &interval)
+{
+  return interval.centre + interval.half_width;
+}
+
+/** How many numbers have intervals; any two of a number meet. */
+unsigned int expect_that_all_meet(const Numbers &numbers)
+{
+  for (const auto &[name, intervals] : numbers.intervals)
+    for (const Interval &one : intervals)
+      for (const Interval &other : intervals)
+        EXPECT_LE(low(one), high(other) + 1e-10 * std::abs(one.centre)) << name;
+  return numbers.intervals.size();
+}
+
+void expect_that_all_hold(const std::vector<Interval> &intervals, const double exact,
+                          const double widest_of_last)
+{
+  ASSERT_FALSE(intervals.empty());
+  for (const Interval &interval : intervals)
+    EXPECT_LE(std::abs(interval.centre - exact), interval.half_width + 1e-10 * std::abs(exact));
+  EXPECT_LT(intervals.back().half_width, widest_of_last);
+}
+
+TEST(Intervals, OfOneRunMeet)
+{
+  for (const auto &[file, n] : std::map<std::string, unsigned int>{{"han-6-12", 3},
+                                                                   {"han-6-13", 8},
+                                                                   {"han-6-12-unilateral", 3},
+                                                                   {"resting", 5},
+                                                                   {"footing", 3},
+                                                                   {"laminate", 3},
+                                                                   {"threshold", 3}})
+  {
+    SCOPED_TRACE(file);
+    const Numbers numbers = numbers_of(file, {{"Adaptivity/Tolerance", "0"}}, 8);
+    EXPECT_GE(expect_that_all_meet(numbers), n);
+    EXPECT_GT(numbers.n_steps, 4u);
+  }
+}
+
+// Known to nine digits from meshes graded by hand (Example 5.2), and in closed form.
+TEST(Intervals, HoldForcesThatAreKnown)
+{
+  const Numbers example = numbers_of("han-6-12", {}, 13);
+  expect_that_all_hold(example.intervals.at("bottom.T"), -8.78716246, 3e-3);
+  expect_that_all_hold(example.intervals.at("right.x"), -9.21283754, 3e-3);
+  EXPECT_EQ(example.intervals.count("bottom.N"), 0u); // jumps into a support that holds it
+  EXPECT_NE(example.none.find("bottom and right"), std::string::npos) << example.none;
+
+  const Numbers slip = numbers_of("stick-slip", {}, 10);
+  expect_that_all_hold(slip.intervals.at("bottom.T"), -0.4, 1e-5);
+}
+
+// Its contact is open where it meets sides that are held: pressure does next to nothing there.
+TEST(Intervals, HoldThePressureOfHertz)
+{
+  const Numbers hertz = numbers_of("hertz", {}, 14);
+  const auto &intervals = hertz.intervals.at("bottom.N");
+  expect_that_all_hold(intervals, -7.6969020013, 0.02);
+}
+
+/** A block on its bottom edge. */
+Scene<2> block()
+{
+  Scene<2> scene;
+  scene.geometry.subdivisions = {{3, 3}};
+  scene.materials = {Material(10., 0.3, PlaneModel::stress)};
+  scene.boundary("top").traction = {{expression<2>(0.3), expression<2>(-1.)}};
+  scene.adaptivity.maximum_steps = 3;
+  return scene;
+}
+
+TEST(Intervals, OfStaticallyDeterminateForcesAreExact)
+{
+  Scene<2> scene = block();
+  scene.boundary("bottom").displacement = {{expression<2>(0.), expression<2>(0.)}};
+  scene.body_force[1] = expression<2>(-2.);
+  const Numbers numbers = numbers_of(scene);
+  const auto expect = [&](const std::string &name, const double exact)
+  {
+    const Interval &interval = numbers.intervals.at(name).front(); // whatever the mesh is
+    EXPECT_NEAR(interval.centre, exact, 1e-12) << name;
+    EXPECT_LT(interval.half_width, 1e-9) << name;
+  };
+  expect("bottom.x", -0.3);
+  expect("bottom.y", 3.);
+  expect("bottom.M",
+         0.3 * 0.5); // about the centre of the block: that of the traction the other way round
+}
+
+/** w may miss friction where it falls, and that costs g; where nothing rubs it costs nothing. */
+TEST(Intervals, FallAlongFriction)
+{
+  Scene<2> scene = block();
+  scene.boundary("left").displacement = {{expression<2>(0.), expression<2>(0.)}};
+  scene.boundary("bottom").contact = Contact::bilateral;
+  scene.boundary("bottom").friction.bound = expression<2>(0.2);
+  const std::vector<Side<2>> sides = sides_of(scene);
+  const unsigned int bottom = scene.boundary("bottom").id, left = scene.boundary("left").id;
+  const TestMotion friction(scene, sides, bottom, BoundaryMotion::tangential);
+  EXPECT_TRUE(friction.flaw().empty());
+  ASSERT_EQ(friction.falls().size(), 1u);
+  EXPECT_NEAR(friction.falls()[0].from.norm(), 0., 1e-14);
+  EXPECT_NEAR(friction.falls()[0].work(scene, 0.25), 0.2 * 0.25 / 2, 1e-14);
+  EXPECT_FALSE(TestMotion(scene, sides, bottom, BoundaryMotion::normal).flaw().empty());
+  EXPECT_TRUE(TestMotion(scene, sides, left, BoundaryMotion::x).flaw().empty());
+  EXPECT_EQ(TestMotion(scene, sides, left, BoundaryMotion::x).falls().size(), 1u);
+  EXPECT_FALSE(TestMotion(scene, sides, left, BoundaryMotion::y).flaw().empty());
+  scene.boundary("bottom").friction = {};
+  EXPECT_TRUE(TestMotion(scene, sides, left, BoundaryMotion::x).falls().empty());
+  EXPECT_TRUE(TestMotion(scene, sides, bottom, BoundaryMotion::tangential).is_zero());
+}
+
+TEST(Intervals, OfFrictionAreSharpEnoughAtStuckCorners)
+{
+  const Numbers example = numbers_of("han-6-12", {}, 13);
+  // |w|_a^2 grows like the logarithm of the edge along which w falls; without edges of its own the width were 0.05.
+  EXPECT_LT(example.intervals.at("bottom.T").back().half_width, 12 * example.bound);
+}
+
+// Half-widths of a mean along the loaded end of a bar: |q|_*^2 = length/(E area) with nu = 0.
+TEST(Intervals, OfMeansHaveTheNormOfABar)
+{
+  Scene<2> scene = block();
+  scene.materials = {Material(10., 0., PlaneModel::stress)};
+  scene.boundary("bottom").displacement = {{expression<2>(0.), expression<2>(0.)}};
+  Probe<2> probe;
+  probe.name = "end";
+  probe.kind = ProbeKind::boundary;
+  probe.on = {scene.boundary("top").id};
+  scene.probes = {probe};
+  const Numbers numbers = numbers_of(scene);
+  EXPECT_NEAR(numbers.intervals.at("end.y").back().half_width / numbers.bound, std::sqrt(0.1),
+              1e-9);
+  EXPECT_NEAR(numbers.intervals.at("end.y").back().centre, -0.1, 1e-12);
+}
+
+/** The mean over a disc has that of a smooth density, and what that is from it. */
+TEST(Intervals, OfMeansOverDiscsMeet)
+{
+  const Numbers numbers = numbers_of("han-6-12",
+                                     {{"Probe middle/At", "2, 2"},
+                                      {"Probe middle/Size", "0.5"},
+                                      {"Probe left/On", "left"},
+                                      {"Probe corner/At", "0.3, 0.4"},
+                                      {"Probe corner/Size", "0.3"}},
+                                     10);
+  expect_that_all_meet(numbers);
+  for (const std::string name : {"middle.x", "middle.y", "left.x", "corner.x", "corner.y"})
+  {
+    const auto &intervals = numbers.intervals.at(name);
+    EXPECT_LT(std::abs(intervals.front().centre - intervals.back().centre),
+              intervals.front().half_width)
+        << name;
+    EXPECT_LT(intervals.back().half_width, 0.5 * numbers.bound) << name; // E = 15
+    EXPECT_GT(intervals.back().half_width, 0.05 * numbers.bound) << name;
+  }
+}
+
+TEST(Intervals, ASmoothMeanHasMassOne)
+{
+  Scene<2> scene = block();
+  Probe<2> probe;
+  probe.kind = ProbeKind::disc;
+  probe.at = Point<2>(0.5, 0.5);
+  for (const double size : {0.1, 0.3, 0.5})
+  {
+    probe.size = size;
+    const SmoothMean mean = smooth_mean(scene, probe);
+    EXPECT_NEAR(mean.radius, std::min(2 * size, 0.5), 1e-14);
+    double mass = 0;
+    const QGauss<1> gauss(20);
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double s = mean.radius * gauss.point(q)[0];
+      mass += gauss.weight(q) * mean.radius * 2 * numbers::PI * s * mean.density(s);
+    }
+    EXPECT_NEAR(mass, 1., 1e-12);
+    EXPECT_GT(mean.remainder * std::sqrt(10 / 2.6), 0.03); // in units of mu^{-1/2}
+    EXPECT_LT(mean.remainder * std::sqrt(10 / 2.6), 0.24);
+  }
+}
+
+// A body that contact alone holds along x has no interval of its place, and says so.
+TEST(Intervals, OfBodiesThatContactHoldsAreNone)
+{
+  Scene<2> scene = block();
+  scene.boundary("top").traction = {{expression<2>(0.1), expression<2>(-1.)}};
+  scene.boundary("bottom").contact = Contact::bilateral;
+  scene.boundary("bottom").friction.bound = expression<2>(0.5);
+  scene.boundary("left").symmetry = false;
+  Probe<2> probe;
+  probe.name = "end";
+  probe.kind = ProbeKind::boundary;
+  probe.on = {scene.boundary("top").id};
+  scene.probes = {probe};
+  const Numbers numbers = numbers_of(scene);
+  EXPECT_EQ(numbers.intervals.count("end.x"), 0u);
+  EXPECT_NE(numbers.none.find("contact alone resists"), std::string::npos) << numbers.none;
+  // Its friction is what statics says.
+  EXPECT_NEAR(numbers.intervals.at("bottom.T").back().centre, -0.1, 1e-9);
+  EXPECT_LT(numbers.intervals.at("bottom.T").back().half_width, 1e-8);
+}
+} // namespace
