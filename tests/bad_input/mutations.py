@@ -23,12 +23,14 @@ TEXTS = ["", " ", "\t", "x", "y", "sin(", ")", "1/x", "1/(x-1)", "log(x)", "sqrt
          "0,\t1", "0\t,1", "0,0;\t1,0; 1,1; 0,1", "0,0; 1,0; 1,1e-9; 0,1", "0,0; 1,0; 1,1; 0,1;", "0,,1", "(" * 300,
          "1+" * 2000 + "1", "a" * 5000, "{", "true", "false", "none", "bilateral", "unilateral", "tangential", "quadrilateral",
          "stick-slip", "smooth", "limited", "cohesive", "hertz", "partial-slip", "nodes", "multiplier", "automatic", "active set", "hpa1", "pu", "/", "..",
-         "top", "left; right", "E", "nu*x", "stress", "x > 0.4", "min(x, y)", "(x-1)*(y-1)", "0.3 - abs(x - 1)", "t", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "x<1&&y", "tied", "upper.bottom, lower.top", "lower.top", "upper.top, lower.left"]
+         "top", "left; right", "E", "nu*x", "stress", "x > 0.4", "min(x, y)", "(x-1)*(y-1)", "0.3 - abs(x - 1)", "t", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "x<1&&y", "tied", "upper.bottom, lower.top", "lower.top", "upper.top, lower.left",
+         "cylinder.arc, block.top", "bush.inner, ring.inner", "block.left", "half disc", "ring sector", "axisymmetric"]
 # Entries of materials and parts of which only some scenes have any.
 NAMED = [f"{section}/{entry}" for section, entries in (
     ("Material soft", ("Where", "Young's modulus", "Poisson's ratio", "Density", "Plane", "Thickness", "Elasticity", "Young's moduli", "Poisson's ratios", "Shear moduli", "Angle", "Initial strain", "Thermal expansion")),
     ("Boundary foot", ("On", "Where", "Displacement", "Traction", "Pressure", "Shear", "Rigid", "Force", "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound")),
-    ("Body upper", ("Shape", "Lower corner", "Upper corner", "Corners", "Subdivisions", "Graded towards", "Grading levels", "Material")),
+    ("Body upper", ("Shape", "Lower corner", "Upper corner", "Corners", "Centre", "Radius", "Radii", "Angle", "Angles", "Subdivisions", "Graded towards", "Grading levels",
+                    "Material")),
     ("Contact joint", ("Between", "Law", "Gap", "Friction bound", "Friction coefficient", "Slave")),
     ("Probe tip", ("At", "Size", "On", "From", "To", "Points")))
     for entry in entries]
