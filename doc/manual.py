@@ -169,7 +169,7 @@ def assignments(text):
 
 def named(section):
     """NAME for what a scene names, or for a side."""
-    return re.sub("^(Boundary|Material|Contact|Body(?! force$)) .*", r"\1 NAME", section)
+    return re.sub("^(Boundary|Material|Contact|Probe|Body(?! force$)) .*", r"\1 NAME", section)
 
 
 def scene_examples():
@@ -317,8 +317,8 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "results",
-                 "extensions", "columns", "contributing"):
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
+                 "results", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \

@@ -89,7 +89,7 @@ void draw_line(SceneSheet &sheet, const Probe<2> &probe)
   const PageVector way = to - from;
   const double length = way.norm();
   const PageVector across =
-      length > 0 ? PageVector({way[1] / length, -way[0] / length}) : PageVector({0., -1.});
+      length > 0 ? PageVector({-way[1] / length, way[0] / length}) : PageVector({0., -1.});
   add_name(sheet, probe, from + 0.5 * way, across);
 }
 } // namespace
@@ -111,7 +111,7 @@ void draw_probes(SceneSheet &sheet, const std::vector<BoundaryPart> &parts)
                              "class=\"probe\" fill=\"none\" " + stroke(mark_colours::probe, 1.4));
       else
         draw_cross(sheet, at);
-      add_name(sheet, probe, at, PageVector({0.7071, -0.7071}));
+      add_name(sheet, probe, at, PageVector({0.7071, 0.7071}));
     }
     sheet.drawing.end();
   }
