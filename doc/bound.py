@@ -47,6 +47,15 @@ OTHER_METHODS = {"hup3": 6, "hup4": 5, "hap2": 12, "hap3": 12, "hpa1": 16, "pu":
 OTHER_PROBLEMS = ("stick-slip", "nearly-incompressible", "varying")
 STIFF = ["Material/Plane=strain", "Material/Poisson's ratio=0.4999"]
 STIFF_PROBLEMS = ("han-6-13", "opening", "varying", "weight", "turned")
+QUANTITIES = {"Example 5.2, friction": ("han-6-12", [], "bottom", "friction"),
+              "Example 5.2, force x on the right": ("han-6-12", [], "right", "Fx"),
+              "Example 5.2, mean u_x of the left": ("han-6-12", ["Probe end/On=left"], None, "end_ux"),
+              "Example 5.3, friction": ("han-6-13", [], "bottom", "friction"),
+              "Example 5.3, force y on the top": ("han-6-13", [], "top", "Fy"),
+              "Stick-slip, friction": ("stick-slip", [], "bottom", "friction"),
+              "Hertz contact, normal force": ("hertz", [], "bottom", "normal"),
+              "Example 5.2 that opens, friction": ("han-6-12-unilateral", [], "bottom", "friction"),
+              "Block with weight, normal force": ("resting", [], "bottom", "normal")}
 ANGLES = (90, 80, 60, 45, 30)
 BOTTOM, RIGHT = "Boundary bottom/", "Boundary right/"
 SLIDES = ["Contact=bilateral", "Friction bound=0.02"]
@@ -366,13 +375,44 @@ def aspect_row(lab, body, corner, mesh, squares, settings):
     return result
 
 
+def forces(lab):
+    """Half-widths of forces and mean displacements beside the errors of their centres, which a longer run tells."""
+    rows, runs = [], {}
+    for quantity, (scene, settings, name, column) in QUANTITIES.items():
+        key = (scene, *settings)
+        if key not in runs:
+            progress(f"  intervals of {scene}")
+            runs[key] = lab.run(scene, f"forces-{scene}", *method_settings("hpa3", 26, "bound"),
+                                "Adaptivity/Tolerance=0", "Adaptivity/Maximum unknowns=60000", *settings)
+        run = runs[key]
+        steps = {int(row["step"]): row for row in read_csv(run.home / "convergence.csv")}
+        if name:
+            values = [(int(row["step"]), float(row[column]), float(row[column + "_bound"]))
+                      for row in read_csv(run.home / "forces.csv") if row["name"] == name and row[column + "_bound"]]
+        else:
+            values = [(step, float(row[column]), float(row[column + "_bound"])) for step, row in steps.items()
+                      if row[column + "_bound"]]
+        truth = values[-1][1]
+        for wanted in (1500, 15000):
+            step, centre, half = min(values[:-2], key=lambda v: abs(np.log(float(steps[v[0]]["dofs_free"]) / wanted)))
+            row = steps[step]
+            stages = sum(float(value) for stage, value in row.items() if stage.startswith("seconds_") and value)
+            error = abs(centre - truth)
+            rows.append({"quantity": quantity, "N": row["dofs_free"], "half-width": number(half),
+                         "error of the centre": number(error) if error > values[-1][2] else f"< {number(values[-1][2])}",
+                         "half-width over the bound of the error": plain(half / float(row["error_bound"]), 2),
+                         "digits": plain(-np.log10(half / abs(centre)), 2),
+                         "seconds_recover over the step": plain(float(row["seconds_recover"]) / stages, 2)})
+    put_table("forces", rows, page=PAGE)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
-    parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect"],
+    parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect", "forces"],
                         help="measure nothing else than the time, than what the charts of effectivities and intervals show, "
-                             "than skew parallelograms, or than long cells")
+                             "than skew parallelograms, than long cells, or than intervals of forces")
     parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
     arguments = parser.parse_args()
     if arguments.draw:
@@ -384,6 +424,9 @@ def main():
     lab.home.mkdir(parents=True, exist_ok=True)
     if arguments.only == "aspect":
         long_cells(lab)
+        return
+    if arguments.only == "forces":
+        forces(lab)
         return
     if arguments.only == "chart":
         runs = measure(lab, {"hpa3": METHODS["hpa3"]}, ["bound"])
@@ -401,6 +444,7 @@ def main():
         shares(runs)
         stiff(lab)
         long_cells(lab)
+        forces(lab)
     if arguments.only != "cost":
         skew(lab)
     if arguments.only != "skew":

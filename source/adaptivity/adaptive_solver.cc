@@ -54,11 +54,6 @@ double peak_memory(MPI_Comm communicator)
   return Utilities::MPI::sum(1024. * memory.VmHWM, communicator);
 }
 
-std::string joined_words(const std::string &one, const std::string &other)
-{
-  return one + (one.empty() || other.empty() ? "" : "; ") + other;
-}
-
 /** Part of a whole that may be zero, which has no parts. */
 double ratio(const double part, const double whole)
 {
@@ -268,11 +263,9 @@ void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
   step.forces = resultants(scene, step.equilibrium, step.contact);
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
+  step.no_intervals = step.bound ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
   if (step.bound)
-    step.no_intervals =
-        joined_words(backend->bound_forces(*step.bound, step.forces), mean_intervals.set(step));
-  else
-    step.no_intervals = step.no_bound;
+    mean_intervals.set(step);
   history.back().relative_half_width = relative_half_width(step);
 }
 

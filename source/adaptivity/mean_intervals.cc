@@ -110,9 +110,9 @@ const MeanIntervals<2>::Norm &MeanIntervals<2>::norm(const unsigned int number,
 // @sect3{Intervals}
 //
 template <>
-std::string MeanIntervals<2>::set(StepReport<2> &step)
+void MeanIntervals<2>::set(StepReport<2> &step)
 {
-  std::string why;
+  std::string &why = step.no_intervals;
   for (ProbeValue<2> &value : step.probes)
   {
     const Probe<2> &probe = scene.probes[value.probe];
@@ -136,13 +136,11 @@ std::string MeanIntervals<2>::set(StepReport<2> &step)
     if (!flaw.empty())
       why += (why.empty() ? "probe " : "; probe ") + probe.name + ": " + flaw;
   }
-  return why;
 }
 
 template <>
-std::string MeanIntervals<3>::set(StepReport<3> &)
+void MeanIntervals<3>::set(StepReport<3> &)
 {
-  return {};
 }
 
 template class MeanIntervals<2>;

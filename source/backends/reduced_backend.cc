@@ -36,7 +36,7 @@ template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene,
                                     std::shared_ptr<const ShapeTables<dim>> all_tables)
     : Backend<dim>(scene, MPI_COMM_SELF), tables(std::move(all_tables)), elements(scene, *tables),
-      smoothness(scene.adaptivity.reading)
+      smoothness(scene.adaptivity.reading), resultant_intervals(scene)
 {
   prepare_blas();
 }
@@ -276,17 +276,6 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
   if (result.missing.empty())
     result.bound = bound;
   return result;
-}
-
-template <int dim>
-std::string ReducedBackend<dim>::bound_forces(const ErrorBound &bound,
-                                              std::vector<Resultant<dim>> &forces)
-{
-  begin("bounding forces");
-  if (!resultant_intervals)
-    resultant_intervals = std::make_unique<ResultantIntervals>(scene);
-  resultant_intervals->set(*solution, bound, forces);
-  return resultant_intervals->flaws();
 }
 
 // @sect3{What no indicator can see}

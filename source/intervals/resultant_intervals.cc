@@ -27,7 +27,7 @@ constexpr double largest_share = 0.1, aim = 0.01;
 constexpr unsigned int most_levels = 30;
 } // namespace
 
-ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene), sides(sides_of(scene))
+ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene)
 {
 }
 
@@ -62,6 +62,7 @@ ResultantIntervals::OfBoundary::find(const BoundaryMotion motion) const
 void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
 {
   has_goals = true;
+  sides = sides_of(scene);
   for (const Resultant<2> &row : forces)
   {
     if (row.kind == ForceKind::load || row.boundary >= scene.boundaries.size() ||
@@ -240,13 +241,13 @@ void ResultantIntervals::set(const OfBoundary &boundary, const double bound,
   row.force[1].interval = of({{Motion::normal, n[1]}, {Motion::tangential, n[0]}});
 }
 
-void ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &bound,
-                             std::vector<Resultant<2>> &forces)
+std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &bound,
+                                    std::vector<Resultant<2>> &forces)
 {
   if (!has_goals)
     find_goals(forces);
   if (boundaries.empty())
-    return;
+    return {};
   if (!space)
     solve(solution);
   while (grade(solution, bound))
@@ -256,5 +257,6 @@ void ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &boun
     for (const OfBoundary &boundary : boundaries)
       if (row.kind != ForceKind::load && row.boundary == boundary.boundary)
         set(boundary, bound.total, row);
+  return flaws();
 }
 } // namespace hpvi

@@ -333,25 +333,6 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
 // @sect3{What u_N does on w}
 //
 // Where cells of both meshes overlap, the smaller one is integrated over.
-const ShapeTable<2> &TestSpace::table_in(const BoundingBox<2> &box, const unsigned int degree,
-                                         const unsigned int n_gauss) const
-{
-  const ShapeTable<2> &whole = lender->tables->gradients(degree, n_gauss);
-  if (box.volume() == 1.)
-    return whole;
-  const Point<2> &corner = box.get_boundary_points().first;
-  ShapeTable<2> &table =
-      (*tables_in_parts)[{degree, n_gauss, corner[0], corner[1], box.side_length(0)}];
-  if (table.points.empty())
-  {
-    std::vector<Point<2>> points;
-    for (const Point<2> &q : whole.points)
-      points.push_back(box.unit_to_real(q));
-    table = tabulate<2>(degree, points, whole.weights, false);
-  }
-  return table;
-}
-
 void TestSpace::add_part(const Solution<2> &solution, const Triangulation<2>::cell_iterator &a,
                          const BoundingBox<2> &in_a, const Triangulation<2>::cell_iterator &b,
                          const BoundingBox<2> &in_b, Vector<double> &result) const
@@ -360,8 +341,8 @@ void TestSpace::add_part(const Solution<2> &solution, const Triangulation<2>::ce
   const CellMap<2> map = map_of<2>(a), other = map_of<2>(b);
   const bool varies = scene.has_initial_strain() || !map.is_affine();
   const unsigned int n_gauss = (p + degree_of_w) / 2 + 1 + (varies ? 3 : 0);
-  const ShapeTable<2> &of_u = table_in(in_a, p, n_gauss),
-                      &of_w = table_in(in_b, degree_of_w, n_gauss);
+  const ShapeTable<2> &of_u = tables_in_parts->in(in_a, p, n_gauss, solution.tables),
+                      &of_w = tables_in_parts->in(in_b, degree_of_w, n_gauss, solution.tables);
   const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
   const HookesLaw<2> law(scene.material_of(a));
   const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
@@ -389,8 +370,7 @@ void TestSpace::add_part(const Solution<2> &solution, const Triangulation<2>::ce
 
 Vector<double> TestSpace::residual(const Solution<2> &solution) const
 {
-  if (tables_in_parts->size() > 4000)
-    tables_in_parts->clear();
+  tables_in_parts->limit();
   Vector<double> result(space.n_dofs());
   using Cell = Triangulation<2>::cell_iterator;
   for_each_common_part(

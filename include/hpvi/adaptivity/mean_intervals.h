@@ -26,8 +26,8 @@ public:
   /** The scene must outlive this. */
   explicit MeanIntervals(const Scene<dim> &scene);
 
-  /** Sets the intervals of those of @p step that have one; returns why others have none, in words. */
-  std::string set(StepReport<dim> &step);
+  /** Sets the intervals of those of @p step that have one, and adds why others have none to StepReport::no_intervals. */
+  void set(StepReport<dim> &step);
 
 private:
   /** |q|_*, or why it is not known. */

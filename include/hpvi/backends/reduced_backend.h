@@ -46,7 +46,11 @@ public:
 
   std::optional<ReducedPart<dim>> reduced() const override;
   BoundOfStep bound(double own_stress) override;
-  std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override;
+  std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override
+  {
+    this->begin("bounding forces");
+    return resultant_intervals.set(*solution, bound, forces);
+  }
   double decay_rate(const unsigned int cell) const override
   {
     return smoothness.decay_rate(*solution, cell);
@@ -89,7 +93,7 @@ private:
   std::shared_ptr<const LoadRules<dim>> loads;
   const LegendreSmoothness<dim> smoothness;
   ErrorBounds error_bounds;
-  std::unique_ptr<ResultantIntervals> resultant_intervals; ///< once they are asked for
+  ResultantIntervals resultant_intervals;
   std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as all that follows
   std::vector<MissedDisplacement<dim>> missed_displacements;
   std::unique_ptr<const Discretisation<dim>> discretisation;

@@ -29,11 +29,9 @@ public:
   /** The scene must outlive this. */
   explicit ResultantIntervals(const Scene<2> &scene);
 
-  /** Sets those of @p forces whose boundaries have one. */
-  void set(const Solution<2> &solution, const ErrorBound &bound, std::vector<Resultant<2>> &forces);
-
-  /** Why some have none in the last step, in words; empty: all have one. */
-  std::string flaws() const;
+  /** Sets those of @p forces that have one; returns why others have none, in words. */
+  std::string set(const Solution<2> &solution, const ErrorBound &bound,
+                  std::vector<Resultant<2>> &forces);
 
 private:
   /** A resultant of one boundary with its w. */
@@ -58,6 +56,7 @@ private:
     const Goal *find(BoundaryMotion motion) const;
   };
 
+  std::string flaws() const;
   void find_goals(const std::vector<Resultant<2>> &forces);
   bool is_solved(const Goal &goal) const;
   void solve(const Solution<2> &solution);
@@ -72,7 +71,7 @@ private:
   void set(const OfBoundary &boundary, double bound, Resultant<2> &row) const;
 
   const Scene<2> &scene;
-  const std::vector<Side<2>> sides;
+  std::vector<Side<2>> sides; ///< once they are asked for
   std::vector<OfBoundary> boundaries;
   bool has_goals = false;
   std::vector<std::string> why_not;

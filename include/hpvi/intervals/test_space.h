@@ -5,21 +5,17 @@
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/body/supports.h>
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/intervals/part_tables.h>
 #include <hpvi/intervals/test_motion.h>
 
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <map>
 #include <memory>
-#include <tuple>
 #include <vector>
 
 namespace hpvi
 {
-/** Shape functions in parts of cells: degree, points, lower corner, size. Halves of halves repeat from cell to cell. */
-using PartTables =
-    std::map<std::tuple<unsigned int, unsigned int, double, double, double>, ShapeTable<2>>;
-
 /** A point at which cells are bisected so often. */
 struct GradedPoint
 {
@@ -80,8 +76,6 @@ private:
   dealii::AffineConstraints<double> constraints(const TestMotion &motion) const;
   const System &system(const TestMotion &motion);
   static void factorise(const dealii::SparseMatrix<double> &A, System &of);
-  const ShapeTable<2> &table_in(const dealii::BoundingBox<2> &box, unsigned int degree,
-                                unsigned int n_gauss) const;
   void add_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
                 const dealii::BoundingBox<2> &in_a,
                 const dealii::Triangulation<2>::cell_iterator &b,
