@@ -45,7 +45,7 @@ std::string ResultantIntervals::flaws() const
         add(goal.test.flaw());
       else if (goal.is_pressed)
         add("the pressure on " + scene.boundaries[boundary.boundary].name +
-            " in a corner that is held has no upper bound");
+            " in a corner that is held, which has no upper bound");
   return result;
 }
 

@@ -71,7 +71,7 @@ TestMotion::TestMotion(const Scene<2> &scene, const std::vector<Side<2>> &sides,
   for (const BoundaryCondition<2> &other : scene.boundaries)
     if (!sides[other.id].pieces.empty() && !sides[other.id].is_flat() &&
         (other.id == goal || other.has_contact() || other.symmetry))
-      why_not = other.name + " has more than one normal";
+      why_not = "forces on bodies of which " + other.name + " has more than one normal";
   for (const Meeting &meeting : meetings())
     if (why_not.empty())
       meet(meeting);
@@ -208,8 +208,8 @@ void TestMotion::meet(const Meeting &meeting)
       std::string all_names;
       for (const std::string &name : names)
         all_names += (all_names.empty() ? "" : " and ") + name;
-      why_not = "what each of " + all_names + " carries where they meet, at " +
-                to_string(meeting.at) + ", has no interval";
+      why_not =
+          "what each of " + all_names + " carries where they meet, at " + to_string(meeting.at);
       return;
     }
     const Side<2> &side = sides[row.boundary];

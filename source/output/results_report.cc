@@ -113,7 +113,7 @@ std::string results_in_words(const StepReport<dim> &step)
 {
   std::string words = "\n" + intervals_in_words(step.forces);
   if (!step.no_intervals.empty() && step.bound) // else it is why the error has no bound
-    words += "no intervals of forces and mean displacements: " + step.no_intervals + "\n";
+    words += "without an interval: " + step.no_intervals + "\n";
   for (const ProbeValue<dim> &value : step.probes)
     words += probe_in_words(value, step.scene);
   return words + extremes_in_words(step);
