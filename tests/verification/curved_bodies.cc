@@ -563,6 +563,8 @@ TEST(CurvedBodies, TakeTheEdgesThatFaceEachOther)
   EXPECT_EQ(narrow.pairs[0].slave, 1U);
   EXPECT_NEAR(lengths(narrow)[1], 0.8, 1e-9);
   EXPECT_THROW(disc_on("-0.4", "0.4", {{"Contact line/Slave", "disc.arc"}}), InputError);
+  // So is one that ends opposite to one of them, although the other one could be in the pair.
+  EXPECT_EQ(disc_on("-2", "0.4", {}).pairs[0].slave, 1U);
   // Rings lie opposite to each other from either side.
   const Scene<2> ring = scene_of(rings({{"Boundary out.outer/Displacement", "0; 0"}}));
   EXPECT_FALSE(ring.pairs[0].slave);
