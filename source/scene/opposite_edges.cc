@@ -115,8 +115,7 @@ std::string why_not(const Candidate &one, const bool is_asked)
     return is_asked ? "have an edge of the slave that hangs over the end of the other side"
                     : "have edges of both sides that hang over the end of the other";
   return "do not face each other: on neither is there an edge whose normals all meet the other "
-         "side "
-         "at 60 degrees or less to its own";
+         "side at 60 degrees or less to its own";
 }
 } // namespace
 

@@ -5,6 +5,7 @@
 
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/body/mesh.h>
+#include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/evaluation/contact_residuals.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/opposite_edges.h>
@@ -198,6 +199,39 @@ std::string file_of_rings(const unsigned int n)
          std::to_string(n_elements) + "\n" + lines.str() + cells.str() + "$EndElements\n";
 }
 
+/** A ring of each of two such files, or of one, whose edges follow curves of these kinds. */
+Overrides rings_of_files(const std::string &inner, const std::string &outer,
+                         const std::string &inner_curve, const std::string &outer_curve,
+                         const std::string &law)
+{
+  Overrides entries{{"Material/Young's modulus", "10"},
+                    {"Material/Poisson's ratio", "0.3"},
+                    {"Body out/Material", "hard"},
+                    {"Material hard/Young's modulus", "30"},
+                    {"Material hard/Poisson's ratio", "0.2"},
+                    {"Body in/File", inner},
+                    {"Body in/Surfaces", "core"},
+                    {"Body out/File", outer},
+                    {"Body out/Surfaces", "shell"},
+                    {"Contact fit/Between", "in.joint, out.joint"},
+                    {"Contact fit/Law", law},
+                    {"Boundary in.hole/Pressure", "1"},
+                    {"Boundary in.hole/Curve", inner_curve},
+                    {"Boundary in.joint/Curve", inner_curve},
+                    {"Boundary out.joint/Curve", outer_curve},
+                    {"Boundary out.rim/Curve", outer_curve},
+                    {"Adaptivity/Method", "pu"},
+                    {"Adaptivity/Start degree", "8"},
+                    {"Adaptivity/Maximum steps", "1"}};
+  for (const std::string body : {"in", "out"})
+  {
+    entries.emplace_back("Body " + body + "/Shape", "file");
+    for (const char *const side : {".start", ".end"})
+      entries.emplace_back("Boundary " + body + side + "/Symmetry", "true");
+  }
+  return entries;
+}
+
 /** Surfaces of a drawing that share a circle, or a spline, touch along it. */
 TEST(CurvedBodies, ShareACurveOfAMeshFile)
 {
@@ -205,32 +239,7 @@ TEST(CurvedBodies, ShareACurveOfAMeshFile)
   std::ofstream(file) << file_of_rings(4);
   for (const std::string curve : {"circle", "spline"})
     for (const std::string law : {"unilateral", "tied"})
-    {
-      Overrides entries{{"Material/Young's modulus", "10"},
-                        {"Material/Poisson's ratio", "0.3"},
-                        {"Body out/Material", "hard"},
-                        {"Material hard/Young's modulus", "30"},
-                        {"Material hard/Poisson's ratio", "0.2"},
-                        {"Body in/Surfaces", "core"},
-                        {"Body out/Surfaces", "shell"},
-                        {"Contact fit/Between", "in.joint, out.joint"},
-                        {"Contact fit/Law", law},
-                        {"Boundary in.hole/Pressure", "1"},
-                        {"Boundary in.hole/Curve", curve},
-                        {"Boundary in.joint/Curve", curve},
-                        {"Boundary out.joint/Curve", curve},
-                        {"Boundary out.rim/Curve", curve},
-                        {"Adaptivity/Method", "pu"},
-                        {"Adaptivity/Start degree", "8"},
-                        {"Adaptivity/Maximum steps", "1"}};
-      for (const std::string body : {"in", "out"})
-      {
-        entries.emplace_back("Body " + body + "/Shape", "file");
-        entries.emplace_back("Body " + body + "/File", file.string());
-        for (const char *const side : {".start", ".end"})
-          entries.emplace_back("Boundary " + body + side + "/Symmetry", "true");
-      }
-      solved(entries,
+      solved(rings_of_files(file.string(), file.string(), curve, curve, law),
              [&](const StepReport<2> &step)
              {
                for (const ContactPoint<2> &point : step.contact.at(0).points)
@@ -238,7 +247,56 @@ TEST(CurvedBodies, ShareACurveOfAMeshFile)
                              curve == "circle" ? 1e-7 : 1e-2)
                      << curve << " " << law;
              });
-    }
+}
+
+/** A polygon in a circle: u_0 has kinks inside the edges of the circle, where R (1 - cos a / cos t) begins again. */
+TEST(CurvedBodies, CountTheGapOfAPolygon)
+{
+  const auto inner = std::filesystem::path(::testing::TempDir()) / "hpvi-polygon.msh",
+             outer = std::filesystem::path(::testing::TempDir()) / "hpvi-circle.msh";
+  std::ofstream(inner) << file_of_rings(4);
+  std::ofstream(outer) << file_of_rings(3);
+  const Scene<2> scene =
+      scene_of(rings_of_files(inner.string(), outer.string(), "", "circle", "unilateral"));
+  EXPECT_EQ(scene.pairs[0].slave, 1U);
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  const Degrees degrees(mesh.n_active_cells(), 10);
+  set_edge_degrees(mesh, degrees);
+  const Laboratory laboratory(scene, mesh, degrees);
+  double sum = 0;
+  for (const ContactMultiplier<2> &unknown : laboratory.contact_space.multipliers())
+    sum += unknown.gap;
+  const double a = numbers::PI / 16;
+  EXPECT_NEAR(sum, 8 * 2.25 * (a - std::cos(a) * std::log(std::tan(numbers::PI / 4 + a / 2))),
+              1e-9);
+}
+
+/** What one step has found starts the next, on another mesh and with the other side as slave. */
+TEST(CurvedBodies, HandTractionsOn)
+{
+  const auto scene_with = [](const std::string &slave)
+  {
+    return scene_of(rings({{"Boundary in.inner/Pressure", "1+0.3*x+0.2*y"},
+                           {"Boundary out.outer/Spring", "10; 10"},
+                           {"Contact fit/Law", "tied"},
+                           {"Contact fit/Slave", slave}}));
+  };
+  const Scene<2> one = scene_with("in.outer"), other = scene_with("out.inner");
+  Triangulation<2> coarse, fine;
+  make_mesh(one, coarse);
+  make_mesh(other, fine);
+  fine.refine_global(1);
+  const Degrees high(coarse.n_active_cells(), 8), low(fine.n_active_cells(), 7);
+  set_edge_degrees(coarse, high);
+  set_edge_degrees(fine, low);
+  const Laboratory from(one, coarse, high), to(other, fine, low);
+  const Vector<double> handed =
+      MultiplierTrace<2>(from.contact_space, from.solve().z).values(to.contact_space, to.tables);
+  const Vector<double> found = to.solve().z;
+  for (unsigned int i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(handed[i], found[i], 2e-3 * found.linfty_norm())
+        << to.contact_space.multipliers()[i].x;
 }
 
 /** Rings that turn: what friction or glue carries around, u_t = C r + D/r, and what slips. */
@@ -505,6 +563,8 @@ TEST(CurvedBodies, TakeTheEdgesThatFaceEachOther)
   EXPECT_EQ(narrow.pairs[0].slave, 1U);
   EXPECT_NEAR(lengths(narrow)[1], 0.8, 1e-9);
   EXPECT_THROW(disc_on("-0.4", "0.4", {{"Contact line/Slave", "disc.arc"}}), InputError);
+  // So is one that ends opposite to one of them, although the other one could be in the pair.
+  EXPECT_EQ(disc_on("-2", "0.4", {}).pairs[0].slave, 1U);
   // Rings lie opposite to each other from either side.
   const Scene<2> ring = scene_of(rings({{"Boundary out.outer/Displacement", "0; 0"}}));
   EXPECT_FALSE(ring.pairs[0].slave);

@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /**
- * Two sides of bodies that touch along a straight line. The boundaries that face each other are parts of these sides, and
+ * Two sides of bodies that touch along a line or a curve. The boundaries that face each other are parts of these sides, and
  * their conditions say which law holds between them; both say the same.
  */
 struct ContactPair
