@@ -64,6 +64,10 @@ std::vector<Hint> hints_about_method()
           {{"max seconds", "time limit"}, "set \"Adaptivity/Maximum seconds\""},
           {{"error", "accuracy", "precision"}, "set \"Adaptivity/Tolerance\""},
           {{"adaptive", "adaptive refinement", "refine", "strategy"}, "set \"Adaptivity/Method\""},
+          {{"probe", "probes", "sensor", "gauge", "gauges", "output point", "output points",
+            "evaluation point", "evaluation points"},
+           "a place of which results tell displacement and stress has a subsection Probe NAME, "
+           "with At = x, y, On = a boundary, or From and To"},
           {{"output directory", "directory", "folder"},
            "the directory is that of the option --output"}};
 }
@@ -146,6 +150,9 @@ std::vector<Hint> hints_in_space()
           {{"temperature", "initial strain", "thermal expansion"},
            "only a body in the plane has initial strains; remove it"},
           {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
+          {{"size"},
+           "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\", and a "
+           "probe in space has no disc"},
           {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},
           {{"corners"}, "space has no shape but the box; remove it"},
           {{"exact solution"}, "space offers no closed form; remove it"},

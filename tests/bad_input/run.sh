@@ -10,6 +10,7 @@ source "$(dirname "$0")/rows.sh"
 
 # --- probes, which scenes name themselves
 invalid "Probe a.b" "is no name" "letters" -- "Probe a.b/At=1, 1"
+invalid "Probe" "unknown subsection" "Probe NAME" -- "Probe/At=1, 1"
 invalid "Probe Tip" "differs from Probe tip in case" -- "Probe tip/At=1, 1" "Probe Tip/At=1, 1"
 invalid "Probe tip/Where" "unknown entry" -- "Probe tip/Where=1, 1"
 invalid "Probe tip/At" "is missing" "From and To" -- "Probe tip/Size=1"

@@ -45,6 +45,9 @@ invalid() {
 # --- points and vectors have three components, and a plane scene has no z
 invalid "Upper corner = 4, 4" "three finite numbers" -- "Geometry/Upper corner=4, 4"
 invalid "Subdivisions = 4, 4" "three positive integers" -- "Geometry/Subdivisions=4, 4"
+invalid "Probe tip/Size" "no disc" -- "Probe tip/At=1, 1, 1" "Probe tip/Size=0.1"
+invalid "Probe tip/At = 1, 1" "give a point x, y, z" -- "Probe tip/At=1, 1"
+invalid "Probe tip/At = 9, 1, 1" "outside of the body" -- "Probe tip/At=9, 1, 1"
 invalid "2 component(s) instead of 3" -- "Boundary left/Traction=1; 0"
 invalid "expression of x, y and z" -- "Boundary left/Traction=1; 0; w"
 check 1 "expression of x and y" -- "$hpvi" --validate prm/han-6-12.prm --set "Boundary left/Traction=1; z"

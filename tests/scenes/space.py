@@ -15,7 +15,9 @@ import tempfile
 from runs import PROGRAM as HPVI, expanded, read_vtu
 
 MPIRUN = sys.argv[1]  # runs.py has taken the program
-SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver/Primal tolerance=1e-11"]
+PROBES = {"spot/At": "0.5, 0.5, 0.1", "roof/On": "top", "cut/From": "0.2, 0.5, 0.1", "cut/To": "0.8, 0.5, 0.1", "cut/Points": "5"}
+SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver/Primal tolerance=1e-11",
+         *(word for entry, value in PROBES.items() for word in ("--set", f"Probe {entry}={value}"))]
 
 
 def rows(path):
@@ -47,7 +49,8 @@ with tempfile.TemporaryDirectory() as scratch:
         assert text.count("results in") == 1, text
         assert "stopped by Adaptivity/Maximum steps" in text, text
 
-    tables = {name: rows(one / name) for name in ("convergence.csv", "contact-01.csv", "contact-02.csv")}
+    tables = {name: rows(one / name) for name in ("convergence.csv", "contact-01.csv", "contact-02.csv", "forces.csv", "probe-cut-02.csv")}
+    assert float(tables["convergence.csv"][1]["roof_ux"]) and float(tables["probe-cut-02.csv"][4]["mises"])
     for name, table in tables.items():
         other = rows(two / name)
         assert len(table) == len(other), name
