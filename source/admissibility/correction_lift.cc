@@ -43,7 +43,7 @@ double largest_value(const EdgePolynomial &polynomial, const double round_off)
 template <int dim>
 Vector<double> CorrectionSearch<dim>::fixed_displacement() const
 {
-  NodalDisplacement<dim> all(solution, discretisation.unknowns);
+  NodalDisplacement<dim> all(solution, discretisation.unknowns, freedom);
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (slips[k].mode == Slip::nowhere)
       all.set(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
@@ -77,11 +77,10 @@ std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) co
   const FaceDofs<dim> dofs(faces[face], solution.displacement_space, solution.tables);
   const auto is_held = [&](const auto &of_body, const unsigned int end)
   {
+    typename NodeFreedom<dim>::Node node;
     for (unsigned int c = 0; c < dim; ++c)
-      if (std::abs(normal[c]) > 1e-10 &&
-          discretisation.unknowns.terms(of_body[c * n + end * (n - 1)]).size() == 0)
-        return true;
-    return false;
+      node[c] = of_body[c * n + end * (n - 1)];
+    return freedom.is_held(node, normal);
   };
   std::array<bool, 2> result{};
   for (unsigned int end = 0; end < 2; ++end)
@@ -129,7 +128,7 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
   Heights heights;
   if (penetration(w, heights) <= tolerance)
     return 0.;
-  NodalDisplacement<dim> lifting(solution, discretisation.unknowns);
+  NodalDisplacement<dim> lifting(solution, discretisation.unknowns, freedom);
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/correction_search.h>
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -66,7 +70,53 @@ CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
       else if (may_rub(k) && result[unknown] == Role::outside)
         result[unknown] = Role::free;
   add_normal_roles(result);
+  free_coupled_edges(result);
   return result;
+}
+
+/**
+ * An edge that leaves the contact boundary with a lower degree than its cell, or with half the length, is told by some nodes and a vertex
+ * at contact: which nodes depends on the frame, and so would what it is to keep them where they are while the vertex moves. They are
+ * free, in both components.
+ */
+template <int dim>
+void CorrectionSearch<dim>::free_coupled_edges(std::vector<Role> &roles) const
+{
+  std::vector<bool> is_at_contact(roles.size());
+  const auto note = [&](const Trace &trace)
+  {
+    for (const unsigned int unknown : trace.unknowns)
+      is_at_contact[unknown] = true;
+  };
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    note(traces[k]);
+    if (openings[k])
+      note(openings[k]->penetration);
+  }
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  const auto moves = [&](const auto &term)
+  { return is_at_contact[term.first] && roles[term.first] != Role::outside; };
+  std::set<unsigned int> coupled;
+  for (unsigned int cell = 0; cell < space.degrees().size(); ++cell)
+  {
+    const LocalNumbering &numbering = solution.tables.numbering(space.degrees()[cell]);
+    const auto dofs = space.cell_dofs(cell);
+    std::vector<bool> is_coupled(numbering.shape.size());
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      const auto terms = discretisation.unknowns.terms(dofs[i]);
+      if (std::any_of(terms.begin(), terms.end(), moves))
+        is_coupled[numbering.shape[i]] = true;
+    }
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      if (is_coupled[numbering.shape[i]])
+        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
+          if (!is_at_contact[unknown])
+            coupled.insert(unknown);
+  }
+  for (const unsigned int unknown : coupled)
+    roles[unknown] = Role::free;
 }
 
 /** At a corner of two sides both components share unknowns: what one of them fixes is fixed. */

@@ -55,8 +55,8 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
                                         const AdmissiblePressure<dim> &pressure,
                                         EdgeBubbles<dim> *const bubbles)
     : solution(solution), discretisation(discretisation), friction(friction),
-      faces(solution.contact_space.faces()), slips(slips_of(solution)),
-      openings(faces.size()), A{discretisation.system.A, {}}
+      freedom(solution, discretisation.unknowns), faces(solution.contact_space.faces()),
+      slips(slips_of(solution)), openings(faces.size()), A{discretisation.system.A, {}}
 {
   const LegendreTables tables;
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -199,7 +199,8 @@ void CorrectionSearch<dim>::add_friction(const RestrictedEnergy &strip,
         h.add(faces[k].length * rule.weights[q] * rule.values[q] *
                   (slips[k].direction - friction.value(k, rule.points[q])),
               trace_row(strip, traces[k], rule.points[q]));
-      conditions.push_back({&traces[k], traces[k].rest(fixed), -slips[k].direction});
+      conditions.push_back(
+          {&traces[k], traces[k].rest(fixed), -slips[k].direction, /*is_of_pressure=*/false});
     }
 }
 
@@ -220,7 +221,7 @@ void CorrectionSearch<dim>::add_pressure(const RestrictedEnergy &strip, const Ve
         h.add(-faces[k].length * gauss.weight(q) * openings[k]->pressure(s),
               trace_row(strip, trace, s));
       }
-      conditions.push_back({&trace, trace.rest(fixed), 1.});
+      conditions.push_back({&trace, trace.rest(fixed), 1., /*is_of_pressure=*/true});
     }
 }
 
@@ -250,7 +251,7 @@ Vector<double> CorrectionSearch<dim>::in_one_direction(const RestrictedEnergy &s
     for (const Condition &condition : conditions)
     {
       const EdgePolynomial rest = condition.trace->rest(w);
-      const double round_off = condition.sign > 0. ? tolerance : 1e-14 * rest.largest();
+      const double round_off = condition.is_of_pressure ? tolerance : 1e-14 * rest.largest();
       for (const double s : rest.extremes())
         if (condition.sign * rest(s) > round_off)
           stands_out = add(condition, s) || stands_out;

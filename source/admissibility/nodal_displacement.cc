@@ -31,24 +31,34 @@ double NodalDisplacement<dim>::along(const Tensor<1, dim> &direction, const Node
 template <int dim>
 bool NodalDisplacement<dim>::may_move(const Node &node, const Tensor<1, dim> &direction) const
 {
-  for (unsigned int c = 0; c < dim; ++c)
-    if (std::abs(direction[c]) > 1e-10 && unknowns.terms(node[c]).size() == 0)
-      return false;
+  if (freedom.is_held(node, direction))
+    return false;
   const auto place = heeded.find(node[0]);
-  return place == heeded.end() ||
-         (direction - (direction * place->second) * place->second).norm() >= 1e-6;
+  if (place == heeded.end())
+    return true;
+  const auto &[other, is_all] = place->second;
+  return !is_all && (direction - (direction * other) * other).norm() >= 1e-6;
 }
 
-/** Adds @p missing along @p direction, without a change along one that has been heeded. */
+/** Adds @p missing along @p direction, as supports allow, without a change along one that has been heeded. */
 template <int dim>
 void NodalDisplacement<dim>::move(const Node &node, const Tensor<1, dim> &direction,
                                   const double missing)
 {
-  const auto [place, is_new] = heeded.try_emplace(node[0], direction);
-  const Tensor<1, dim> &other = place->second;
-  const Tensor<1, dim> step = is_new ? direction : direction - (direction * other) * other;
-  if (step.norm() < 1e-6) // the face before this one has set it
+  const auto place = heeded.find(node[0]);
+  const bool is_new = place == heeded.end();
+  if (freedom.is_on_plate(node) || (!is_new && place->second.is_all))
     return;
+  const Tensor<1, dim> only = freedom.only_direction(node);
+  const bool has_one = only.norm_square() > 0.;
+  Tensor<1, dim> step = direction;
+  if (has_one)
+    step = (direction * only) * only;
+  else if (!is_new)
+    step -= (direction * place->second.direction) * place->second.direction;
+  if (step.norm() < 1e-6) // the face before this one has set it, or it cannot move
+    return;
+  heeded[node[0]] = {direction, has_one || !is_new};
   for (unsigned int c = 0; c < dim; ++c)
     if (unknowns.terms(node[c]).size() > 0)
       u[node[c]] += missing / (direction * step) * step[c];

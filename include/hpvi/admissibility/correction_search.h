@@ -4,6 +4,7 @@
 
 #include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/admissibility/face_contact.h>
+#include <hpvi/admissibility/node_freedom.h>
 #include <hpvi/algebra/restricted_energy.h>
 #include <hpvi/discretisation/discretisation.h>
 #include <hpvi/stresses/edge_bubbles.h>
@@ -70,10 +71,12 @@ private:
     const Trace *trace;
     EdgePolynomial rest;
     double sign;
+    bool is_of_pressure; ///< else of friction, whose direction has either sign, as the frame has it
   };
 
   std::vector<Role> roles(const std::vector<bool> &nearby) const;
   void add_normal_roles(std::vector<Role> &roles) const;
+  void free_coupled_edges(std::vector<Role> &roles) const;
   dealii::Vector<double> fixed_displacement() const;
   double open_joints(const dealii::Vector<double> &w) const;
   bool find_near_pressure(unsigned int face) const;
@@ -111,6 +114,7 @@ private:
   const Solution<dim> &solution;
   const Discretisation<dim> &discretisation;
   const AdmissibleFriction<dim> &friction;
+  const NodeFreedom<dim> freedom;
   const std::vector<ContactFace<dim>> &faces;
   std::vector<Slip> slips;
   std::vector<Trace> traces; ///< of u_t

@@ -2,9 +2,8 @@
 #ifndef hpvi_nodal_displacement_h
 #define hpvi_nodal_displacement_h
 
+#include <hpvi/admissibility/node_freedom.h>
 #include <hpvi/contact/matching.h>
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/discretisation/unknowns.h>
 
 #include <array>
 #include <functional>
@@ -18,8 +17,9 @@ template <int dim>
 class NodalDisplacement
 {
 public:
-  NodalDisplacement(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
-      : u(solution.u.size()), solution(solution), unknowns(unknowns)
+  NodalDisplacement(const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+                    const NodeFreedom<dim> &freedom)
+      : u(solution.u.size()), solution(solution), unknowns(unknowns), freedom(freedom)
   {
   }
 
@@ -36,7 +36,7 @@ public:
   dealii::Vector<double> u;
 
 private:
-  using Node = std::array<dealii::types::global_dof_index, dim>; ///< by component
+  using Node = typename NodeFreedom<dim>::Node;
 
   Node node(const std::vector<dealii::types::global_dof_index> &face_dofs, unsigned int j) const;
   double along(const dealii::Tensor<1, dim> &direction, const Node &node) const;
@@ -48,8 +48,14 @@ private:
 
   const Solution<dim> &solution;
   const Unknowns<dim> &unknowns;
-  std::map<dealii::types::global_dof_index, dealii::Tensor<1, dim>>
-      heeded; ///< directions, by first component
+  const NodeFreedom<dim> &freedom;
+  /** Of a node, by its first component. */
+  struct Heeded
+  {
+    dealii::Tensor<1, dim> direction;
+    bool is_all; ///< nothing is left of the node's freedom
+  };
+  std::map<dealii::types::global_dof_index, Heeded> heeded;
 };
 } // namespace hpvi
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_node_freedom_h
+#define hpvi_node_freedom_h
+
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/discretisation/unknowns.h>
+
+#include <array>
+#include <set>
+
+namespace hpvi
+{
+/** How single nodes of a boundary may move while all others stay. Which of their unknowns are free depends on the frame, this does not. */
+template <int dim>
+class NodeFreedom
+{
+public:
+  using Node = std::array<dealii::types::global_dof_index, dim>; ///< by component
+
+  /** @p unknowns must outlive this object. */
+  NodeFreedom(const Solution<dim> &solution, const Unknowns<dim> &unknowns);
+
+  /** Is it a part of a rigid plate, which would move with it? */
+  bool is_on_plate(const Node &node) const;
+
+  /** Where supports leave it one direction, along an axis or along a slanted side with `u_n = 0`, that one; else zero. */
+  dealii::Tensor<1, dim> only_direction(const Node &node) const;
+
+  /** Is its displacement along @p direction prescribed, or all but that? */
+  bool is_held(const Node &node, const dealii::Tensor<1, dim> &direction) const;
+
+private:
+  const Unknowns<dim> &unknowns;
+  std::set<dealii::types::global_dof_index> on_plates; ///< first components
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/admissibility/node_freedom.h>
+#include <hpvi/body/supports.h>
+
+#include <cmath>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
+    : unknowns(unknowns)
+{
+  if (!solution.scene.has_plates())
+    return;
+  for (const SupportedNode<dim> &node :
+       supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
+    if (node.is_on_plate)
+      on_plates.insert(node.dofs[0]);
+}
+
+template <int dim>
+bool NodeFreedom<dim>::is_on_plate(const Node &node) const
+{
+  return on_plates.count(node[0]) > 0;
+}
+
+template <int dim>
+Tensor<1, dim> NodeFreedom<dim>::only_direction(const Node &node) const
+{
+  static_assert(dim == 2, "a cross product is a number");
+  std::map<unsigned int, Tensor<1, dim>> directions; // of each unknown
+  for (unsigned int c = 0; c < dim; ++c)
+    for (const auto &[unknown, weight] : unknowns.terms(node[c]))
+      directions[unknown][c] += weight;
+  Tensor<1, dim> result;
+  for (const auto &[unknown, direction] : directions)
+    if (direction.norm() > result.norm())
+      result = direction;
+  for (const auto &[unknown, direction] : directions)
+    if (std::abs(result[0] * direction[1] - result[1] * direction[0]) >
+        1e-10 * result.norm_square())
+      return {};
+  return directions.empty() ? result : result / result.norm();
+}
+
+template <int dim>
+bool NodeFreedom<dim>::is_held(const Node &node, const Tensor<1, dim> &direction) const
+{
+  constexpr double sideways = 0.05; // as far as it moves at most for what it is to move along the direction
+  if (is_on_plate(node) ||
+      (unknowns.terms(node[0]).size() == 0 && unknowns.terms(node[1]).size() == 0))
+    return true;
+  const Tensor<1, dim> only = only_direction(node);
+  return only.norm_square() > 0. && std::abs(direction * only) < sideways;
+}
+
+template class NodeFreedom<2>;
+} // namespace hpvi
