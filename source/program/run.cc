@@ -86,17 +86,15 @@ std::string work_in_words(const LoadStep &load)
          text(load.released, 2) + ", unbalanced " + text(load.unbalanced, 2) + "\n";
 }
 
-/** Why the last step has no bound of its error, where steps may have one; nothing else. */
+/** Why the last step has no bound of its error, or no step has one, although the scene wants it. */
 template <int dim>
 std::string missing_bound_in_words(const StepReport<dim> &step, const std::string &last_bound)
 {
-  if constexpr (dim == 2)
-    if (step.reduced && !step.solution().spaces->no_error_bound(step.scene).empty())
-      return {};
   if (step.bound || step.primal || !step.scene.error_bound)
     return {};
-  return "\nno bound of the error in step " + text(step.number) + ": " + step.no_bound +
-         (last_bound.empty() ? "" : "; " + last_bound) + "\n";
+  const bool has_none = step.load.number == 0 && !step.scene.no_error_bound().empty();
+  return "\nno bound of the error" + (has_none ? "" : " in step " + text(step.number)) + ": " +
+         step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n";
 }
 
 /** How well forces balance, and what Newton's method has to do with it. */

@@ -70,5 +70,75 @@ class ReferenceSolution(RunTest):
             self.refuse(words=["does not begin with"])
 
 
+# Two squares that stand on a floor; a point may be moved.
+MESH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "floor"
+1 2 "roof"
+2 3 "block"
+$EndPhysicalNames
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 {} 1 0
+6 2 1 0
+$EndNodes
+$Elements
+4
+1 1 2 1 1 1 2
+2 1 2 2 2 4 5
+3 3 2 3 3 1 2 5 4
+4 3 2 3 3 2 3 6 5
+$EndElements
+"""
+BLOCK = """
+set Dimension = 2
+subsection {body}
+  set Shape = file
+  set File  = {file}
+end
+subsection Boundary {side}floor
+  set Displacement = 0; 0
+end
+subsection Boundary {side}roof
+  set Traction = 0; -1
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+"""
+
+
+class MeshOfAFile(RunTest):
+    """Of a mesh counts what is in its file, wherever that lies."""
+
+    def block(self, directory, body="Geometry", side="", middle=1):
+        home = self.home / directory
+        home.mkdir(exist_ok=True)
+        (home / "block.msh").write_text(MESH.format(middle))
+        (home / "scene.prm").write_text(BLOCK.format(body=body, side=side, file="block.msh"))
+        return home / "scene.prm"
+
+    def test_counts_by_its_content(self):
+        for body, side in (("Geometry", ""), ("Body block", "block.")):
+            here = self.block("here", body, side)
+            self.run_scene("Output/Reference solution=true", scene=here, output=self.home / "fine")
+            setting = f"Error/Reference solution={self.home / 'fine/reference.dat'}"
+            self.run_scene(setting, scene=self.block("there", body, side))
+            self.assertLess(float(self.rows()[0]["error_relative"]), 1e-12)
+            for altered in (self.block("there", body, side, middle=1.125),
+                            self.block("here", body, side, middle=1.125)):
+                line = self.run_scene(setting, scene=altered, status=1)
+                self.assertIn(f"{body}/File = content ", line)
+                self.assertIn("another problem", line)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A run that is broken off, written, read and continued gives what the whole run gives.
 #include "discretisation.h"
+#include "mesh_texts.h"
 
 #include <hpvi/base/input_error.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
 
 namespace
 {
@@ -201,6 +206,31 @@ TEST(RunState, OfAnotherSceneIsRefusedWithWhatDiffers)
                                               {"Adaptivity/Tolerance", "1e-9"},
                                               {"Adaptivity/Maximum seconds", "1e9"}})
     EXPECT_EQ(other(entry, value), "") << entry;
+}
+
+/** The mesh by what is in its file: not by its path, nor by what was in it once. */
+TEST(RunState, OfAnotherMeshFileIsRefused)
+{
+  const auto home = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-" + std::to_string(std::random_device()()));
+  std::filesystem::create_directory(home);
+  const auto scene = [&](const std::string &name, const std::string &text, const unsigned int n)
+  {
+    std::ofstream(home / name) << text;
+    return scene_of(steps(n, {{"Geometry/Shape", "file"},
+                              {"Geometry/File", (home / name).string()},
+                              {"Boundary bottom/Displacement", "0; 0"},
+                              {"Body force/Expression", "0; -1"},
+                              {"Adaptivity/Method", "hup2"}}));
+  };
+  const RunState<2> state = read_state(written_state(scene("one.msh", curved_cell_22, 1)));
+  const auto refusal_of = [&](const std::string &name, const std::string &text)
+  { return refusal([&] { AdaptiveSolver<2>(scene(name, text, 2), state); }); };
+  EXPECT_EQ(refusal_of("other.msh", curved_cell_22), "");
+  const std::string altered = replaced(curved_cell_22, "1 0 0 0\n", "1 0 0.125 0\n");
+  for (const std::string name : {"other.msh", "one.msh"})
+    EXPECT_NE(refusal_of(name, altered).find("Geometry/File = content "), std::string::npos);
+  std::filesystem::remove_all(home);
 }
 
 TEST(RunState, AtItsEndIsRefused)
