@@ -140,7 +140,7 @@ Scene<2> block()
 {
   Scene<2> scene;
   scene.geometry.subdivisions = {{3, 3}};
-  scene.materials = {Material(10., 0.3, PlaneModel::stress)};
+  scene.materials.front().young = 10.;
   scene.boundary("top").traction = {{expression<2>(0.3), expression<2>(-1.)}};
   scene.adaptivity.maximum_steps = 3;
   return scene;
@@ -198,7 +198,7 @@ TEST(Intervals, OfFrictionAreSharpEnoughAtStuckCorners)
 TEST(Intervals, OfMeansHaveTheNormOfABar)
 {
   Scene<2> scene = block();
-  scene.materials = {Material(10., 0., PlaneModel::stress)};
+  scene.materials.front().poisson = 0.;
   scene.boundary("bottom").displacement = {{expression<2>(0.), expression<2>(0.)}};
   Probe<2> probe;
   probe.name = "end";
