@@ -743,11 +743,13 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
   const Overrides unilateral = {{"Contact", "unilateral"}, {"Friction bound", "0.01"}},
                   opens = {{"Contact", "unilateral"}, {"Gap", "0.01"}, {"Friction bound", "0.01"}},
                   slips = {{"Contact", "bilateral"}, {"Friction bound", "0.02"}},
-                  sticks = {{"Contact", "unilateral"}, {"Friction bound", "1"}},
+                  sticks = {{"Contact", "unilateral"},
+                            {"Gap", "0.01*exp(-X)"},
+                            {"Friction bound", "1"}},
                   rubs_in_part = {{"Contact", "bilateral"},
                                   {"Friction bound", "0.05*max(0, X - 0.61)"}},
                   free;
-  const Tensor<1, 2> none, down({0.004, -0.02});
+  const Tensor<1, 2> none, down({0.004, -0.02}), along_left({-0.005, -0.02});
   const std::vector<ToldScene> scenes = {{"leaning",
                                           leaning,
                                           {{4, 2}},
@@ -773,7 +775,7 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                                           leaning,
                                           {{2, 3}},
                                           {{sticks, free, free, slips}},
-                                          {{none, none, down, none}},
+                                          {{none, none, along_left, none}},
                                           three_steps,
                                           12345},
                                          {"slip on either side of stick",
