@@ -70,7 +70,9 @@ CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
       else if (may_rub(k) && result[unknown] == Role::outside)
         result[unknown] = Role::free;
   add_normal_roles(result);
-  free_coupled_edges(result);
+  // Between bodies the unknowns of a jump hold nodes of both: what frees those of the other one lets w penetrate.
+  if (!solution.scene.has_pairs())
+    free_coupled_edges(result);
   return result;
 }
 
