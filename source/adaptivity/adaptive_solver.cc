@@ -201,8 +201,6 @@ PastStep<dim> AdaptiveSolver<dim>::Stages::past_step(const EstimateNorms &norms,
     past.relative_bound = ratio(bound.bound->total, energies.norm);
     past.own_stress = bound.bound->own_stress;
   }
-  past.seconds = (history.empty() ? 0. : history.back().seconds) +
-                 Utilities::MPI::max(backend->times.total(), backend->communicator);
   past.lacks_condition = reduced && (!std::isfinite(reduced->condition_raw) ||
                                      !std::isfinite(reduced->condition_scaled));
   return past;
@@ -247,6 +245,8 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report()
   step.contact = std::move(contact);
   step.errors = true_error.measure(field, step.contact);
   add_results(step);
+  history.back().seconds = (history.size() < 2 ? 0. : history[history.size() - 2].seconds) +
+                           Utilities::MPI::max(backend->times.total(), backend->communicator);
   step.times = std::exchange(backend->times, {});
   step.seconds = past.seconds;
   step.peak_memory = peak_memory(backend->communicator);

@@ -49,7 +49,8 @@ Tensor<1, dim> NodeFreedom<dim>::only_direction(const Node &node) const
 template <int dim>
 bool NodeFreedom<dim>::is_held(const Node &node, const Tensor<1, dim> &direction) const
 {
-  constexpr double sideways = 0.05; // as far as it moves at most for what it is to move along the direction
+  constexpr double sideways =
+      0.05; // as far as it moves at most for what it is to move along the direction
   if (is_on_plate(node) ||
       (unknowns.terms(node[0]).size() == 0 && unknowns.terms(node[1]).size() == 0))
     return true;

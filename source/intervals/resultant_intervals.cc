@@ -234,7 +234,7 @@ void ResultantIntervals::set(const OfBoundary &boundary, const double bound,
   row.normal.interval = of({{Motion::normal, 1.}});
   row.friction.interval = of({{Motion::tangential, 1.}});
   const Side<2> &side = sides[boundary.boundary];
-  if (!side.is_flat())
+  if (!is_straight(side))
     return;
   const Tensor<1, 2> n = side.normal(side.point(0, 0.5));
   row.force[0].interval = of({{Motion::normal, n[0]}, {Motion::tangential, -n[1]}});

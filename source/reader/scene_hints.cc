@@ -17,7 +17,7 @@ std::vector<Hint> hints_about_body()
            "set " + elasticity},
           {{"rho", "weight", "g", "self weight"},
            "weight is \"Material/Density\" times \"Body force/Gravity\" = gx; gy"},
-          {{"domain", "box", "size", "width", "height", "length", "dimensions", "corner"},
+          {{"domain", "box", "width", "height", "length", "dimensions", "corner"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\""},
           {{"mesh", "mesh size", "grid", "cells", "elements", "element size", "resolution", "nx",
             "ny", "n", "h", "refinement", "refinements", "refinement levels", "initial refinement",
@@ -127,6 +127,7 @@ std::vector<Hint> hints_in_plane()
       {{"normal", "contact normal", "normal direction", "direction"},
        "contact is along the normal of the body, or along \"Boundary bottom/Contact direction\" = "
        "dx; dy"},
+      {{"size"}, "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\""},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress", "axisymmetric", "axisymmetry", "axial symmetry"},
        "set \"Material/Plane\" to stress, strain or axisymmetric"},

@@ -40,9 +40,9 @@ void run(const Scene<2> &scene, const fs::path &directory)
         EXPECT_GT(step.energies.norm, 0.);
       });
   output.finish();
-  for (const std::string &name :
-       std::vector<std::string>{"solution" + last + ".vtu", "mesh" + last + ".svg",
-                                "convergence.csv", "degrees.csv", "forces.csv", "scene.prm", "summary.json"})
+  for (const std::string &name : std::vector<std::string>{
+           "solution" + last + ".vtu", "mesh" + last + ".svg", "convergence.csv", "degrees.csv",
+           "forces.csv", "scene.prm", "summary.json"})
     EXPECT_GT(fs::file_size(directory / name), 20U) << name;
   EXPECT_EQ(fs::exists(directory / ("contact" + last + ".csv")), scene.has_contact());
 }

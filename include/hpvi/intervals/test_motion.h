@@ -41,7 +41,7 @@ enum class TractionKind
  * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. What a pressure does there is
  * known where contact is open (open_contact.h). Reactions bear no fall.
  *
- * In the plane, on flat sides.
+ * In the plane, on straight sides.
  */
 class TestMotion
 {
@@ -95,6 +95,9 @@ private:
   std::string why_not;
   std::vector<Fall> all_falls;
 };
+
+/** Has it one normal? */
+bool is_straight(const Side<2> &side);
 
 /** Along two orthonormal directions of a boundary at a point with @p normal. */
 struct TractionAlong
