@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace hpvi
 {
 namespace
 {
-/** Smaller ones leave less to substitution, larger ones more to each product: measured with 18 to 98 unknowns. */
-constexpr unsigned int block = 8;
-
 /** A := L with `A = L L'`, in the lower triangle. Is A positive definite? */
 bool factor_block(const unsigned int n, double *const A, const unsigned int stride)
 {
@@ -58,7 +54,6 @@ void invert_block(const unsigned int n, const double *const L, const unsigned in
 bool BlockCholesky::factor(const unsigned int rows, const unsigned int n, double *const A,
                            const unsigned int stride)
 {
-  this->rows = rows;
   this->n = n;
   L = {A, stride};
   inverses.resize(n * block);
@@ -80,25 +75,6 @@ bool BlockCholesky::factor(const unsigned int rows, const unsigned int n, double
              diagonal + width, stride);
   }
   return true;
-}
-
-void BlockCholesky::extend(double *const E)
-{
-  const unsigned int m = rows - n;
-  for (unsigned int last = n; last > 0;)
-  {
-    const unsigned int first = (last - 1) / block * block, width = last - first;
-    const double *const columns = L.entries + std::size_t(first) * L.stride;
-    for (unsigned int j = 0; j < width; ++j)
-      std::transform(columns + n + std::size_t(j) * L.stride,
-                     columns + rows + std::size_t(j) * L.stride, &scratch[j * m], std::negate<>());
-    if (last < n)
-      multiply('N', 'N', m, width, n - last, -1., {E + std::size_t(last) * m, m},
-               {columns + last, L.stride}, 1., scratch.data(), m);
-    multiply('N', 'N', m, width, width, 1., {scratch.data(), m}, {&inverses[first * block], width},
-             0., E + std::size_t(first) * m, m);
-    last = first;
-  }
 }
 
 void subtract_square(const unsigned int n, const unsigned int inner, const DensePart A,

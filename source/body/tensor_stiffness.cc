@@ -249,6 +249,29 @@ void TensorStiffness::sum_rotations(const Scene<2> &scene, const CellMap<2> &map
   }
 }
 
+/** Brings the sums of one pair (i2, j2), or of (j2, i2), to their places in K. */
+void TensorStiffness::scatter(const unsigned int pair, const unsigned int n_pairs,
+                              const bool is_swapped, const Half &half, const double turning,
+                              std::vector<double> &K) const
+{
+  const std::size_t first = std::size_t(pair) * n_pairs;
+  const double *const P = &symmetric[n_blocks * first], *const Q = &skew[n_blocks * first],
+                      *const rotation = rotations[is_swapped].empty()
+                                            ? &half.rotations[first]
+                                            : &rotations[is_swapped][first];
+  const double sign = is_swapped ? -1. : 1.;
+  for (unsigned int b = 0; b < 2; ++b)
+    for (unsigned int k = 0; k < n_pairs; ++k)
+      K[half.of[b][first + k]] = P[b * n_pairs + k] + sign * Q[b * n_pairs + k];
+  for (unsigned int k = 0; k < n_pairs; ++k)
+  {
+    const double both = P[2 * n_pairs + k] + sign * Q[2 * n_pairs + k],
+                 turned = turning * rotation[k];
+    K[half.of[2][first + k]] = both + turned;
+    K[half.of[3][first + k]] = both - turned;
+  }
+}
+
 void TensorStiffness::integrate(const Scene<2> &scene, const CellMap<2> &map,
                                 const HookesLaw<2> &law, const unsigned int degree,
                                 const std::array<unsigned int, 2> &n_points, std::vector<double> &K)
@@ -276,27 +299,11 @@ void TensorStiffness::integrate(const Scene<2> &scene, const CellMap<2> &map,
   if (determinant(map.jacobian(Point<2>(0.5, 0.5))) < 0)
     turning = -turning;
   K.resize(4 * n * n * n * n);
-  for (const bool is_swapped : {false, true})
-  {
-    const Half &half = into.halves[is_swapped];
-    const double *const rotation =
-        scene.is_axisymmetric() ? rotations[is_swapped].data() : half.rotations.data();
-    const double sign = is_swapped ? -1. : 1.;
-    for (unsigned int column = 0; column < n_pairs; ++column)
-    {
-      const double *const P = &symmetric[column * n_rows], *const Q = &skew[column * n_rows];
-      const std::size_t first = std::size_t(column) * n_pairs;
-      for (unsigned int b = 0; b < 2; ++b)
-        for (unsigned int k = 0; k < n_pairs; ++k)
-          K[half.of[b][first + k]] = P[b * n_pairs + k] + sign * Q[b * n_pairs + k];
-      for (unsigned int k = 0; k < n_pairs; ++k)
-      {
-        const double both = P[2 * n_pairs + k] + sign * Q[2 * n_pairs + k],
-                     turned = turning * rotation[first + k];
-        K[half.of[2][first + k]] = both + turned;
-        K[half.of[3][first + k]] = both - turned;
-      }
-    }
-  }
+  // Both halves of a pair at once: what they write are a few rows of a few columns, which stay in the cache.
+  for (unsigned int j2 = 0, pair = 0; j2 < n; ++j2)
+    for (unsigned int i2 = 0; i2 <= j2; ++i2, ++pair)
+      for (const bool is_swapped : {false, true})
+        if (i2 < j2 || !is_swapped)
+          scatter(pair, n_pairs, is_swapped, into.halves[is_swapped], turning, K);
 }
 } // namespace hpvi

@@ -3,6 +3,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/discretisation/condensation.h>
 #include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/discretisation/internal_forces.h>
 
 #include <algorithm>
 #include <iterator>
@@ -30,10 +31,19 @@ void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
 }
 } // namespace
 
+void CondensedElement::solve_inside(double *const x) const
+{
+  if (interior.n() > 0)
+    interior.solve(x);
+  else
+    solve_by_cholesky(extension.m(), factor, x);
+}
+
 template <int dim>
 CondensedElements<dim>::CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables,
                                           const Volume volume)
-    : matrices(scene, tables, volume), interior_loads(has_interior_loads(scene))
+    : scene(scene), tables(tables), matrices(scene, tables, volume),
+      interior_loads(has_interior_loads(scene))
 {
 }
 
@@ -71,7 +81,7 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
   return element;
 }
 
-// With `K_ii = L L'` and `W = K_bi L'^-1` what is left is `K_bb - W W'`, and `u_i = -L'^-1 W' u_b`.
+// With `K_ii = L L'` and `W = K_bi L'^-1` what is left is `K_bb - W W'`.
 template <int dim>
 std::shared_ptr<CondensedElement> CondensedElements<dim>::condense(std::vector<double> &K,
                                                                    const unsigned int n,
@@ -84,11 +94,7 @@ std::shared_ptr<CondensedElement> CondensedElements<dim>::condense(std::vector<d
   {
     AssertThrow(cholesky.factor(n, n_interior, K.data(), n), LACExceptions::ExcSingular());
     subtract_square(n_boundary, n_interior, {K_bi, n}, K_bb, n);
-    element->extension = PooledMatrix(n_interior, n_boundary, pool);
-    cholesky.extend(element->extension.row(0)); // by rows it is its transpose by columns
-    for (unsigned int j = 0; j < n_interior && interior_loads; ++j)
-      element->factor.insert(element->factor.end(), &K[std::size_t(j) * n],
-                             &K[std::size_t(j) * n] + n_interior);
+    element->interior = BlockFactor(cholesky, pool);
   }
   element->condensed = PooledMatrix(n_boundary, n_boundary, pool);
   for (unsigned int j = 0; j < n_boundary; ++j)
@@ -183,7 +189,8 @@ void CondensedElements<dim>::forget_unused()
 template <int dim>
 Condensation<dim>::Condensation(const DisplacementSpace<dim> &space,
                                 CondensedElements<dim> &condensed)
-    : space(space), elements(space.degrees().size())
+    : space(space), scene(condensed.scene), tables(condensed.tables),
+      elements(space.degrees().size())
 {
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
@@ -191,6 +198,8 @@ Condensation<dim>::Condensation(const DisplacementSpace<dim> &space,
       const unsigned int index = cell->active_cell_index();
       elements[index] =
           condensed.get(map_of<dim>(cell), space.degrees()[index], cell->material_id());
+      if (elements[index]->n_interior() > 0)
+        (elements[index]->interior.n() > 0 ? with_interior : with_extension).push_back(index);
     }
 }
 
@@ -201,25 +210,59 @@ Condensation<dim>::element(const unsigned int cell) const
   return elements[cell];
 }
 
-/** Calls f(extension, unknowns, x inside, x on the boundary) for each cell that has unknowns inside. */
+/** Calls f(extension, unknowns, x inside, x on the boundary) for each cell that has an extension. */
 template <int dim>
 template <class F>
 void Condensation<dim>::for_each_extension(const F &f) const
 {
   Vector<double> inside, boundary; // keep their memory from cell to cell
-  for (unsigned int cell = 0; cell < elements.size(); ++cell)
-    if (elements[cell] && elements[cell]->extension.m() > 0)
-    {
-      const PooledMatrix &extension = elements[cell]->extension;
-      inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
-      boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
-      f(extension, space.cell_dofs(cell), inside, boundary);
-    }
+  for (const unsigned int cell : with_extension)
+  {
+    const PooledMatrix &extension = elements[cell]->extension;
+    inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
+    boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
+    f(extension, space.cell_dofs(cell), inside, boundary);
+  }
+}
+
+namespace
+{
+void by_own_factor(const CondensedElement &element, Vector<double> &x)
+{
+  element.solve_inside(x.begin());
+}
+} // namespace
+
+/** `u_i := 0` of cells without extension. */
+template <int dim>
+void Condensation<dim>::clear_interiors(Vector<double> &u) const
+{
+  for (const unsigned int cell : with_interior)
+  {
+    const auto dofs = space.cell_dofs(cell);
+    for (unsigned int i = elements[cell]->condensed.m(); i < dofs.size(); ++i)
+      u[dofs[i]] = 0.;
+  }
+}
+
+/** K u, springs aside, which have nothing inside cells. */
+template <int dim>
+Vector<double> Condensation<dim>::strained(const Vector<double> &u) const
+{
+  return internal_forces(scene, space, tables, u).forces;
 }
 
 template <int dim>
 void Condensation<dim>::eliminate(Vector<double> &forces) const
 {
+  Vector<double> taken; // from cells without extension, before others have added what is theirs
+  if (!with_interior.empty())
+  {
+    Vector<double> x(forces.size());
+    solve_inside(with_interior, forces, by_own_factor, x);
+    taken = strained(x);
+    clear_interiors(taken);
+  }
   for_each_extension(
       [&](const auto &extension, const auto &dofs, auto &inside, auto &boundary)
       {
@@ -229,6 +272,8 @@ void Condensation<dim>::eliminate(Vector<double> &forces) const
         for (unsigned int i = 0; i < boundary.size(); ++i)
           forces[dofs[i]] += boundary[i];
       });
+  if (!with_interior.empty())
+    forces -= taken;
 }
 
 template <int dim>
@@ -243,6 +288,12 @@ void Condensation<dim>::extend(Vector<double> &u) const
         for (unsigned int i = 0; i < inside.size(); ++i)
           u[dofs[boundary.size() + i]] = inside[i];
       });
+  if (with_interior.empty())
+    return;
+  clear_interiors(u);
+  Vector<double> forces = strained(u);
+  forces *= -1.;
+  solve_inside(with_interior, forces, by_own_factor, u);
 }
 
 template <int dim>
@@ -261,24 +312,25 @@ Condensation<dim>::interiors(const CondensedElements<dim> &condensed) const
   return result;
 }
 
+/** `u_i += K_ii^-1 f_i` of some cells. */
 template <int dim>
 template <class Solve>
-void Condensation<dim>::solve_inside(const Vector<double> &forces, const Solve &solve,
+void Condensation<dim>::solve_inside(const std::vector<unsigned int> &cells,
+                                     const Vector<double> &forces, const Solve &solve,
                                      Vector<double> &u) const
 {
   Vector<double> inside; // keeps its memory from cell to cell
-  for (unsigned int cell = 0; cell < elements.size(); ++cell)
-    if (elements[cell] && elements[cell]->extension.m() > 0)
-    {
-      const auto dofs = space.cell_dofs(cell);
-      const unsigned int n_boundary = elements[cell]->extension.n();
-      inside.reinit(elements[cell]->extension.m(), /*omit_zeroing_entries=*/true);
-      for (unsigned int i = 0; i < inside.size(); ++i)
-        inside[i] = forces[dofs[n_boundary + i]];
-      solve(*elements[cell], inside);
-      for (unsigned int i = 0; i < inside.size(); ++i)
-        u[dofs[n_boundary + i]] += inside[i];
-    }
+  for (const unsigned int cell : cells)
+  {
+    const auto dofs = space.cell_dofs(cell);
+    const unsigned int n_boundary = elements[cell]->condensed.m();
+    inside.reinit(elements[cell]->n_interior(), /*omit_zeroing_entries=*/true);
+    for (unsigned int i = 0; i < inside.size(); ++i)
+      inside[i] = forces[dofs[n_boundary + i]];
+    solve(*elements[cell], inside);
+    for (unsigned int i = 0; i < inside.size(); ++i)
+      u[dofs[n_boundary + i]] += inside[i];
+  }
 }
 
 template <int dim>
@@ -286,20 +338,18 @@ void Condensation<dim>::add_interior(const Vector<double> &forces, const Interio
                                      Vector<double> &u) const
 {
   solve_inside(
-      forces,
+      with_extension, forces,
       [&](const CondensedElement &element, Vector<double> &inside)
       { interiors.at(&element).solve(inside); },
       u);
+  solve_inside(with_interior, forces, by_own_factor, u);
 }
 
 template <int dim>
 void Condensation<dim>::add_interior(const Vector<double> &forces, Vector<double> &u) const
 {
-  solve_inside(
-      forces,
-      [](const CondensedElement &element, Vector<double> &inside)
-      { solve_by_cholesky(inside.size(), element.factor, inside.begin()); },
-      u);
+  solve_inside(with_extension, forces, by_own_factor, u);
+  solve_inside(with_interior, forces, by_own_factor, u);
 }
 
 template class CondensedElements<2>;

@@ -372,7 +372,7 @@ NormalContact Scene<dim>::normal_contact() const
     return solver.normal_contact;
   // Nodes on the axis would have no weight.
   const bool has_nodes = dim == 2 && !is_axisymmetric() && solver.path != SolutionPath::primal &&
-                         !has_coulomb_friction() && !has_pairs();
+                         !has_coulomb_friction() && geometry.bodies.empty();
   return has_nodes ? NormalContact::nodes : NormalContact::multiplier;
 }
 

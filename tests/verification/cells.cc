@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What is computed cell by cell - shapes, stiffness, residuals - against deal.II's FEValues.
+#include "dense_elimination.h"
 #include "discretisation.h"
 
 #include <hpvi/evaluation/solution_field.h>
@@ -249,17 +250,6 @@ FullMatrix<double> stiffness_by_fe_values(const Vertices &vertices, const unsign
   return K;
 }
 
-double largest_difference(const FullMatrix<double> &A, const FullMatrix<double> &B)
-{
-  EXPECT_EQ(A.m(), B.m());
-  EXPECT_EQ(A.n(), B.n());
-  double largest = 0;
-  for (unsigned int i = 0; i < A.m(); ++i)
-    for (unsigned int j = 0; j < A.n(); ++j)
-      largest = std::max(largest, std::abs(A(i, j) - B(i, j)));
-  return largest;
-}
-
 class Stiffness : public ::testing::TestWithParam<NamedCell>
 {
 protected:
@@ -267,37 +257,14 @@ protected:
   const ShapeTables<2> tables;
 };
 
-/** Condensation and extension by plain inversion of the interior block. */
+/** By plain inversion of the interior block. */
 TEST_P(Stiffness, IsCondensedToTheBoundary)
 {
   CondensedElements<2> stiffnesses(scene, tables);
   for (const unsigned int p : {1u, 2u, 4u, 7u})
-  {
-    const auto element = stiffnesses.get(CellMap<2>(GetParam().vertices), p, 0);
-    const FullMatrix<double> K = stiffness_by_fe_values(GetParam().vertices, p, scene.materials[0]);
-    const unsigned int n_b = 8 * p, n_i = K.m() - n_b;
-    FullMatrix<double> condensed(n_b, n_b), extension(n_i, n_b);
-    condensed.fill(K);
-    if (n_i > 0)
-    {
-      FullMatrix<double> K_ii(n_i, n_i), K_ib(n_i, n_b), K_bi(n_b, n_i);
-      K_ii.fill(K, 0, 0, n_b, n_b);
-      K_ib.fill(K, 0, 0, n_b, 0);
-      K_bi.fill(K, 0, 0, 0, n_b);
-      K_ii.gauss_jordan();
-      K_ii.mmult(extension, K_ib);
-      extension *= -1.;
-      K_bi.mmult(condensed, extension, true);
-    }
-    EXPECT_LE(largest_difference(element->condensed.full(), condensed), 1e-11 * K.linfty_norm());
-    ASSERT_EQ(element->extension.m(), n_i);
-    if (n_i > 0)
-    {
-      EXPECT_LE(largest_difference(element->extension.full(), extension),
-                1e-11 * extension.linfty_norm());
-    }
-    EXPECT_EQ(element->factor.size(), n_i * n_i);
-  }
+    expect_condensed(*stiffnesses.get(CellMap<2>(GetParam().vertices), p, 0),
+                     stiffness_by_fe_values(GetParam().vertices, p, scene.materials[0]), 8 * p,
+                     1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Stiffness, ::testing::ValuesIn(cells), name_of);

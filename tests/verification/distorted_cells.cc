@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Sum factorisation and condensation of cells that are no parallelograms, beside plain sums over shape functions.
+#include "dense_elimination.h"
 #include "discretisation.h"
 
 #include <hpvi/body/element_matrices.h>
@@ -112,18 +113,6 @@ FullMatrix<double> plain_stiffness(const Scene<2> &scene, const CellMap<2> &map,
   return K;
 }
 
-double largest_difference(FullMatrix<double> A, const FullMatrix<double> &B)
-{
-  EXPECT_EQ(A.m(), B.m());
-  EXPECT_EQ(A.n(), B.n());
-  A.add(-1., B);
-  double largest = 0;
-  for (unsigned int i = 0; i < A.m(); ++i)
-    for (unsigned int j = 0; j < A.n(); ++j)
-      largest = std::max(largest, std::abs(A(i, j)));
-  return largest;
-}
-
 class DistortedCells : public ::testing::TestWithParam<std::string>
 {
 protected:
@@ -191,47 +180,17 @@ TEST_P(DistortedCells, DoNotStrainWhenTheyMove)
                 });
 }
 
-/** The condensed matrix and the extension by Gauss and Jordan. */
+/** As by Gauss and Jordan. */
 TEST_P(DistortedCells, AreCondensedAsByDenseElimination)
 {
-  Scene<2> loaded = scene_with(GetParam());
-  loaded.body_force = scene_of({{"Material/Young's modulus", "1"},
-                                {"Material/Poisson's ratio", "0"},
-                                {"Body force/Expression", "0; -1"},
-                                {"Boundary top/Displacement", "0; 0"}})
-                          .body_force;
+  CondensedElements<2> elements(scene, tables);
   for_each_cell({1, 2, 3, 4, 6, 9},
                 [&](const CellMap<2> &map, const unsigned int degree)
                 {
-                  const FullMatrix<double> K = matrices.stiffness(map, degree, 0);
-                  const unsigned int n_b = matrices.n_boundary(degree), n_i = K.m() - n_b;
-                  FullMatrix<double> condensed(n_b, n_b), extension(n_i, n_b);
-                  condensed.fill(K);
-                  if (n_i > 0)
-                  {
-                    FullMatrix<double> K_ii(n_i, n_i), K_ib(n_i, n_b), K_bi(n_b, n_i);
-                    K_ii.fill(K, 0, 0, n_b, n_b);
-                    K_ib.fill(K, 0, 0, n_b, 0);
-                    K_bi.fill(K, 0, 0, 0, n_b);
-                    K_ii.gauss_jordan();
-                    K_ii.mmult(extension, K_ib);
-                    extension *= -1.;
-                    K_bi.mmult(condensed, extension, true);
-                  }
-                  for (const Scene<2> *const each : {&scene, &std::as_const(loaded)})
-                  {
-                    CondensedElements<2> elements(*each, tables);
-                    const auto element = elements.get(map, degree, 0);
-                    EXPECT_LE(largest_difference(element->condensed.full(), condensed),
-                              1e-12 * K.linfty_norm());
-                    ASSERT_EQ(element->extension.m(), n_i);
-                    if (n_i > 0)
-                    {
-                      EXPECT_LE(largest_difference(element->extension.full(), extension),
-                                1e-11 * extension.linfty_norm());
-                    }
-                    EXPECT_EQ(element->factor.size(), each == &scene ? 0 : n_i * n_i);
-                  }
+                  const auto element = elements.get(map, degree, 0);
+                  expect_condensed(*element, matrices.stiffness(map, degree, 0),
+                                   matrices.n_boundary(degree), 1e-12);
+                  EXPECT_EQ(element->extension.m(), 0U);
                 });
 }
 
@@ -253,19 +212,84 @@ TEST(BlockCholesky, FactorsWhatIsPositiveDefinite)
     ASSERT_EQ(cholesky.factor(rows, n, A.data(), rows), bad == n) << bad;
     if (bad != n)
       continue;
-    std::vector<double> E((rows - n) * n);
-    cholesky.extend(E.data());
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = j; i < rows; ++i)
         EXPECT_NEAR(A[j * rows + i], L[j * rows + i], 1e-14) << i << ' ' << j;
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = 0; i < rows - n; ++i)
+    // (L L')^-1 x, multiplied by L L'.
+    MatrixPool pool;
+    const BlockFactor factor(cholesky, pool);
+    ASSERT_EQ(factor.n(), n);
+    std::vector<double> y(n), y_factored(n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      y[i] = std::sin(1. + i);
+    std::vector<double> x = y;
+    factor.solve(x.data());
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      double sum = 0;
+      for (unsigned int i = k; i < n; ++i)
+        sum += L[k * rows + i] * x[i];
+      for (unsigned int i = k; i < n; ++i)
+        y_factored[i] += L[k * rows + i] * sum;
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      EXPECT_NEAR(y_factored[i], y[i], 1e-13) << i;
+  }
+}
+
+/** Parallelograms have a matrix for it, other cells strains: both between them on one mesh, and forces the other way. */
+TEST(Condensation, FindsTheWayIntoCellsAndOut)
+{
+  const Scene<2> scene = scene_of({{"Body one/Shape", "quadrilateral"},
+                                   {"Body one/Corners", "0, 0; 2, 0; 1.7, 1.2; 0.2, 1"},
+                                   {"Body one/Subdivisions", "2, 2"},
+                                   {"Body two/Lower corner", "0, -1"},
+                                   {"Body two/Upper corner", "2, 0"},
+                                   {"Body two/Subdivisions", "2, 1"},
+                                   {"Contact joint/Between", "one.bottom, two.top"},
+                                   {"Contact joint/Law", "tied"},
+                                   {"Boundary two.bottom/Displacement", "0; 0"},
+                                   {"Body force/Expression", "0; -1"}});
+  const RandomMesh mesh(scene, 5, 1, 1, 5);
+  const Laboratory laboratory(scene, mesh);
+  const Condensation<2> &condensation = laboratory.discretisation.condensation;
+  const DisplacementSpace<2> &space = laboratory.displacement_space;
+  const ElementMatrices<2> matrices(scene, laboratory.tables);
+  std::mt19937 random(3);
+  const Vector<double> start = laboratory.random_field(random).u;
+  Vector<double> u = start, f = start, answer(u.size()), expected_u = u, expected_f = f,
+                 expected_answer = answer;
+  condensation.extend(u);
+  condensation.eliminate(f);
+  condensation.add_interior(start, answer);
+  unsigned int n_own = 0, n_shared = 0;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int index = cell->active_cell_index(), p = space.degrees()[index],
+                       n_b = matrices.n_boundary(p);
+    const auto dofs = space.cell_dofs(index);
+    const DenseElimination dense(matrices.stiffness(map_of<2>(cell), p, cell->material_id()), n_b);
+    n_own += condensation.element(index)->interior.n() > 0;
+    n_shared += condensation.element(index)->extension.m() > 0;
+    for (unsigned int i = 0; i + n_b < dofs.size(); ++i)
+    {
+      expected_u[dofs[n_b + i]] = 0.;
+      for (unsigned int j = 0; j < n_b; ++j)
       {
-        double W = 0;
-        for (unsigned int k = j; k < n; ++k)
-          W -= E[k * (rows - n) + i] * L[j * rows + k];
-        EXPECT_NEAR(W, L[j * rows + n + i], 1e-14) << i << ' ' << j;
+        expected_u[dofs[n_b + i]] += dense.extension(i, j) * start[dofs[j]];
+        expected_f[dofs[j]] += dense.extension(i, j) * start[dofs[n_b + i]];
       }
+      for (unsigned int j = 0; j + n_b < dofs.size(); ++j)
+        expected_answer[dofs[n_b + i]] += dense.inverse(i, j) * start[dofs[n_b + j]];
+    }
+  }
+  EXPECT_GT(n_own, 2U);
+  EXPECT_GT(n_shared, 2U);
+  for (unsigned int dof = 0; dof < u.size(); ++dof)
+  {
+    EXPECT_NEAR(u[dof], expected_u[dof], 1e-12) << dof;
+    EXPECT_NEAR(f[dof], expected_f[dof], 1e-12) << dof;
+    EXPECT_NEAR(answer[dof], expected_answer[dof], 1e-12) << dof;
   }
 }
 

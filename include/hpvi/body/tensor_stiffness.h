@@ -69,6 +69,8 @@ private:
                              const Products &x, const Products &y);
   void sum_rotations(const Scene<2> &scene, const CellMap<2> &map, const Products &x,
                      const Products &y, unsigned int n_pairs);
+  void scatter(unsigned int pair, unsigned int n_pairs, bool is_swapped, const Half &half,
+               double turning, std::vector<double> &K) const;
 
   const ShapeTables<2> &tables;
   std::map<std::array<unsigned int, 2>, Products> known_products;
@@ -78,7 +80,7 @@ private:
   std::array<std::vector<double>, 3>
       coefficients; ///< C_rs of (0,0), (0,1), (1,1): points x (blocks x points)
   std::vector<double> sums, symmetric, skew;
-  std::array<std::vector<double>, 2> rotations;
+  std::array<std::vector<double>, 2> rotations; ///< of an axisymmetric body; else empty
 };
 } // namespace hpvi
 

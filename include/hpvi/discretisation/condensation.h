@@ -5,6 +5,7 @@
 #include <boost/functional/hash.hpp>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <hpvi/algebra/block_cholesky.h>
+#include <hpvi/algebra/block_factor.h>
 #include <hpvi/algebra/pooled_matrix.h>
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/element_matrices.h>
@@ -24,9 +25,25 @@ namespace hpvi
 struct CondensedElement
 {
   PooledMatrix condensed; ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
+
+  // Of a parallelogram, which many cells share:
   PooledMatrix extension; ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
   std::vector<double>
       factor; ///< of K_ii by columns, n_i x n_i; empty unless loads act in the interior
+
+  /**
+   * K_ii of another cell, which has its matrices for itself. Condensation finds from strains what K_ib does: the extension
+   * would be a fifth of all work at the cell.
+   */
+  BlockFactor interior;
+
+  unsigned int n_interior() const
+  {
+    return extension.m() + interior.n();
+  }
+
+  /** `x := K_ii^-1 x`; of a parallelogram where loads act in the interior. */
+  void solve_inside(double *x) const;
 };
 
 /** Entry (local, target) of the matrix T that expresses the unknowns of a cell by free ones. */
@@ -60,6 +77,9 @@ public:
   /** Both must outlive this object. */
   CondensedElements(const Scene<dim> &scene, const ShapeTables<dim> &tables,
                     Volume volume = Volume::full);
+
+  const Scene<dim> &scene;
+  const ShapeTables<dim> &tables;
 
   Volume volume() const;
 
@@ -111,7 +131,7 @@ template <int dim>
 class Condensation
 {
 public:
-  /** The space must outlive this object. */
+  /** The space must outlive this object, and what @p elements are made of. */
   Condensation(const DisplacementSpace<dim> &space, CondensedElements<dim> &elements);
 
   /** By active cell index. */
@@ -123,7 +143,7 @@ public:
   /** u_i of every cell from u_b, `-K_ii^-1 K_ib u_b`. */
   void extend(dealii::Vector<double> &u) const;
 
-  /** The factored blocks K_ii by element: what is asked for by add_interior(). */
+  /** The factored blocks K_ii of elements that have none of their own: what is asked for by add_interior(). */
   using Interiors = std::map<const CondensedElement *, dealii::LAPACKFullMatrix<double>>;
   Interiors interiors(const CondensedElements<dim> &elements) const;
 
@@ -139,11 +159,16 @@ private:
   void for_each_extension(const F &f) const;
 
   template <class Solve>
-  void solve_inside(const dealii::Vector<double> &forces, const Solve &solve,
-                    dealii::Vector<double> &u) const;
+  void solve_inside(const std::vector<unsigned int> &cells, const dealii::Vector<double> &forces,
+                    const Solve &solve, dealii::Vector<double> &u) const;
+  dealii::Vector<double> strained(const dealii::Vector<double> &u) const;
+  void clear_interiors(dealii::Vector<double> &u) const;
 
   const DisplacementSpace<dim> &space;
+  const Scene<dim> &scene;
+  const ShapeTables<dim> &tables;
   std::vector<std::shared_ptr<const CondensedElement>> elements; ///< by active cell index
+  std::vector<unsigned int> with_extension, with_interior;       ///< cells that have these
 };
 } // namespace hpvi
 
