@@ -234,7 +234,7 @@ class Summaries(RunTest):
             self.check_members("done", "message", "normal_contact", "loading", "error_bound", "last_error_bound")
             self.assertIsNone(self.summary()["final"]["estimate_relative"])
         self.run_scene(scene=self.still("0; 0"))
-        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound", "no_intervals")
+        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
 
     def test_a_missing_bound_is_explained(self):
         """Far from its support a beam hardly strains: what it does is lost in cells that are small."""
