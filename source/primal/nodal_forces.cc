@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/primal/nodal_forces.h>
 
+#include <hpvi/base/processes.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/load_quadrature.h>
 
@@ -204,7 +205,7 @@ NodalForces<dim> NodalReactions<dim>::forces() const
       result.reactions.push_back({boundary, force, node.x});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
-  result.tractions = tractions(space);
+  together(space.communicator(), [&]() { result.tractions = tractions(space); });
   return result;
 }
 } // namespace
