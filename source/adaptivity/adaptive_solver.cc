@@ -263,9 +263,13 @@ void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
   step.forces = resultants(scene, step.equilibrium, step.contact);
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
-  step.no_intervals = step.bound ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
-  if (step.bound)
+  if (!step.bound)
+    step.no_intervals = step.no_bound;
+  else if (scene.intervals)
+  {
+    step.no_intervals = backend->bound_forces(*step.bound, step.forces);
     mean_intervals.set(step);
+  }
   history.back().relative_half_width = relative_half_width(step);
 }
 

@@ -22,6 +22,8 @@
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -108,6 +110,25 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
   result.total = std::min(result.oscillation +
                               std::sqrt(eta_square + 2 * gap + std::pow(b + result.oscillation, 2)),
                           (A + b) / 2 + std::sqrt(std::pow(A + b, 2) / 4 + gap + A * b));
+}
+
+/** Of the stress between sigma(u_N) and s that is nearest to that of the solution; doc/bound.md has the proof. */
+void set_radius(ErrorBound &result, const EquilibratedStress &stress,
+                const ContactCorrection<2> &correction, const DataError &data)
+{
+  const double eta_square = sum(stress.squares), gap = std::max(0., sum(correction.gap())),
+               b = distance_from_admissible(correction, data), O = result.oscillation;
+  const auto radius = [&](const double theta)
+  {
+    const double rest = 1 - theta;
+    return std::sqrt(rest * (rest * eta_square + 2 * gap + rest / (1 - 2 * theta) * b * b +
+                             2 * O * (result.total + b))) +
+           theta * O;
+  };
+  const auto [theta, least] = boost::math::tools::brent_find_minima(radius, 0., 0.499, 20);
+  if (least < result.total)
+    result.theta = theta;
+  result.radius = std::min(least, result.total);
 }
 
 /** Of U = u_N - w + d; w, in V_N, is none but where u_N may penetrate. */
@@ -329,6 +350,8 @@ try
   const DataError data(solution, stress);
   set_squares(result, solution, stress, correction, data);
   set_norms(result, stress, correction, data);
+  set_radius(result, stress, correction, data);
+  result.tractions = edge_tractions(stress);
   if (solution.scene.has_unilateral_contact() || solution.scene.has_pairs())
     set_energy(
         result, solution, discretisation, stress,

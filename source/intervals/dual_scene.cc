@@ -2,6 +2,7 @@
 #include <hpvi/intervals/dual_scene.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int exponent = 6; ///< smooth enough for rules of quadrature, narrow enough
+constexpr int exponent = 6; ///< smooth enough for rules of quadrature, narrow enough
 
 /** Without loads, and without what V does not know. */
 void forget_data(BoundaryCondition<2> &boundary)
@@ -95,9 +96,10 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
         { return mean.density(x.distance(at)); }));
   result.thickness = 1;
   result.adaptivity = Adaptivity();
-  result.adaptivity.tolerance = 0.1;
+  result.adaptivity.tolerance = 0.3; // at most 5 % more than |z|_a
   result.adaptivity.maximum_unknowns = 20000;
   result.error_bound = true;
+  result.intervals = false;
   result.solver = SolverSettings();
   return result;
 }
@@ -105,7 +107,8 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
 double SmoothMean::density(const double s) const
 {
   const double rest = 1 - s * s / (radius * radius);
-  return rest > 0 ? (exponent + 1) / (numbers::PI * radius * radius) * std::pow(rest, exponent)
+  return rest > 0 ? (exponent + 1) / (numbers::PI * radius * radius) *
+                        Utilities::fixed_power<exponent>(rest)
                   : 0.;
 }
 
@@ -146,8 +149,8 @@ SmoothMean smooth_mean(const Scene<2> &scene, const Probe<2> &probe)
     {
       const double s = begin + (end - begin) * gauss.point(q)[0],
                    inside = std::min(1., std::pow(s / probe.size, 2)),
-                   smooth = 1 - std::pow(std::max(0., 1 - std::pow(s / result.radius, 2)),
-                                         int(exponent) + 1);
+                   smooth =
+                       1 - std::pow(std::max(0., 1 - std::pow(s / result.radius, 2)), exponent + 1);
       square += gauss.weight(q) * (end - begin) * std::pow(inside - smooth, 2) / s;
     }
   result.remainder = std::sqrt(largest_compliance(scene) * square / (2 * numbers::PI));

@@ -9,7 +9,10 @@
 // times $|w|_a$. So all that is wanted are displacements of small energy with known boundary values. They are no part of
 // the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
 // edge than $V_N$ has.
+#include <hpvi/body/load_quadrature.h>
 #include <hpvi/intervals/resultant_intervals.h>
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +28,8 @@ constexpr double largest_share = 0.1, aim = 0.01;
 
 /** A corner's edge is not bisected more often: coordinates have 16 digits. */
 constexpr unsigned int most_levels = 30;
+
+constexpr unsigned int n_points_of_loads = 24; ///< on each piece of an edge
 } // namespace
 
 ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene)
@@ -168,8 +173,52 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
       }
       goal.rounding =
           1e-14 * absolute + loads.difference() * loads.sum().absolute * goal.test.largest();
+      measure_tractions(goal, solution, bound);
       measure_pressure(goal, solution, bound);
     }
+}
+
+// The stress of the bound says the force as well, by its tractions. w is known along the boundary, and linear between the ends of
+// edges and falls.
+void ResultantIntervals::measure_tractions(Goal &goal, const Solution<2> &solution,
+                                           const ErrorBound &bound) const
+{
+  const std::vector<double> l = space->lengths(goal.test);
+  double absolute = 0;
+  goal.of_stress = 0;
+  for (const EdgeTraction &edge : bound.tractions)
+  {
+    const Load<2> &load = scene.boundaries[edge.boundary].traction;
+    const bool is_loaded = scene.boundaries[edge.boundary].has_traction();
+    std::vector<double> cuts = goal.test.kinks(edge.boundary, edge.begin, edge.end, l);
+    if (cuts.empty())
+      continue;
+    if (is_loaded)
+    {
+      const auto own = solution.spaces->loads->traction(edge.cell, edge.face, 1).cuts;
+      cuts.insert(cuts.end(), own.begin(), own.end());
+    }
+    std::sort(cuts.begin(), cuts.end());
+    const QGauss<1> gauss(is_loaded ? n_points_of_loads : edge.n_coefficients() / 2 + 1);
+    for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = cuts[piece] + (cuts[piece + 1] - cuts[piece]) * gauss.point(q)[0];
+        const Point<2> x = edge.point(s);
+        const double weight =
+            gauss.weight(q) * (cuts[piece + 1] - cuts[piece]) * edge.begin.distance(edge.end);
+        Tensor<1, 2> T = edge.value(s);
+        if (is_loaded)
+          T -= load_at<2>(load, x);
+        for (const PointCondition<2> &w : goal.test.conditions(edge.boundary, x, l))
+        {
+          const double part = weight * w.value * (w.direction * T);
+          goal.of_stress += part;
+          absolute += std::abs(part);
+        }
+      }
+  }
+  goal.defect = (1e-14 + bound.imbalance) * absolute;
 }
 
 void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solution,
@@ -194,9 +243,10 @@ void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solutio
 std::optional<Interval>
 ResultantIntervals::interval(const OfBoundary &boundary,
                              const std::vector<std::pair<BoundaryMotion, double>> &sum,
-                             const double bound) const
+                             const ErrorBound &bound) const
 {
   Interval result;
+  double of_stress = 0, defect = 0;
   Vector<double> w;
   for (const auto &[motion, factor] : sum)
   {
@@ -209,16 +259,23 @@ ResultantIntervals::interval(const OfBoundary &boundary,
       continue; // no traction
     result.centre += factor * goal->centre;
     result.half_width += std::abs(factor) * (goal->friction + goal->pressure + goal->rounding);
+    of_stress += factor * goal->of_stress;
+    defect += std::abs(factor) * goal->defect;
     if (w.size() == 0)
       w.reinit(goal->w.size());
     w.add(factor, goal->w);
   }
-  if (w.size() > 0)
-    result.half_width += bound * std::sqrt(std::max(0., space->product(w, w)));
+  if (w.size() == 0)
+    return result;
+  const double norm = std::sqrt(std::max(0., space->product(w, w))); // round-off
+  const double half_way = bound.radius * norm + bound.theta * defect;
+  if (half_way < bound.total * norm)
+    result.centre += bound.theta * (of_stress - result.centre);
+  result.half_width += std::min(half_way, bound.total * norm);
   return result;
 }
 
-void ResultantIntervals::set(const OfBoundary &boundary, const double bound,
+void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound,
                              Resultant<2> &row) const
 {
   using Motion = BoundaryMotion;
@@ -256,7 +313,7 @@ std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBoun
   for (Resultant<2> &row : forces)
     for (const OfBoundary &boundary : boundaries)
       if (row.kind != ForceKind::load && row.boundary == boundary.boundary)
-        set(boundary, bound.total, row);
+        set(boundary, bound, row);
   return flaws();
 }
 } // namespace hpvi

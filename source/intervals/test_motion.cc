@@ -246,6 +246,22 @@ double TestMotion::Fall::work(const Scene<2> &scene, const double l) const
   return result;
 }
 
+std::vector<double> TestMotion::kinks(const unsigned int boundary, const Point<2> &begin,
+                                      const Point<2> &end, const std::vector<double> &l) const
+{
+  std::vector<double> result = {0., 1.};
+  bool is_at_rest = boundary != goal;
+  for (unsigned int k = 0; k < all_falls.size(); ++k)
+    if (all_falls[k].boundary == boundary)
+    {
+      const double b = all_falls[k].from.distance(begin), e = all_falls[k].from.distance(end);
+      is_at_rest = is_at_rest && std::min(b, e) >= l[k];
+      if (const double s = (l[k] - b) / (e - b); s > 0 && s < 1)
+        result.push_back(s);
+    }
+  return is_at_rest ? std::vector<double>() : result;
+}
+
 unsigned int TestMotion::body_number() const
 {
   return body;

@@ -2,7 +2,7 @@
 #ifndef hpvi_error_bound_h
 #define hpvi_error_bound_h
 
-#include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/equilibration/edge_traction.h>
 #include <hpvi/equilibration/mixed_problem.h>
 #include <hpvi/stresses/edge_bubbles.h>
 
@@ -50,6 +50,19 @@ struct ErrorBound
 
   /** By active cell: |w|_K^2 and |d|_K, of what makes U of u_N. */
   std::vector<double> moved, lifted;
+
+  /**
+   * Between sigma(u_N) and s lies m = sigma(u_N) + theta (s - sigma(u_N)), which for some theta in [0, 1/2) is nearer to
+   * sigma(u) than either: |sigma(u) - m| <= R,
+   *
+   *     R^2 = (1 - theta) [(1 - theta) eta^2 + 2 gap + (1 - theta)/(1 - 2 theta) b^2 + 2 O (total + b)].
+   *
+   * Where R + theta O is least; s is in equilibrium but for O.
+   */
+  double theta = 0, radius = 0; ///< radius: R + theta O
+
+  /** s n on all edges of the boundary. */
+  std::vector<EdgeTraction> tractions;
 
   /** Largest imbalance of a patch, relative to its tractions: what round-off leaves of equilibrium. */
   double imbalance = 0;

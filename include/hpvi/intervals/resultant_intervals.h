@@ -16,9 +16,12 @@ namespace hpvi
 {
 /**
  * Guaranteed intervals of the forces that boundaries exert. With w of TestMotion the exact solution has F = a(u, w) - L(w) but
- * for the work of friction where w falls, so that with `F_w = a(u_N, w) - L(w)`
+ * for the work of friction where w falls, so that with `F_w = a(u_N, w) - L(w)`, `F_s = int (s n - G) . w` over the edges
+ * of the boundary and any theta
  *
- *     |F - F_w| <= B |w|_a + sum int g |fall| (1 - s/l) ds,    B = ErrorBound::total.
+ *     |F - (1 - theta) F_w - theta F_s| <= (R + theta O) |w|_a + sum int g |fall| (1 - s/l) ds,
+ *
+ * R + theta O = ErrorBound::radius for its theta, and ErrorBound::total for theta = 0.
  *
  * doc/bound.md has the proof. The test displacements of one step serve the next; where w falls its mesh gets finer as B
  * gets smaller, so that the second term stays below a tenth of the first.
@@ -46,6 +49,8 @@ private:
     bool is_pressed = false; ///< or that is not known
     double centre = 0;       ///< F_w
     double rounding = 0;     ///< what arithmetic and quadrature may add
+    double of_stress = 0;    ///< F_s
+    double defect = 0;       ///< what s, out of balance by round-off, may add to it
   };
 
   struct OfBoundary
@@ -64,11 +69,12 @@ private:
   double missing_levels(const Goal &goal, unsigned int fall, double length,
                         const Solution<2> &solution, const ErrorBound &bound) const;
   void measure(const Solution<2> &solution, const ErrorBound &bound);
+  void measure_tractions(Goal &goal, const Solution<2> &solution, const ErrorBound &bound) const;
   void measure_pressure(Goal &goal, const Solution<2> &solution, const ErrorBound &bound) const;
   std::optional<Interval> interval(const OfBoundary &boundary,
                                    const std::vector<std::pair<BoundaryMotion, double>> &sum,
-                                   double bound) const;
-  void set(const OfBoundary &boundary, double bound, Resultant<2> &row) const;
+                                   const ErrorBound &bound) const;
+  void set(const OfBoundary &boundary, const ErrorBound &bound, Resultant<2> &row) const;
 
   const Scene<2> &scene;
   std::vector<Side<2>> sides; ///< once they are asked for

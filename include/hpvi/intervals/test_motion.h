@@ -75,6 +75,10 @@ public:
   std::vector<PointCondition<2>> conditions(unsigned int boundary, const dealii::Point<2> &x,
                                             const std::vector<double> &l) const;
 
+  /** Where on the straight edge from @p begin to @p end of @p boundary w is not smooth: 0, ends of falls, 1; none: w does no work there. */
+  std::vector<double> kinks(unsigned int boundary, const dealii::Point<2> &begin,
+                            const dealii::Point<2> &end, const std::vector<double> &l) const;
+
   unsigned int body_number() const; ///< of the body that has the boundary: on others w = 0
 
   double largest() const; ///< |R| on the boundary is no more

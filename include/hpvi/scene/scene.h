@@ -229,6 +229,7 @@ struct Scene
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
   bool error_bound = true;               ///< compute ErrorBound where there is one
+  bool intervals = true;                 ///< of forces and means, where there is an ErrorBound
   bool bound_on_distorted_cells = false; ///< too, where cells are no parallelograms
   SolverSettings solver;
   OutputSettings output;

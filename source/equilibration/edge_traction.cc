@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/equilibration/edge_traction.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+Point<2> EdgeTraction::point(const double s) const
+{
+  return begin + s * (end - begin);
+}
+
+Tensor<1, 2> EdgeTraction::value(const double s) const
+{
+  return Point<2>(legendre::evaluate(components[0], 2 * s - 1),
+                  legendre::evaluate(components[1], 2 * s - 1));
+}
+
+unsigned int EdgeTraction::n_coefficients() const
+{
+  return std::max(components[0].size(), components[1].size());
+}
+
+// Tractions of edges point towards growing reference coordinates of their first cell.
+std::vector<EdgeTraction> edge_tractions(const EquilibratedStress &stress)
+{
+  const VertexPatches &patches = stress.patches();
+  std::vector<EdgeTraction> result;
+  for (unsigned int e = 0; e < patches.edges().size(); ++e)
+  {
+    const StressEdge &edge = patches.edges()[e];
+    if (!edge.at_boundary())
+      continue;
+    const StressEdge::Side &first = edge.sides[0];
+    const CellMap<2> map = map_of<2>(patches.cells()[first.cell].iterator);
+    for (unsigned int k = 0; k < edge.sides.size(); ++k)
+    {
+      const auto &cell = patches.cells()[edge.sides[k].cell].iterator;
+      const unsigned int face = edge.sides[k].face;
+      EdgeTraction traction{cell,
+                            face,
+                            cell->face(face)->boundary_id(),
+                            map.point(point_on_face<2>(first.face, Point<1>(0.))),
+                            map.point(point_on_face<2>(first.face, Point<1>(1.))),
+                            {}};
+      const double sign = (first.face % 2 == 1) == (k == 0) ? 1. : -1.;
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        traction.components[c].resize(std::max(edge.components[0].n, edge.components[1].n));
+        for (unsigned int d = 0; d < 2; ++d)
+          for (unsigned int i = 0; i < edge.components[d].n; ++i)
+            traction.components[c][i] +=
+                sign * edge.components[d].direction[c] * stress.tractions()[e][d][i];
+      }
+      result.push_back(std::move(traction));
+    }
+  }
+  return result;
+}
+} // namespace hpvi
