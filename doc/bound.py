@@ -377,7 +377,7 @@ def aspect_row(lab, body, corner, mesh, squares, settings):
 
 def forces(lab):
     """Half-widths of forces and mean displacements beside the errors of their centres, which a longer run tells."""
-    rows, runs = [], {}
+    rows, shown, runs = [], [], {}
     for quantity, (scene, settings, name, column) in QUANTITIES.items():
         key = (scene, *settings)
         if key not in runs:
@@ -392,18 +392,49 @@ def forces(lab):
         else:
             values = [(step, float(row[column]), float(row[column + "_bound"])) for step, row in steps.items()
                       if row[column + "_bound"]]
-        truth = values[-1][1]
+        truth, doubt = values[-1][1:]
+        shown += [{"quantity": quantity, "N": steps[step]["dofs_free"], "half-width": number(half),
+                   "error": number(abs(centre - truth)) if abs(centre - truth) > doubt else ""}
+                  for step, centre, half in values[:-2]]
         for wanted in (1500, 15000):
             step, centre, half = min(values[:-2], key=lambda v: abs(np.log(float(steps[v[0]]["dofs_free"]) / wanted)))
             row = steps[step]
             stages = sum(float(value) for stage, value in row.items() if stage.startswith("seconds_") and value)
             error = abs(centre - truth)
             rows.append({"quantity": quantity, "N": row["dofs_free"], "half-width": number(half),
-                         "error of the centre": number(error) if error > values[-1][2] else f"< {number(values[-1][2])}",
+                         "error of the centre": number(error) if error > doubt else f"< {number(doubt)}",
                          "half-width over the bound of the error": plain(half / float(row["error_bound"]), 2),
                          "digits": plain(-np.log10(half / abs(centre)), 2),
                          "seconds_recover over the step": plain(float(row["seconds_recover"]) / stages, 2)})
     put_table("forces", rows, page=PAGE)
+    write_csv(GALLERY / "widths.csv", shown)
+    draw_widths()
+
+
+def draw_widths():
+    """From widths.csv, a panel for each quantity: the interval's half-width above the error of its centre."""
+    figure, panels = plt.subplots(3, 3, figsize=(12, 10), sharex=True, layout="constrained")
+    figure.suptitle("Half-widths of guaranteed intervals and the errors of their centres, hpa3 marked by the bound")
+    rows = read_csv(GALLERY / "widths.csv")
+    for axes, quantity in zip(panels.flat, QUANTITIES):
+        own = [row for row in rows if row["quantity"] == quantity]
+        known = [row for row in own if row["error"]]
+        axes.loglog([float(row["N"]) for row in own], [float(row["half-width"]) for row in own], "o-",
+                    color=COLOURS[0], markersize=4, label="half-width")
+        axes.loglog([float(row["N"]) for row in known], [float(row["error"]) for row in known], "s-",
+                    color=COLOURS[1], markersize=4, label="error of the centre")
+        quotients = [float(row["half-width"]) / float(row["error"]) for row in known if float(row["error"]) > 0]
+        if quotients:
+            axes.text(0.97, 0.96, f"quotient {min(quotients):.0f} to {max(quotients):.0f}", transform=axes.transAxes,
+                      ha="right", va="top", fontsize=9)
+        axes.set(title=quantity)
+        axes.grid(alpha=0.3)
+    for axes in panels[-1]:
+        axes.set_xlabel(N_LABEL)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("in units of the scene")
+    panels[0, 0].legend(loc="lower left", fontsize=9)
+    save(figure, "widths.png", PAGE)
 
 
 def main():
@@ -413,10 +444,11 @@ def main():
     parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect", "forces"],
                         help="measure nothing else than the time, than what the charts of effectivities and intervals show, "
                              "than skew parallelograms, than long cells, or than intervals of forces")
-    parser.add_argument("--draw", action="store_true", help="run nothing: draw that chart from doc/bound/chart.csv")
+    parser.add_argument("--draw", action="store_true", help="run nothing: draw two charts from doc/bound/chart.csv and widths.csv")
     arguments = parser.parse_args()
     if arguments.draw:
         draw_effectivity()
+        draw_widths()
         return
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     GALLERY.mkdir(exist_ok=True)

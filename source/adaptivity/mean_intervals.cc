@@ -4,6 +4,7 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/intervals/dual_scene.h>
+#include <hpvi/intervals/stress_work.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,36 +64,38 @@ MeanIntervals<dim>::MeanIntervals(const Scene<dim> &scene) : scene(scene)
 // @sect3{The norm of a mean}
 //
 template <>
-const MeanIntervals<2>::Norm &MeanIntervals<2>::norm(const unsigned int number,
+const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
                                                      const unsigned int component)
 {
   const auto [place, is_new] =
-      norms.emplace(std::array<unsigned int, 2>{{number, component}}, Norm());
-  Norm &result = place->second;
+      duals.emplace(std::array<unsigned int, 2>{{number, component}}, Dual());
+  Dual &result = place->second;
   if (!is_new)
     return result;
   const Probe<2> &probe = scene.probes[number];
-  const Scene<2> dual = dual_scene(scene, probe, component);
+  result.scene = std::make_shared<const Scene<2>>(dual_scene(scene, probe, component));
   result.why = moves;
-  if (!is_held(dual))
+  if (!is_held(*result.scene))
     return result;
   try
   {
-    AdaptiveSolver<2>(dual).run(
-        [&](const StepReport<2> &step)
-        {
-          result.why = step.no_bound;
-          if (!step.bound)
-            return;
-          if (!sees_all(step.solution(), component))
-          {
-            result.why = "the disc is too small beside the body";
-            return;
-          }
-          const double norm = std::hypot(step.energies.norm, step.bound->total);
-          result.value = result.value ? std::min(*result.value, norm) : norm;
-        },
-        [](const Progress &) {});
+    AdaptiveSolver<2>(*result.scene)
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              result.why = step.no_bound;
+              if (!step.bound)
+                return;
+              if (!sees_all(step.solution(), component))
+              {
+                result.why = "the disc is too small beside the body";
+                return;
+              }
+              result.z = std::make_shared<const Solution<2>>(step.solution());
+              result.norm = std::hypot(step.energies.norm, step.bound->total);
+              result.error = step.bound->total;
+            },
+            [](const Progress &) {});
   }
   catch (const InputError &error)
   {
@@ -102,13 +105,32 @@ const MeanIntervals<2>::Norm &MeanIntervals<2>::norm(const unsigned int number,
   {
     result.why = error.what();
   }
-  if (result.value && probe.kind == ProbeKind::disc)
-    *result.value += smooth_mean(scene, probe).remainder;
+  if (result.z)
+    result.why.clear();
+  if (probe.kind == ProbeKind::disc)
+    result.remainder = smooth_mean(scene, probe).remainder;
   return result;
 }
 
 // @sect3{Intervals}
 //
+template <>
+Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
+                                    const StepReport<2> &step)
+{
+  const ErrorBound &bound = *step.bound;
+  const StressWork work = work_of_difference(step.solution(), bound, *dual.z, tables);
+  const double norm = dual.norm + dual.remainder,
+               half_way =
+                   bound.radius * norm +
+                   bound.theta * (bound.stress * (dual.error + dual.remainder) + work.defect);
+  Interval result{mean.value, bound.data * norm + 1e-14 * std::abs(mean.value)};
+  if (half_way < bound.total * norm)
+    result.centre += bound.theta * work.value;
+  result.half_width += std::min(half_way, bound.total * norm);
+  return result;
+}
+
 template <>
 void MeanIntervals<2>::set(StepReport<2> &step)
 {
@@ -121,17 +143,13 @@ void MeanIntervals<2>::set(StepReport<2> &step)
     std::string flaw;
     for (unsigned int c = 0; c < 2; ++c)
     {
-      const Norm &q = norm(value.probe, c);
-      if (!q.value)
-        flaw = q.why;
+      const Dual &of_mean = dual(value.probe, c);
+      if (!of_mean.why.empty())
+        flaw = of_mean.why;
       else if (!is_away_from_lifts(probe, step))
         flaw = "prescribed displacements there are no polynomials of the mesh";
       else
-      {
-        Measured &mean = value.displacement[c];
-        mean.interval = Interval{mean.value, (step.bound->total + step.bound->data) * *q.value +
-                                                 1e-14 * std::abs(mean.value)};
-      }
+        value.displacement[c].interval = interval(value.displacement[c], of_mean, step);
     }
     if (!flaw.empty())
       why += (why.empty() ? "probe " : "; probe ") + probe.name + ": " + flaw;

@@ -96,7 +96,7 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
         { return mean.density(x.distance(at)); }));
   result.thickness = 1;
   result.adaptivity = Adaptivity();
-  result.adaptivity.tolerance = 0.3; // at most 5 % more than |z|_a
+  result.adaptivity.tolerance = 0.15; // |z|_a to 1 %, and z_N near it
   result.adaptivity.maximum_unknowns = 20000;
   result.error_bound = true;
   result.intervals = false;

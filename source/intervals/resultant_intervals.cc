@@ -9,10 +9,8 @@
 // times $|w|_a$. So all that is wanted are displacements of small energy with known boundary values. They are no part of
 // the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
 // edge than $V_N$ has.
-#include <hpvi/body/load_quadrature.h>
 #include <hpvi/intervals/resultant_intervals.h>
-
-#include <deal.II/base/quadrature_lib.h>
+#include <hpvi/intervals/stress_work.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +26,6 @@ constexpr double largest_share = 0.1, aim = 0.01;
 
 /** A corner's edge is not bisected more often: coordinates have 16 digits. */
 constexpr unsigned int most_levels = 30;
-
-constexpr unsigned int n_points_of_loads = 24; ///< on each piece of an edge
 } // namespace
 
 ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene)
@@ -184,41 +180,19 @@ void ResultantIntervals::measure_tractions(Goal &goal, const Solution<2> &soluti
                                            const ErrorBound &bound) const
 {
   const std::vector<double> l = space->lengths(goal.test);
-  double absolute = 0;
-  goal.of_stress = 0;
+  TractionWork work;
   for (const EdgeTraction &edge : bound.tractions)
-  {
-    const Load<2> &load = scene.boundaries[edge.boundary].traction;
-    const bool is_loaded = scene.boundaries[edge.boundary].has_traction();
-    std::vector<double> cuts = goal.test.kinks(edge.boundary, edge.begin, edge.end, l);
-    if (cuts.empty())
-      continue;
-    if (is_loaded)
-    {
-      const auto own = solution.spaces->loads->traction(edge.cell, edge.face, 1).cuts;
-      cuts.insert(cuts.end(), own.begin(), own.end());
-    }
-    std::sort(cuts.begin(), cuts.end());
-    const QGauss<1> gauss(is_loaded ? n_points_of_loads : edge.n_coefficients() / 2 + 1);
-    for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-      {
-        const double s = cuts[piece] + (cuts[piece + 1] - cuts[piece]) * gauss.point(q)[0];
-        const Point<2> x = edge.point(s);
-        const double weight =
-            gauss.weight(q) * (cuts[piece + 1] - cuts[piece]) * edge.begin.distance(edge.end);
-        Tensor<1, 2> T = edge.value(s);
-        if (is_loaded)
-          T -= load_at<2>(load, x);
-        for (const PointCondition<2> &w : goal.test.conditions(edge.boundary, x, l))
-        {
-          const double part = weight * w.value * (w.direction * T);
-          goal.of_stress += part;
-          absolute += std::abs(part);
-        }
-      }
-  }
-  goal.defect = (1e-14 + bound.imbalance) * absolute;
+    if (const auto cuts = goal.test.kinks(edge.boundary, edge.begin, edge.end, l); !cuts.empty())
+      work.add(edge, solution, cuts, edge.n_coefficients() / 2 + 1,
+               [&](const double, const Point<2> &x)
+               {
+                 Tensor<1, 2> w;
+                 for (const PointCondition<2> &part : goal.test.conditions(edge.boundary, x, l))
+                   w += part.value * part.direction;
+                 return w;
+               });
+  goal.of_stress = work.sum;
+  goal.defect = work.defect(bound.imbalance);
 }
 
 void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solution,

@@ -2,6 +2,7 @@
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/evaluation/common_refinement.h>
+#include <hpvi/intervals/stress_work.h>
 #include <hpvi/intervals/test_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -18,7 +19,7 @@ using namespace dealii;
 namespace
 {
 /** Least energies hang on corners of the body, where cells count and degrees do not. */
-constexpr unsigned int degree_of_w = 2, few_cells = 200;
+constexpr unsigned int degree_of_w = 2, few_cells = 60;
 
 /** The coarse mesh, bisected until it has some cells, and further at @p points. */
 std::shared_ptr<const Triangulation<2>> bisected_mesh(const Scene<2> &scene,
@@ -333,41 +334,6 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
 // @sect3{What u_N does on w}
 //
 // Where cells of both meshes overlap, the smaller one is integrated over.
-void TestSpace::add_part(const Solution<2> &solution, const Triangulation<2>::cell_iterator &a,
-                         const BoundingBox<2> &in_a, const Triangulation<2>::cell_iterator &b,
-                         const BoundingBox<2> &in_b, Vector<double> &result) const
-{
-  const unsigned int cell = a->active_cell_index(), p = solution.displacement_space.degrees()[cell];
-  const CellMap<2> map = map_of<2>(a), other = map_of<2>(b);
-  const bool varies = scene.has_initial_strain() || !map.is_affine();
-  const unsigned int n_gauss = (p + degree_of_w) / 2 + 1 + (varies ? 3 : 0);
-  const ShapeTable<2> &of_u = tables_in_parts->in(in_a, p, n_gauss, solution.tables),
-                      &of_w = tables_in_parts->in(in_b, degree_of_w, n_gauss, solution.tables);
-  const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
-  const HookesLaw<2> law(scene.material_of(a));
-  const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
-  const auto dofs = space.cell_dofs(b->active_cell_index());
-  std::vector<double> forces(2 * of_w.n_shapes);
-  for (unsigned int q = 0; q < of_u.points.size(); ++q)
-  {
-    const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
-    Tensor<2, 2> strain =
-        physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
-    if (scene.has_initial_strain())
-      strain -= scene.initial_strain_in(a, map.point(of_u.points[q]));
-    const double weight = of_u.weights[q] * in_a.volume() * std::abs(determinant(J));
-    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(strain)) *
-                                transpose(invert(other.jacobian(of_w.points[q])));
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int r = 0; r < 2; ++r)
-        for (unsigned int i = 0; i < of_w.n_shapes; ++i)
-          forces[c * of_w.n_shapes + i] +=
-              pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
-  }
-  for (unsigned int i = 0; i < dofs.size(); ++i)
-    result[dofs[i]] += forces[numbering.component[i] * of_w.n_shapes + numbering.shape[i]];
-}
-
 Vector<double> TestSpace::residual(const Solution<2> &solution) const
 {
   tables_in_parts->limit();
@@ -376,7 +342,15 @@ Vector<double> TestSpace::residual(const Solution<2> &solution) const
   for_each_common_part(
       solution.displacement_space.triangulation(), *mesh,
       [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
-      { add_part(solution, a, in_a, b, in_b, result); });
+      {
+        const std::vector<double> work =
+            stress_on_part(solution, a, in_a, b, in_b, degree_of_w, *tables_in_parts);
+        const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
+        const auto dofs = space.cell_dofs(b->active_cell_index());
+        const unsigned int n_shapes = dofs.size() / 2;
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          result[dofs[i]] += work[numbering.component[i] * n_shapes + numbering.shape[i]];
+      });
   result -= applied;
   return result;
 }

@@ -3,21 +3,24 @@
 #define hpvi_mean_intervals_h
 
 #include <hpvi/adaptivity/step_report.h>
+#include <hpvi/intervals/part_tables.h>
 
 #include <array>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 
 namespace hpvi
 {
 /**
  * Guaranteed intervals of the mean displacements of probes. With d of ErrorBound u - u_N - d is a displacement of V, so that for a mean q
+ * and any theta
  *
- *     |q(u) - q(u_N)| <= (B + |d|_a) |q|_* + |q(d)|,    B = ErrorBound::total,
+ *     |q(u) - q(u_N) - theta (s - sigma(u_N), eps(z_N))| <= (R + theta O) |z|_a + theta eta |z - z_N|_a + |d|_a |z|_a + |q(d)|,
  *
- * |q|_* the norm of q on V. That does not depend on u_N: it is the energy norm of the solution z of one linear problem, and
- * `|z|_a^2 <= |z_N|_a^2 + (its own guaranteed bound)^2`, found once by a run of a few steps. Probes at whose place d does not vanish have none.
+ * z the solution of a(z, v) = q(v) in V, |z|_a the norm of q. It does not depend on u_N: one run of a few steps finds z_N with its own guaranteed
+ * bound, and `|z|_a^2 <= |z_N|_a^2 + bound^2`. R + theta O = ErrorBound::radius for its theta, ErrorBound::total for theta = 0.
+ * Probes at whose place d does not vanish have none.
  */
 template <int dim>
 class MeanIntervals
@@ -30,17 +33,23 @@ public:
   void set(StepReport<dim> &step);
 
 private:
-  /** |q|_*, or why it is not known. */
-  struct Norm
+  /** A mean as a load, or why its norm is not known. */
+  struct Dual
   {
-    std::optional<double> value; ///< [(stress length^dim)^{-1/2} length]
-    std::string why;
+    std::shared_ptr<const Scene<2>> scene; ///< of z; must outlive it
+    std::shared_ptr<const Solution<2>> z;  ///< z_N
+    double norm = 0;      ///< no less than |z|_a [(stress length^dim)^{-1/2} length]
+    double error = 0;     ///< no less than |z - z_N|_a
+    double remainder = 0; ///< of the mean beside the load of z, in the same norm
+    std::string why;      ///< empty: it is known
   };
 
-  const Norm &norm(unsigned int probe, unsigned int component);
+  const Dual &dual(unsigned int probe, unsigned int component);
+  Interval interval(const Measured &mean, const Dual &dual, const StepReport<dim> &step);
 
   const Scene<dim> &scene;
-  std::map<std::array<unsigned int, 2>, Norm> norms;
+  std::map<std::array<unsigned int, 2>, Dual> duals;
+  PartTables tables;
 };
 } // namespace hpvi
 

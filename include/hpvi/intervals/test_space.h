@@ -76,10 +76,6 @@ private:
   dealii::AffineConstraints<double> constraints(const TestMotion &motion) const;
   const System &system(const TestMotion &motion);
   static void factorise(const dealii::SparseMatrix<double> &A, System &of);
-  void add_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
-                const dealii::BoundingBox<2> &in_a,
-                const dealii::Triangulation<2>::cell_iterator &b,
-                const dealii::BoundingBox<2> &in_b, dealii::Vector<double> &result) const;
 
   const Scene<2> &scene;
   const std::shared_ptr<const Spaces<2>> lender;

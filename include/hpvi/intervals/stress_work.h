@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_stress_work_h
+#define hpvi_stress_work_h
+
+#include <hpvi/discretisation/solution.h>
+#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/intervals/part_tables.h>
+
+#include <functional>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * What sigma(u_N) does on the strains of the shape functions of degree @p degree of a cell b of another mesh, over the
+ * part of the body that @p in_a of the cell a of u_N and @p in_b of b are: component by component, as
+ * Solution::coefficients() has them.
+ */
+std::vector<double>
+stress_on_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
+               const dealii::BoundingBox<2> &in_a, const dealii::Triangulation<2>::cell_iterator &b,
+               const dealii::BoundingBox<2> &in_b, unsigned int degree, PartTables &tables);
+
+/** The work int (s n - G) . w of what acts on a body beside its loads G. */
+struct TractionWork
+{
+  double sum = 0, absolute = 0; ///< [stress length^2]
+
+  /**
+   * On the parts of an edge between @p cuts, from 0 to 1, with @p n_points of Gauss on each where the edge is not loaded.
+   * w(s, x) has only those components in which the traction is not given.
+   */
+  void add(const EdgeTraction &edge, const Solution<2> &solution, std::vector<double> cuts,
+           unsigned int n_points,
+           const std::function<dealii::Tensor<1, 2>(double, const dealii::Point<2> &)> &w);
+
+  /** What a stress out of balance by @p imbalance of its tractions may add. */
+  double defect(const double imbalance) const
+  {
+    return (1e-14 + imbalance) * absolute;
+  }
+};
+
+/**
+ * `(s - sigma(u_N), eps(z)) = L(z) + int (s n - G) . z - a(u_N, z)` but for oscillation, of a z of V on a mesh of its own,
+ * a without springs.
+ */
+struct StressWork
+{
+  double value = 0, defect = 0;
+};
+StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
+                              const Solution<2> &z, PartTables &tables);
+} // namespace hpvi
+
+#endif

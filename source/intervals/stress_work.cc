@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/load_quadrature.h>
+#include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/evaluation/common_refinement.h>
+#include <hpvi/intervals/stress_work.h>
+#include <hpvi/intervals/test_motion.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+using Cell = Triangulation<2>::cell_iterator;
+
+std::vector<double> stress_on_part(const Solution<2> &solution, const Cell &a,
+                                   const BoundingBox<2> &in_a, const Cell &b,
+                                   const BoundingBox<2> &in_b, const unsigned int degree,
+                                   PartTables &tables)
+{
+  const Scene<2> &scene = solution.scene;
+  const unsigned int cell = a->active_cell_index(), p = solution.displacement_space.degrees()[cell];
+  const CellMap<2> map = map_of<2>(a), other = map_of<2>(b);
+  const bool varies = scene.has_initial_strain() || !map.is_affine();
+  const unsigned int n_gauss = (p + degree) / 2 + 1 + (varies ? 3 : 0);
+  const ShapeTable<2> &of_u = tables.in(in_a, p, n_gauss, solution.tables),
+                      &of_w = tables.in(in_b, degree, n_gauss, solution.tables);
+  const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
+  const HookesLaw<2> law(scene.material_of(a));
+  std::vector<double> work(2 * of_w.n_shapes);
+  for (unsigned int q = 0; q < of_u.points.size(); ++q)
+  {
+    const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
+    Tensor<2, 2> strain =
+        physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
+    if (scene.has_initial_strain())
+      strain -= scene.initial_strain_in(a, map.point(of_u.points[q]));
+    const double weight = of_u.weights[q] * in_a.volume() * std::abs(determinant(J));
+    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(strain)) *
+                                transpose(invert(other.jacobian(of_w.points[q])));
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int r = 0; r < 2; ++r)
+        for (unsigned int i = 0; i < of_w.n_shapes; ++i)
+          work[c * of_w.n_shapes + i] +=
+              pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
+  }
+  return work;
+}
+
+namespace
+{
+constexpr unsigned int n_points_of_loads = 24; ///< on each piece of an edge
+} // namespace
+
+void TractionWork::add(const EdgeTraction &edge, const Solution<2> &solution,
+                       std::vector<double> cuts, const unsigned int n_points,
+                       const std::function<Tensor<1, 2>(double, const Point<2> &)> &w)
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  if (condition.has_traction())
+    for (const double s : solution.spaces->loads->traction(edge.cell, edge.face, 1).cuts)
+      if (s > cuts.front() && s < cuts.back())
+        cuts.push_back(s);
+  std::sort(cuts.begin(), cuts.end());
+  const QGauss<1> &gauss =
+      solution.tables.gauss(condition.has_traction() ? n_points_of_loads : n_points);
+  const double length = edge.begin.distance(edge.end);
+  for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+    {
+      const double part = cuts[piece + 1] - cuts[piece], s = cuts[piece] + part * gauss.point(q)[0];
+      const Point<2> x = edge.point(s);
+      Tensor<1, 2> T = edge.value(s);
+      if (condition.has_traction())
+        T -= load_at<2>(condition.traction, x);
+      const Tensor<1, 2> at_x = w(s, x);
+      sum += gauss.weight(q) * part * length * (T * at_x);
+      absolute += gauss.weight(q) * part * length * T.norm() * at_x.norm();
+    }
+}
+
+namespace
+{
+/** The part of an edge of a that @p in_a and @p in_b are, and z on it. */
+class EdgePart
+{
+public:
+  EdgePart(const EdgeTraction &edge, const Scene<2> &scene, const Cell &a,
+           const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
+      : edge(edge), in_b(in_b), cell(b->active_cell_index())
+  {
+    const CellMap<2> map = map_of<2>(a);
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      const Point<2> x =
+          map.point(in_a.unit_to_real(point_on_face<2>(edge.face, Point<1>(double(end)))));
+      const Tensor<1, 2> along = edge.end - edge.begin;
+      ends[end] = ((x - edge.begin) * along) / along.norm_square();
+    }
+    const Tensor<1, 2> t = (edge.end - edge.begin) / edge.begin.distance(edge.end);
+    for (const TractionAlong &traction :
+         tractions_of(scene.boundaries[edge.boundary], Point<2>(t[1], -t[0])))
+      if (traction.kind != TractionKind::given)
+        directions.push_back(traction.direction);
+  }
+
+  void add_to(TractionWork &work, const Solution<2> &solution, const Solution<2> &z) const
+  {
+    if (directions.empty())
+      return;
+    const unsigned int p = z.displacement_space.degrees()[cell];
+    const std::vector<double> coefficients = z.coefficients(cell);
+    const auto at = [&](const double s, const Point<2> &)
+    {
+      const double local = (s - ends[0]) / (ends[1] - ends[0]);
+      const ShapeTable<2> table = tabulate<2>(
+          p, {in_b.unit_to_real(point_on_face<2>(edge.face, Point<1>(local)))}, {1.}, false);
+      const std::vector<double> value = evaluate(table.values, coefficients);
+      Tensor<1, 2> result;
+      for (const Tensor<1, 2> &direction : directions)
+        result += (direction[0] * value[0] + direction[1] * value[1]) * direction;
+      return result;
+    };
+    work.add(edge, solution, {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])},
+             (edge.n_coefficients() + p) / 2 + 1, at);
+  }
+
+private:
+  const EdgeTraction &edge;
+  const BoundingBox<2> in_b;
+  const unsigned int cell;
+  std::array<double, 2> ends;           ///< of the part, on the edge
+  std::vector<Tensor<1, 2>> directions; ///< in which the traction is not given
+};
+
+/** Is the face @p face of the unit cell partly one of @p box? */
+bool touches(const BoundingBox<2> &box, const unsigned int face)
+{
+  const auto &ends = box.get_boundary_points();
+  return face % 2 == 0 ? ends.first[face / 2] == 0. : ends.second[face / 2] == 1.;
+}
+} // namespace
+
+StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
+                              const Solution<2> &z, PartTables &tables)
+{
+  tables.limit();
+  std::map<std::pair<unsigned int, unsigned int>, const EdgeTraction *> edges;
+  for (const EdgeTraction &edge : bound.tractions)
+    edges[{edge.cell->active_cell_index(), edge.face}] = &edge;
+  TractionWork tractions;
+  double energy = 0, absolute = 0;
+  for_each_common_part(
+      solution.displacement_space.triangulation(), z.displacement_space.triangulation(),
+      [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
+      {
+        const unsigned int cell = b->active_cell_index();
+        const std::vector<double> work =
+                                      stress_on_part(solution, a, in_a, b, in_b,
+                                                     z.displacement_space.degrees()[cell], tables),
+                                  coefficients = z.coefficients(cell);
+        for (unsigned int i = 0; i < work.size(); ++i)
+        {
+          energy += work[i] * coefficients[i];
+          absolute += std::abs(work[i] * coefficients[i]);
+        }
+        for (const unsigned int face : a->face_indices())
+          if (a->at_boundary(face) && touches(in_a, face))
+            EdgePart(*edges.at({a->active_cell_index(), face}), solution.scene, a, in_a, b, in_b)
+                .add_to(tractions, solution, z);
+      });
+  const Vector<double> loads =
+      applied_loads(solution.scene, z.displacement_space, solution.tables, *solution.spaces->loads);
+  double work = 0;
+  for (types::global_dof_index i = 0; i < loads.size(); ++i)
+  {
+    work += loads[i] * z.u[i];
+    absolute += std::abs(loads[i] * z.u[i]);
+  }
+  return {work + tractions.sum - energy, 1e-14 * absolute + tractions.defect(bound.imbalance)};
+}
+} // namespace hpvi
