@@ -428,12 +428,15 @@ def draw_widths():
             axes.text(0.97, 0.96, f"quotient {min(quotients):.0f} to {max(quotients):.0f}", transform=axes.transAxes,
                       ha="right", va="top", fontsize=9)
         axes.set(title=quantity)
+        low, high = axes.get_ylim()
+        if high < 100 * low:  # statics: round-off
+            axes.set_ylim(low / 10, 10 * high)
         axes.grid(alpha=0.3)
     for axes in panels[-1]:
         axes.set_xlabel(N_LABEL)
     for axes in panels[:, 0]:
         axes.set_ylabel("in units of the scene")
-    panels[0, 0].legend(loc="lower left", fontsize=9)
+    panels[-1, -1].legend(*panels[0, 0].get_legend_handles_labels(), loc="upper right", fontsize=9)
     save(figure, "widths.png", PAGE)
 
 

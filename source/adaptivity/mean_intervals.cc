@@ -121,14 +121,11 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
   const ErrorBound &bound = *step.bound;
   const StressWork work = work_of_difference(step.solution(), bound, *dual.z, tables);
   const double norm = dual.norm + dual.remainder,
-               half_way =
-                   bound.radius * norm +
-                   bound.theta * (bound.stress * (dual.error + dual.remainder) + work.defect);
-  Interval result{mean.value, bound.data * norm + 1e-14 * std::abs(mean.value)};
-  if (half_way < bound.total * norm)
-    result.centre += bound.theta * work.value;
-  result.half_width += std::min(half_way, bound.total * norm);
-  return result;
+               half_way = bound.radius * norm +
+                          bound.theta * (bound.stress * (dual.error + dual.remainder) +
+                                         std::abs(work.value) + work.defect);
+  return {mean.value, std::min(half_way, bound.total * norm) + bound.data * norm +
+                          1e-14 * std::abs(mean.value)};
 }
 
 template <>

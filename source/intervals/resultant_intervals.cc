@@ -242,9 +242,8 @@ ResultantIntervals::interval(const OfBoundary &boundary,
   if (w.size() == 0)
     return result;
   const double norm = std::sqrt(std::max(0., space->product(w, w))); // round-off
-  const double half_way = bound.radius * norm + bound.theta * defect;
-  if (half_way < bound.total * norm)
-    result.centre += bound.theta * (of_stress - result.centre);
+  const double half_way =
+      bound.radius * norm + bound.theta * (std::abs(of_stress - result.centre) + defect);
   result.half_width += std::min(half_way, bound.total * norm);
   return result;
 }

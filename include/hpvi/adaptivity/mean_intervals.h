@@ -20,6 +20,7 @@ namespace hpvi
  *
  * z the solution of a(z, v) = q(v) in V, |z|_a the norm of q. It does not depend on u_N: one run of a few steps finds z_N with its own guaranteed
  * bound, and `|z|_a^2 <= |z_N|_a^2 + bound^2`. R + theta O = ErrorBound::radius for its theta, ErrorBound::total for theta = 0.
+ * The interval stands about q(u_N), with theta times the work in its half-width.
  * Probes at whose place d does not vanish have none.
  */
 template <int dim>

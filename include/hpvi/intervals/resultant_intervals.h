@@ -21,7 +21,8 @@ namespace hpvi
  *
  *     |F - (1 - theta) F_w - theta F_s| <= (R + theta O) |w|_a + sum int g |fall| (1 - s/l) ds,
  *
- * R + theta O = ErrorBound::radius for its theta, and ErrorBound::total for theta = 0.
+ * R + theta O = ErrorBound::radius for its theta, and ErrorBound::total for theta = 0. The interval stands about F_w, which is nearer to
+ * F by an order, with theta |F_s - F_w| in its half-width.
  *
  * doc/bound.md has the proof. The test displacements of one step serve the next; where w falls its mesh gets finer as B
  * gets smaller, so that the second term stays below a tenth of the first.
