@@ -224,6 +224,13 @@ void choose_directions(RandomScene &scene, std::mt19937 random)
           dice.happens(0.2) ? 0. : dice.number(-1, 1) * (side.coefficient.empty() ? 0.6 : 0.2);
 }
 
+/** Each interval of a mean solves two problems more. */
+void choose_probe(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 2);
+  scene.has_probe = Dice(own).happens(0.25);
+}
+
 /** From a copy of @p random: what else is drawn stays as it was. */
 void choose_fibres(RandomScene &scene, std::mt19937 random)
 {
@@ -354,6 +361,7 @@ RandomScene::RandomScene(std::mt19937 &random) : sides(4)
   }
   choose_directions(*this, random);
   choose_fibres(*this, random);
+  choose_probe(*this, random);
   choose_plates(*this, random);
   choose_initial_strain(*this, random);
 }
@@ -601,7 +609,8 @@ std::string RandomScene::text(const Frame &frame) const
         {"Temperature", {{"Expression", frame.function(temperature, frame.amplitude)}}});
   for (unsigned int k = 0; k < sides.size(); ++k)
     sections.push_back(boundary(k, frame));
-  sections.push_back(probe(frame));
+  if (has_probe)
+    sections.push_back(probe(frame));
   for (const auto &[path, value] : settings)
   {
     const std::string section = path.substr(0, path.find('/'));

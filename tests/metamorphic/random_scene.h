@@ -66,7 +66,7 @@ struct RandomScene
   /** Along which @p side has contact, in the axes of the body. */
   Tensor<1, 2> contact_direction(const Side &side) const;
 
-  bool is_box = false;
+  bool is_box = false, has_probe = false;
   std::array<Point<2>, 4> corners; ///< counterclockwise, side k from corner k to corner k+1
   std::array<unsigned int, 2> subdivisions{}; ///< of sides 0 and 2, of sides 1 and 3
   double young = 1, poisson = 0.3, density = 0, thickness = 1;

@@ -236,6 +236,10 @@ TEST(Intervals, OfMeansOverDiscsMeet)
     EXPECT_LT(intervals.back().half_width, numbers.bound) << name; // E = 15
     EXPECT_GT(intervals.back().half_width, 0.05 * numbers.bound) << name;
   }
+  // |q| = 0.253: the work of s - sigma(u_N) on z_N is small, since u_N is near to Galerkin's solution for z_N as well.
+  const double quotient = numbers.intervals.at("left.x").back().half_width / numbers.radius;
+  EXPECT_GT(quotient, 0.25);
+  EXPECT_LT(quotient, 0.265);
 }
 
 TEST(Intervals, ASmoothMeanHasMassOne)
