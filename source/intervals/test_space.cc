@@ -19,7 +19,7 @@ using namespace dealii;
 namespace
 {
 /** Least energies hang on corners of the body, where cells count and degrees do not. */
-constexpr unsigned int degree_of_w = 2, few_cells = 60;
+constexpr unsigned int degree_of_w = 2, few_cells = 15;
 
 /** The coarse mesh, bisected until it has some cells, and further at @p points. */
 std::shared_ptr<const Triangulation<2>> bisected_mesh(const Scene<2> &scene,
