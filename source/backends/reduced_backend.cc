@@ -9,11 +9,11 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/text.h>
 #include <hpvi/body/curved_edges.h>
 #include <hpvi/body/folded_cell.h>
 #include <hpvi/contact/matching.h>
 #include <hpvi/discretisation/loaded_motions.h>
+#include <hpvi/discretisation/missed_loads.h>
 #include <hpvi/discretisation/negligible_solution.h>
 #include <hpvi/evaluation/solution_field.h>
 #include <hpvi/evaluation/unseen_contact.h>
@@ -85,8 +85,8 @@ std::unique_ptr<Backend<dim>> ReducedBackend<dim>::next_load_step(const Scene<di
 template <int dim>
 std::string ReducedBackend<dim>::dense_note() const
 {
-  return DenseWork{discretisation->contact_rows.kept.size(), discretisation->contact_rows.n_rows()}
-      .note();
+  const auto &rows = discretisation->contact_rows;
+  return DenseWork{rows.kept.size(), rows.n_rows()}.note();
 }
 
 // Two objects make a step: the spaces, without any integral, and the discretisation, which has
@@ -98,6 +98,19 @@ void ReducedBackend<dim>::assemble()
 {
   if (discretisation && &discretisation->spaces->displacement_space.triangulation() == mesh.get())
     return; // prepare() has been here
+  build();
+  missing = missed_loads(*discretisation, *loads);
+  if (missing.empty())
+    return;
+  seen_late = missing;
+  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables, 4); // a closer look
+  build();
+  missing = missed_loads(*discretisation, *loads);
+}
+
+template <int dim>
+void ReducedBackend<dim>::build()
+{
   begin("numbering the unknowns of " + std::to_string(cell_degrees.size()) + " elements");
   std::shared_ptr<const Spaces<dim>> spaces;
   {
@@ -107,10 +120,7 @@ void ReducedBackend<dim>::assemble()
   }
   begin("assembling " + std::to_string(cell_degrees.size()) + " elements");
   if (scene.geometry.has_curves())
-    if (const auto folded = folded_cell(*mesh))
-      throw NumericalFailure("a cell folds over itself at " + to_string(*folded) +
-                             ": a straight edge crosses the curve beside it; take more cells along "
-                             "the curve, or fewer layers beside it");
+    require_no_folds(*mesh);
   StageTimer timer(times.assemble);
   unresolved = loads->unresolved(*mesh);
   missed_displacements = loads->missed_displacements(*mesh, cell_degrees);
@@ -243,28 +253,14 @@ void ReducedBackend<dim>::keep_start(const Vector<double> &z, const Vector<doubl
 //
 // The guaranteed bound needs the whole discrete problem, not only its solution. Where there is none its
 // reason is kept, since "none" without a reason is no answer.
-/** Why the step at hand has no bound, as far as its data tell; else empty. */
-template <int dim>
-std::string ReducedBackend<dim>::no_bound() const
-{
-  if (!scene.error_bound)
-    return "Error/Bound = false";
-  if (const std::string none = solution->spaces->no_error_bound(scene);
-      !none.empty() || unresolved.empty())
-    return none;
-  const UnresolvedLoad<dim> &worst =
-      *std::max_element(unresolved.begin(), unresolved.end(),
-                        [](const auto &a, const auto &b) { return a.deviation < b.deviation; });
-  return lower_case(worst.name.substr(0, 1)) + worst.name.substr(1) + " is not resolved near " +
-         to_string(worst.where) + ", by " + text(worst.deviation / loads->sum().absolute, 2) +
-         " of all loads";
-}
-
 template <int dim>
 BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
 {
   BoundOfStep result;
-  result.missing = no_bound();
+  result.missing = scene.error_bound ? solution->spaces->no_error_bound(scene)
+                                     : std::string("Error/Bound = false");
+  if (result.missing.empty())
+    result.missing = missing.empty() ? unresolved_loads(unresolved, *loads) : missing;
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
@@ -343,6 +339,9 @@ Warnings ReducedBackend<dim>::warnings(const std::vector<ContactState<dim>> &con
 {
   Warnings result = joined(multiplier_warnings(*solution, contact, algebraic, program.coulomb),
                            unseen_warnings(*solution));
+  if (!seen_late.empty())
+    result.push_back({WarningKind::load, 0.,
+                      seen_late + "; steps before knew nothing of it: put vertices there"});
   if (const std::string note = dense_note(); !note.empty())
     result.push_back({WarningKind::dense_work, 0., note});
   return result;

@@ -72,11 +72,11 @@ unsigned int n_parts(const Cell &cell, const unsigned int of_side, const unsigne
 }
 
 CutRule cut_edge(const Function<2> &f, const Cell &cell, const unsigned int face,
-                 const Scene<2> &scene, const QGauss<1> &gauss)
+                 const Scene<2> &scene, const QGauss<1> &gauss, const unsigned int finer)
 {
   const CellMap<2> map = map_of<2>(cell);
   return make_cut_rule(
       [&](const double s) { return f.value(map.point(point_on_face<2>(face, Point<1>(s)))); },
-      gauss, {0, 1, 2}, n_parts(cell, 32, scene.geometry.n_cells(1 - face / 2), 4));
+      gauss, {0, 1, 2}, n_parts(cell, 32 * finer, scene.geometry.n_cells(1 - face / 2), 4));
 }
 } // namespace hpvi::coarse_cuts

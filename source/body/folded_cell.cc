@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/folded_cell.h>
 
@@ -17,5 +19,13 @@ std::optional<Point<2>> folded_cell(const Triangulation<2> &mesh)
         if (!(determinant(map.jacobian(point)) > 0))
           return map.point(point);
   return std::nullopt;
+}
+
+void require_no_folds(const Triangulation<2> &mesh)
+{
+  if (const auto folded = folded_cell(mesh))
+    throw NumericalFailure("a cell folds over itself at " + to_string(*folded) +
+                           ": a straight edge crosses the curve beside it; take more cells along "
+                           "the curve, or fewer layers beside it");
 }
 } // namespace hpvi

@@ -39,8 +39,10 @@ BoxCutter::Function force_in_cell(const Load<2> &load, const CellMap<2> &map)
 
 template <int dim>
 LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mesh,
-                          std::shared_ptr<const ShapeTables<dim>> shape_tables)
-    : DisplacementCuts<dim>(scene, mesh, shape_tables), scene(scene), tables(shape_tables)
+                          std::shared_ptr<const ShapeTables<dim>> shape_tables,
+                          const unsigned int finer)
+    : DisplacementCuts<dim>(scene, mesh, shape_tables), scene(scene), tables(shape_tables),
+      finer(finer)
 {
   static_assert(dim == 2, "edges and cells of a plane body");
   total.centre = scene.geometry.centre();
@@ -119,9 +121,10 @@ template <int dim>
 typename LoadRules<dim>::Pieces LoadRules<dim>::cut_cell(const Cell &cell) const
 {
   const Geometry<dim> &body = scene.geometry;
-  BoxCutter cutter(
-      force_in_cell(scene.body_force_in(cell), map_of<dim>(cell)), tables->gauss(across),
-      {{n_parts(cell, 12, body.n_cells(0), 2), n_parts(cell, 12, body.n_cells(1), 2)}});
+  BoxCutter cutter(force_in_cell(scene.body_force_in(cell), map_of<dim>(cell)),
+                   tables->gauss(across),
+                   {{n_parts(cell, 12 * finer, body.n_cells(0), 2),
+                     n_parts(cell, 12 * finer, body.n_cells(1), 2)}});
   Pieces result;
   double worst = 0;
   for (const BoxCutter::Piece &piece : cutter.cut())
@@ -152,7 +155,7 @@ typename LoadRules<dim>::Pieces LoadRules<dim>::cut(const Cell &cell, const unsi
   for (unsigned int c = 0; c < dim; ++c)
     if (varies(load[c]))
     {
-      const CutRule rule = cut_edge(*load[c], cell, face, scene, tables->gauss(along));
+      const CutRule rule = cut_edge(*load[c], cell, face, scene, tables->gauss(along), finer);
       result.cuts.insert(result.cuts.end(), rule.cuts.begin(), rule.cuts.end());
       result.comparison.force[c] = length * rule.integral();
       result.comparison.finer[c] = length * rule.finer_integral;
@@ -258,6 +261,19 @@ template <int dim>
 const LoadSum &LoadRules<dim>::sum() const
 {
   return total;
+}
+
+template <int dim>
+bool LoadRules<dim>::are_missing_something(const Tensor<1, dim> &force) const
+{
+  if (coarse.empty() || scene.geometry.has_curves() ||
+      std::any_of(coarse.begin(), coarse.end(),
+                  [&](const auto &known) { return is_unresolved(known.second); }))
+    return false;
+  for (unsigned int c = scene.is_axisymmetric() ? 1 : 0; c < dim; ++c)
+    if (std::abs(force[c] - total.force[c]) > 1e-9 * total.absolute)
+      return true;
+  return false;
 }
 
 template <int dim>

@@ -153,7 +153,7 @@ bool ResultantIntervals::grade(const Solution<2> &solution, const ErrorBound &bo
 //
 void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &bound)
 {
-  const Vector<double> residual = space->residual(solution);
+  const TestSpace::Residual residual = space->residual(solution);
   const LoadRules<2> &loads = *solution.spaces->loads;
   for (OfBoundary &boundary : boundaries)
     for (Goal &goal : boundary.goals)
@@ -162,10 +162,10 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
         continue;
       double absolute = 0;
       goal.centre = 0;
-      for (types::global_dof_index i = 0; i < residual.size(); ++i)
+      for (types::global_dof_index i = 0; i < goal.w.size(); ++i)
       {
-        goal.centre += goal.w[i] * residual[i];
-        absolute += std::abs(goal.w[i] * residual[i]);
+        goal.centre += goal.w[i] * residual.sum[i];
+        absolute += std::abs(goal.w[i]) * residual.absolute[i];
       }
       goal.rounding =
           1e-14 * absolute + loads.difference() * loads.sum().absolute * goal.test.largest();

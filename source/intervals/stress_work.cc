@@ -17,10 +17,9 @@ namespace hpvi
 using namespace dealii;
 using Cell = Triangulation<2>::cell_iterator;
 
-std::vector<double> stress_on_part(const Solution<2> &solution, const Cell &a,
-                                   const BoundingBox<2> &in_a, const Cell &b,
-                                   const BoundingBox<2> &in_b, const unsigned int degree,
-                                   PartTables &tables)
+WorkOnShapes stress_on_part(const Solution<2> &solution, const Cell &a, const BoundingBox<2> &in_a,
+                            const Cell &b, const BoundingBox<2> &in_b, const unsigned int degree,
+                            PartTables &tables)
 {
   const Scene<2> &scene = solution.scene;
   const unsigned int cell = a->active_cell_index(), p = solution.displacement_space.degrees()[cell];
@@ -31,7 +30,7 @@ std::vector<double> stress_on_part(const Solution<2> &solution, const Cell &a,
                       &of_w = tables.in(in_b, degree, n_gauss, solution.tables);
   const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
   const HookesLaw<2> law(scene.material_of(a));
-  std::vector<double> work(2 * of_w.n_shapes);
+  WorkOnShapes work{std::vector<double>(2 * of_w.n_shapes), std::vector<double>(2 * of_w.n_shapes)};
   for (unsigned int q = 0; q < of_u.points.size(); ++q)
   {
     const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
@@ -45,8 +44,11 @@ std::vector<double> stress_on_part(const Solution<2> &solution, const Cell &a,
     for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int r = 0; r < 2; ++r)
         for (unsigned int i = 0; i < of_w.n_shapes; ++i)
-          work[c * of_w.n_shapes + i] +=
-              pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
+        {
+          const double part = pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
+          work.sum[c * of_w.n_shapes + i] += part;
+          work.absolute[c * of_w.n_shapes + i] += std::abs(part);
+        }
   }
   return work;
 }
@@ -159,14 +161,13 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
       [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
       {
         const unsigned int cell = b->active_cell_index();
-        const std::vector<double> work =
-                                      stress_on_part(solution, a, in_a, b, in_b,
-                                                     z.displacement_space.degrees()[cell], tables),
-                                  coefficients = z.coefficients(cell);
-        for (unsigned int i = 0; i < work.size(); ++i)
+        const WorkOnShapes work = stress_on_part(solution, a, in_a, b, in_b,
+                                                 z.displacement_space.degrees()[cell], tables);
+        const std::vector<double> coefficients = z.coefficients(cell);
+        for (unsigned int i = 0; i < coefficients.size(); ++i)
         {
-          energy += work[i] * coefficients[i];
-          absolute += std::abs(work[i] * coefficients[i]);
+          energy += work.sum[i] * coefficients[i];
+          absolute += work.absolute[i] * std::abs(coefficients[i]);
         }
         for (const unsigned int face : a->face_indices())
           if (a->at_boundary(face) && touches(in_a, face))

@@ -334,24 +334,32 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
 // @sect3{What u_N does on w}
 //
 // Where cells of both meshes overlap, the smaller one is integrated over.
-Vector<double> TestSpace::residual(const Solution<2> &solution) const
+TestSpace::Residual TestSpace::residual(const Solution<2> &solution) const
 {
   tables_in_parts->limit();
-  Vector<double> result(space.n_dofs());
+  Residual result{Vector<double>(space.n_dofs()), Vector<double>(space.n_dofs())};
   using Cell = Triangulation<2>::cell_iterator;
   for_each_common_part(
       solution.displacement_space.triangulation(), *mesh,
       [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
       {
-        const std::vector<double> work =
+        const WorkOnShapes work =
             stress_on_part(solution, a, in_a, b, in_b, degree_of_w, *tables_in_parts);
         const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
         const auto dofs = space.cell_dofs(b->active_cell_index());
         const unsigned int n_shapes = dofs.size() / 2;
         for (unsigned int i = 0; i < dofs.size(); ++i)
-          result[dofs[i]] += work[numbering.component[i] * n_shapes + numbering.shape[i]];
+        {
+          const unsigned int shape = numbering.component[i] * n_shapes + numbering.shape[i];
+          result.sum[dofs[i]] += work.sum[shape];
+          result.absolute[dofs[i]] += work.absolute[shape];
+        }
       });
-  result -= applied;
+  for (types::global_dof_index i = 0; i < applied.size(); ++i)
+  {
+    result.sum[i] -= applied[i];
+    result.absolute[i] += std::abs(applied[i]);
+  }
   return result;
 }
 } // namespace hpvi

@@ -22,7 +22,8 @@ std::string smooth(const std::string &v, Dice &dice)
 std::string rough(const std::string &v, Dice &dice)
 {
   const std::string a = text(dice.number(0, 1)), b = text(dice.number(0, 1)),
-                    width = text(std::pow(10, dice.number(-3, -0.5)));
+                    width = text(std::pow(
+                        10, dice.number(-2, -0.5))); // what is narrower may be missed inside
   switch (static_cast<unsigned int>(dice.number(0, 8)))
   {
   case 0:

@@ -220,6 +220,32 @@ TEST(LoadRules, LoseNoStripOfBodyForceOnRefinedCells)
   }
 }
 
+/** Narrower than the distance of samples, at a place where none sees it: a finer mesh does, looks closer, and says so. */
+TEST(LoadRules, AreMadeAnewWhereAMeshSeesMore)
+{
+  const double at = 0.1818335832843089 / 0.77537631618652625, half = 0.0041550;
+  Scene<2> scene = body({1.289696343729227, 1.}, {{2, 3}});
+  scene.body_force[0] = expression<2>(std::function<double(const Point<2> &)>(
+      [=](const Point<2> &x) { return std::abs(x[0] - at) < half ? 1. : 0.; }));
+  hold(scene, "bottom");
+  scene.adaptivity.method = Method::hup2;
+  scene.adaptivity.start_degree = 2;
+  scene.adaptivity.maximum_steps = 4;
+  scene.adaptivity.tolerance = 0;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        const double force = step.equilibrium.loads.force[0];
+        EXPECT_NEAR(force, step.number < 4 ? 0. : 2 * half, 1e-12) << step.number;
+        const bool is_told = std::any_of(
+            step.warnings.begin(), step.warnings.end(),
+            [](const Warning &warning)
+            { return warning.text.find("steps before knew nothing") != std::string::npos; });
+        EXPECT_EQ(is_told, step.number == 4);
+      },
+      [](const Progress &) {});
+}
+
 // ---------------------------------------------------------------- runs
 
 template <class Take>

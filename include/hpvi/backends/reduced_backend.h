@@ -79,18 +79,19 @@ private:
   ReducedBackend(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> tables);
 
   void assemble();
+  void build();
   void factor();
   void keep_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
   void take(dealii::Vector<double> u, const dealii::Vector<double> &z);
   std::string dense_note() const;
   bool needs_factor_again() const;
-  std::string no_bound() const;
 
   std::shared_ptr<const dealii::Triangulation<dim>> mesh;
   Degrees cell_degrees;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   CondensedElements<dim> elements;
   std::shared_ptr<const LoadRules<dim>> loads;
+  std::string missing, seen_late; ///< missed_loads() of this mesh, of an earlier one
   const LegendreSmoothness<dim> smoothness;
   ErrorBounds error_bounds;
   ResultantIntervals resultant_intervals;

@@ -40,9 +40,9 @@ std::vector<double> seen_from(double lower, double width, const std::vector<doub
 unsigned int n_parts(const Cell &cell, unsigned int of_side, unsigned int n_cells,
                      unsigned int least);
 
-/** make_cut_rule() for a function along a face of @p cell. */
+/** make_cut_rule() for a function along a face of @p cell; @p finer: with so many times as many samples. */
 CutRule cut_edge(const dealii::Function<2> &f, const Cell &cell, unsigned int face,
-                 const Scene<2> &scene, const dealii::QGauss<1> &gauss);
+                 const Scene<2> &scene, const dealii::QGauss<1> &gauss, unsigned int finer = 1);
 } // namespace coarse_cuts
 } // namespace hpvi
 

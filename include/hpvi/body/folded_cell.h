@@ -11,6 +11,8 @@ namespace hpvi
 {
 /** A Gauss point at which det J of a curved cell is not positive; nothing: all maps are one to one there. */
 std::optional<dealii::Point<2>> folded_cell(const dealii::Triangulation<2> &mesh);
+
+void require_no_folds(const dealii::Triangulation<2> &mesh); ///< else NumericalFailure
 } // namespace hpvi
 
 #endif

@@ -58,9 +58,12 @@ class LoadRules : public DisplacementCuts<dim>
 public:
   using Cell = coarse_cuts::Cell;
 
-  /** Of the loads of @p scene on the coarse cells of @p mesh; the scene must outlive this object. */
+  /**
+   * Of the loads of @p scene on the coarse cells of @p mesh; the scene must outlive this object. @p finer: with so many times
+   * as many samples along a side.
+   */
   LoadRules(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh,
-            std::shared_ptr<const ShapeTables<dim>> tables);
+            std::shared_ptr<const ShapeTables<dim>> tables, unsigned int finer = 1);
 
   /** In s on [0,1] of a face, which has a traction. */
   LoadRule<1> traction(const Cell &cell, unsigned int face, unsigned int degree) const;
@@ -72,6 +75,12 @@ public:
   std::vector<UnresolvedLoad<dim>> unresolved(const dealii::Triangulation<dim> &mesh) const;
 
   const LoadSum &sum() const;
+
+  /**
+   * Has a mesh with the resultant @p force of its loads seen what lay between the samples: is that not sum(), by more than 1e-9 of all loads, where
+   * these count as resolved? Curved bodies change with the degree of their cells, and so do resultants.
+   */
+  bool are_missing_something(const dealii::Tensor<1, dim> &force) const;
 
   /** Of the tractions of each boundary that has any. */
   const std::map<dealii::types::boundary_id, LoadSum> &sums_by_boundary() const;
@@ -106,6 +115,7 @@ private:
 
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
+  const unsigned int finer;
   std::map<Place, Pieces> coarse; ///< what varies
   LoadSum total;
   std::map<dealii::types::boundary_id, LoadSum> by_boundary;

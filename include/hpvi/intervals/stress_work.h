@@ -11,12 +11,18 @@
 
 namespace hpvi
 {
+/** Sums with those of their absolute terms, of which arithmetic loses the last digits. */
+struct WorkOnShapes
+{
+  std::vector<double> sum, absolute;
+};
+
 /**
  * What sigma(u_N) does on the strains of the shape functions of degree @p degree of a cell b of another mesh, over the
  * part of the body that @p in_a of the cell a of u_N and @p in_b of b are: component by component, as
  * Solution::coefficients() has them.
  */
-std::vector<double>
+WorkOnShapes
 stress_on_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
                const dealii::BoundingBox<2> &in_a, const dealii::Triangulation<2>::cell_iterator &b,
                const dealii::BoundingBox<2> &in_b, unsigned int degree, PartTables &tables);

@@ -49,9 +49,13 @@ public:
 
   /**
    * `a(u_N, v_i) - L(v_i)` for every displacement unknown, a without springs and L without what plates bear: w
-   * times this is F_w.
+   * times this is F_w. Beside it the absolute terms of each sum.
    */
-  dealii::Vector<double> residual(const Solution<2> &solution) const;
+  struct Residual
+  {
+    dealii::Vector<double> sum, absolute;
+  };
+  Residual residual(const Solution<2> &solution) const;
 
 private:
   /** Which combinations of unknowns are held, and the matrix of the others. */

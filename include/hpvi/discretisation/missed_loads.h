@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_missed_loads_h
+#define hpvi_missed_loads_h
+
+#include <hpvi/discretisation/discretisation.h>
+
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * Where the loads of the mesh have another resultant than those of the coarse one, something narrow lay between all samples of
+ * @p loads: in words, with both forces; else empty.
+ */
+std::string missed_loads(const Discretisation<2> &discretisation, const LoadRules<2> &loads);
+
+/** The worst of those that rules do not resolve, in words; empty: there is none. */
+std::string unresolved_loads(const std::vector<UnresolvedLoad<2>> &unresolved,
+                             const LoadRules<2> &loads);
+} // namespace hpvi
+
+#endif
