@@ -19,8 +19,8 @@ std::string interval_in_words(const Interval &interval)
   if (!(half_width > 0) || !std::isfinite(half_width) || !std::isfinite(centre))
     return text(centre) + " +- " + text(half_width);
   const double unit = std::pow(10., std::floor(std::log10(half_width)) - 1),
-               rounded = unit * std::round(centre / unit),
-               widened = std::ceil((half_width + std::abs(centre - rounded)) / unit) * unit;
+               rounded = unit * std::round(centre / unit) + 0., // no -0
+      widened = std::ceil((half_width + std::abs(centre - rounded)) / unit) * unit;
   const int digits = rounded == 0
                          ? 1
                          : std::clamp(int(std::floor(std::log10(std::abs(rounded)) + 1e-9)) -

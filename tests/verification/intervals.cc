@@ -101,6 +101,43 @@ void expect_that_all_hold(const std::vector<Interval> &intervals, const double e
   EXPECT_LT(intervals.back().half_width, widest_of_last);
 }
 
+/** (R) of doc/bound.md, of the parts that the bound has, at any theta: the radius is that of the least one. */
+TEST(Intervals, HaveTheRadiusOfTheTheorem)
+{
+  for (const std::string file : {"han-6-12", "han-6-12-unilateral", "footing"})
+    AdaptiveSolver<2>(read_scene<2>("prm/" + file + ".prm",
+                                    {{"Adaptivity/Maximum steps", "5"},
+                                     {"Boundary left/Traction", "1.5*(5 - y)*sin(y); -0.75"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              SCOPED_TRACE(file + ", step " + std::to_string(step.number));
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              const ErrorBound &bound = *step.bound;
+              double b_square = 0, w_square = 0;
+              for (unsigned int cell = 0; cell < bound.moved.size(); ++cell)
+              {
+                w_square += std::max(0., bound.moved[cell]);
+                b_square +=
+                    std::pow(std::sqrt(std::max(0., bound.moved[cell])) + bound.lifted[cell], 2);
+              }
+              const double eta = bound.stress, O = bound.oscillation, b = std::sqrt(b_square),
+                           two_gaps = bound.slip * bound.slip - w_square;
+              EXPECT_GT(b, 0);
+              const auto radius = [&](const double theta)
+              {
+                const double a = 1 - theta;
+                return theta * O + std::sqrt(a * a * eta * eta + a * two_gaps +
+                                             a * a * b_square / (1 - 2 * theta) +
+                                             2 * a * O * (bound.total + b));
+              };
+              EXPECT_NEAR(bound.radius, radius(bound.theta), 1e-6 * bound.total);
+              for (double theta = 0; theta < 0.5; theta += 0.01)
+                EXPECT_LE(bound.radius, radius(theta) * (1 + 1e-6)) << theta;
+            },
+            [](const Progress &) {});
+}
+
 TEST(Intervals, OfOneRunMeet)
 {
   for (const auto &[file, n] : std::map<std::string, unsigned int>{{"han-6-12", 3},

@@ -360,6 +360,7 @@ TEST(Intervals, AreRoundedOutwards)
   EXPECT_EQ(interval_in_words({-8.78716, 0.00021}), "-8.78716 +- 0.00021");
   EXPECT_EQ(interval_in_words({1234.5, 20.}), "1235 +- 21");
   EXPECT_EQ(interval_in_words({0.0004, 0.01}), "0 +- 0.011");
+  EXPECT_EQ(interval_in_words({-1e-12, 13.}), "0 +- 14");
   EXPECT_EQ(interval_in_words({3., 0.}), "3 +- 0");
 }
 
