@@ -76,7 +76,9 @@ private:
 
   std::vector<Role> roles(const std::vector<bool> &nearby) const;
   void add_normal_roles(std::vector<Role> &roles) const;
+  void join_plates(std::vector<Role> &roles) const;
   void free_coupled_edges(std::vector<Role> &roles) const;
+  std::vector<bool> contact_dofs() const;
   dealii::Vector<double> fixed_displacement() const;
   double open_joints(const dealii::Vector<double> &w) const;
   bool find_near_pressure(unsigned int face) const;
