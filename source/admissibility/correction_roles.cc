@@ -3,6 +3,8 @@
 #include <hpvi/contact/matching.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -71,7 +73,7 @@ CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
       else if (may_rub(k) && result[unknown] == Role::outside)
         result[unknown] = Role::free;
   add_normal_roles(result);
-  join_plates(result);
+  join_roles(result);
   free_coupled_edges(result);
   return result;
 }
@@ -129,23 +131,56 @@ std::vector<bool> CorrectionSearch<dim>::contact_dofs() const
   return result;
 }
 
-/** Which unknowns of a plate a face has depends on the frame: what one of them fixes holds all of them. */
+/**
+ * Which unknowns of a plate a face has depends on the frame, and so does along which of two slanted sides a corner has its
+ * unknowns: what fixes one of them holds all.
+ */
 template <int dim>
-void CorrectionSearch<dim>::join_plates(std::vector<Role> &roles) const
+void CorrectionSearch<dim>::join_roles(std::vector<Role> &roles) const
 {
-  for (const std::set<unsigned int> &plate : freedom.plates())
+  std::vector<std::set<unsigned int>> groups = slanted_corners();
+  groups.insert(groups.end(), freedom.plates().begin(), freedom.plates().end());
+  for (const std::set<unsigned int> &group : groups)
   {
     const auto has = [&](const Role role)
     {
-      return std::any_of(plate.begin(), plate.end(),
+      return std::any_of(group.begin(), group.end(),
                          [&](const unsigned int unknown) { return roles[unknown] == role; });
     };
     const Role common = has(Role::fixed)  ? Role::fixed
                         : has(Role::free) ? Role::free
                                           : Role::outside;
-    for (const unsigned int unknown : plate)
+    for (const unsigned int unknown : group)
       roles[unknown] = common;
   }
+}
+
+/** The unknowns of each vertex where two contact boundaries meet neither along one line nor at a right angle. */
+template <int dim>
+std::vector<std::set<unsigned int>> CorrectionSearch<dim>::slanted_corners() const
+{
+  std::vector<std::set<unsigned int>> result;
+  std::map<types::global_dof_index, const ContactFace<dim> *> first; // by first component
+  for (const ContactFace<dim> &face : faces)
+  {
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
+    const unsigned int n = face.degree + 1;
+    for (const unsigned int node : {0U, n - 1})
+    {
+      const ContactFace<dim> *const other = first.emplace(dofs.own[node], &face).first->second;
+      const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+      const double along = tangent * other->frame(0.5).tangent,
+                   across = tangent * other->frame(0.5).normal;
+      if (other->condition == face.condition || std::abs(along * across) < 1e-6)
+        continue;
+      std::set<unsigned int> unknowns;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs.own[c * n + node]))
+          unknowns.insert(unknown);
+      result.push_back(unknowns);
+    }
+  }
+  return result;
 }
 
 /** At a corner of two sides both components share unknowns: what one of them fixes is fixed. */
