@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/correction_search.h>
+#include <hpvi/contact/matching.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -70,55 +73,114 @@ CorrectionSearch<dim>::roles(const std::vector<bool> &nearby) const
       else if (may_rub(k) && result[unknown] == Role::outside)
         result[unknown] = Role::free;
   add_normal_roles(result);
-  // Between bodies the unknowns of a jump hold nodes of both: what frees those of the other one lets w penetrate.
-  if (!solution.scene.has_pairs())
-    free_coupled_edges(result);
+  join_roles(result);
+  free_coupled_edges(result);
   return result;
 }
 
 /**
- * An edge that leaves the contact boundary with a lower degree than its cell, or with half the length, is told by some nodes and a vertex
- * at contact: which nodes depends on the frame, and so would what it is to keep them where they are while the vertex moves. They are
- * free, in both components.
+ * An edge whose nodes others constrain, as those of its halves or of a lower degree do, is told by some of its nodes and its
+ * vertices: which nodes depends on the frame, and so would what it is to keep them where they are while a vertex moves. They are
+ * free, in both components. Edges at contact have moments in their place, as every frame has them.
  */
 template <int dim>
 void CorrectionSearch<dim>::free_coupled_edges(std::vector<Role> &roles) const
 {
-  std::vector<bool> is_at_contact(roles.size());
-  const auto note = [&](const Trace &trace)
-  {
-    for (const unsigned int unknown : trace.unknowns)
-      is_at_contact[unknown] = true;
-  };
-  for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    note(traces[k]);
-    if (openings[k])
-      note(openings[k]->penetration);
-  }
   const DisplacementSpace<dim> &space = solution.displacement_space;
-  const auto moves = [&](const auto &term)
-  { return is_at_contact[term.first] && roles[term.first] != Role::outside; };
-  std::set<unsigned int> coupled;
+  const Unknowns<dim> &unknowns = discretisation.unknowns;
+  const std::vector<bool> is_on_contact = contact_dofs();
+  std::vector<bool> is_of_edge(roles.size()), is_coupled(roles.size());
+  const auto moves = [&](const auto &term) { return roles[term.first] != Role::outside; };
   for (unsigned int cell = 0; cell < space.degrees().size(); ++cell)
   {
     const LocalNumbering &numbering = solution.tables.numbering(space.degrees()[cell]);
     const auto dofs = space.cell_dofs(cell);
-    std::vector<bool> is_coupled(numbering.shape.size());
+    std::vector<bool> moves_with_others(numbering.shape.size());
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
-      const auto terms = discretisation.unknowns.terms(dofs[i]);
+      const Terms terms = unknowns.terms(dofs[i]);
+      if (is_on_contact[dofs[i]])
+        continue;
+      if (numbering.shape[i] >= GeometryInfo<dim>::vertices_per_cell && unknowns.is_plain(dofs[i]))
+        is_of_edge[terms[0].first] = true;
       if (std::any_of(terms.begin(), terms.end(), moves))
-        is_coupled[numbering.shape[i]] = true;
+        moves_with_others[numbering.shape[i]] = true;
     }
     for (unsigned int i = 0; i < dofs.size(); ++i)
-      if (is_coupled[numbering.shape[i]])
-        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
-          if (!is_at_contact[unknown])
-            coupled.insert(unknown);
+      if (moves_with_others[numbering.shape[i]] && !is_on_contact[dofs[i]])
+        for (const auto &[unknown, weight] : unknowns.terms(dofs[i]))
+          is_coupled[unknown] = true;
   }
-  for (const unsigned int unknown : coupled)
-    roles[unknown] = Role::free;
+  for (unsigned int unknown = 0; unknown < roles.size(); ++unknown)
+    if (is_of_edge[unknown] && is_coupled[unknown] && roles[unknown] == Role::outside)
+      roles[unknown] = Role::free;
+}
+
+/** By displacement unknown: is it one of an edge at contact, or of the edge opposite? */
+template <int dim>
+std::vector<bool> CorrectionSearch<dim>::contact_dofs() const
+{
+  std::vector<bool> result(solution.displacement_space.n_dofs());
+  for (const ContactFace<dim> &face : faces)
+  {
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
+    for (const auto *side : {&dofs.own, &dofs.opposite})
+      for (const types::global_dof_index dof : *side)
+        result[dof] = true;
+  }
+  return result;
+}
+
+/**
+ * Which unknowns of a plate a face has depends on the frame, and so does along which of two slanted sides a corner has its
+ * unknowns: what fixes one of them holds all.
+ */
+template <int dim>
+void CorrectionSearch<dim>::join_roles(std::vector<Role> &roles) const
+{
+  std::vector<std::set<unsigned int>> groups = slanted_corners();
+  groups.insert(groups.end(), freedom.plates().begin(), freedom.plates().end());
+  for (const std::set<unsigned int> &group : groups)
+  {
+    const auto has = [&](const Role role)
+    {
+      return std::any_of(group.begin(), group.end(),
+                         [&](const unsigned int unknown) { return roles[unknown] == role; });
+    };
+    const Role common = has(Role::fixed)  ? Role::fixed
+                        : has(Role::free) ? Role::free
+                                          : Role::outside;
+    for (const unsigned int unknown : group)
+      roles[unknown] = common;
+  }
+}
+
+/** The unknowns of each vertex where two contact boundaries meet neither along one line nor at a right angle. */
+template <int dim>
+std::vector<std::set<unsigned int>> CorrectionSearch<dim>::slanted_corners() const
+{
+  std::vector<std::set<unsigned int>> result;
+  std::map<types::global_dof_index, const ContactFace<dim> *> first; // by first component
+  for (const ContactFace<dim> &face : faces)
+  {
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
+    const unsigned int n = face.degree + 1;
+    for (const unsigned int node : {0U, n - 1})
+    {
+      const ContactFace<dim> *const other = first.emplace(dofs.own[node], &face).first->second;
+      const Tensor<1, dim> tangent = face.frame(0.5).tangent;
+      const double along = tangent * other->frame(0.5).tangent,
+                   across = tangent * other->frame(0.5).normal;
+      if (other->condition == face.condition || std::abs(along * across) < 1e-6)
+        continue;
+      std::set<unsigned int> unknowns;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs.own[c * n + node]))
+          unknowns.insert(unknown);
+      result.push_back(unknowns);
+    }
+  }
+  return result;
 }
 
 /** At a corner of two sides both components share unknowns: what one of them fixes is fixed. */

@@ -2,12 +2,34 @@
 #include <hpvi/admissibility/node_freedom.h>
 #include <hpvi/body/supports.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+/** Adds a set to disjoint ones, and unites with it those that it meets. */
+void unite(std::set<unsigned int> set, std::vector<std::set<unsigned int>> &sets)
+{
+  const auto meets = [&](const std::set<unsigned int> &other)
+  {
+    return std::any_of(other.begin(), other.end(),
+                       [&](const unsigned int element) { return set.count(element) > 0; });
+  };
+  std::vector<std::set<unsigned int>> result;
+  for (const std::set<unsigned int> &other : sets)
+    if (meets(other))
+      set.insert(other.begin(), other.end());
+    else
+      result.push_back(other);
+  result.push_back(set);
+  sets.swap(result);
+}
+} // namespace
 
 template <int dim>
 NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
@@ -18,13 +40,26 @@ NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim>
   for (const SupportedNode<dim> &node :
        supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
     if (node.is_on_plate)
+    {
       on_plates.insert(node.dofs[0]);
+      std::set<unsigned int> motion;
+      for (const types::global_dof_index dof : node.dofs)
+        for (const auto &[unknown, weight] : unknowns.terms(dof))
+          motion.insert(unknown);
+      unite(motion, of_plates);
+    }
 }
 
 template <int dim>
 bool NodeFreedom<dim>::is_on_plate(const Node &node) const
 {
   return on_plates.count(node[0]) > 0;
+}
+
+template <int dim>
+const std::vector<std::set<unsigned int>> &NodeFreedom<dim>::plates() const
+{
+  return of_plates;
 }
 
 template <int dim>

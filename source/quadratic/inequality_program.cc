@@ -16,8 +16,11 @@ namespace
 constexpr unsigned int none = numbers::invalid_unsigned_int;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/** What counts as zero: of the slack of a row, and of the part of a row that no other one implies. */
-constexpr double round_off = 1e-14, dependent = 1e-10;
+/**
+ * What counts as zero: of the slack of a row; of the part of a row that no other one implies, or of what another one adds
+ * to it; and of its contradiction to those that imply it.
+ */
+constexpr double round_off = 1e-14, dependent = 1e-10, contradiction = 1e-12;
 
 /** `L^-1` with `H = LL'`. */
 FullMatrix<double> inverse_factor(const FullMatrix<double> &H)
@@ -48,11 +51,12 @@ FullMatrix<double> inverse_factor(const FullMatrix<double> &H)
 } // namespace
 
 InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<double> &h)
-    : x(h.size()), J(inverse_factor(H)), R(h.size(), h.size())
+    : x(h.size()), reach(h.size()), J(inverse_factor(H)), R(h.size(), h.size())
 {
   Vector<double> Jh(h.size());
   J.vmult(Jh, h);
   J.Tvmult(x, Jh);
+  note_reach();
 }
 
 bool InequalityProgram::add_equality(Vector<double> row, const double value)
@@ -60,6 +64,7 @@ bool InequalityProgram::add_equality(Vector<double> row, const double value)
   const double length = row.l2_norm();
   rows.push_back({std::move(row), value, length, true});
   is_in.push_back(false);
+  counts_as_met.push_back(false);
   return take_in(rows.size() - 1);
 }
 
@@ -68,16 +73,17 @@ void InequalityProgram::add_inequality(Vector<double> row, const double least)
   const double length = row.l2_norm();
   rows.push_back({std::move(row), least, length, false});
   is_in.push_back(false);
+  counts_as_met.push_back(false);
 }
 
-/** `row' x - bound`, zero where round-off of @p tolerance cannot tell. */
+/** `row' x - bound`, zero where round-off of @p tolerance cannot tell: of x, and where that is next to nothing of what it was. */
 double InequalityProgram::slack(const Row &row, const double tolerance) const
 {
   double sum = -row.bound, size = std::abs(row.bound);
   for (unsigned int i = 0; i < x.size(); ++i)
   {
     sum += row.coefficients[i] * x[i];
-    size += std::abs(row.coefficients[i] * x[i]);
+    size += std::abs(row.coefficients[i]) * std::max(std::abs(x[i]), 1e-10 * reach[i]);
   }
   return std::abs(sum) > tolerance * size ? sum : 0.;
 }
@@ -88,7 +94,7 @@ unsigned int InequalityProgram::most_violated() const
   unsigned int result = none;
   double worst = 0.;
   for (unsigned int i = 0; i < rows.size(); ++i)
-    if (!is_in[i] && !rows[i].is_equality)
+    if (!is_in[i] && !counts_as_met[i] && !rows[i].is_equality)
     {
       const double violation = -slack(rows[i], round_off) / rows[i].length;
       if (violation > worst)
@@ -102,19 +108,40 @@ unsigned int InequalityProgram::most_violated() const
 
 bool InequalityProgram::solve(const double implied)
 {
+  const double tolerance = std::max(implied, contradiction);
   const unsigned int patience = 20 * (x.size() + rows.size());
   for (unsigned int step = 0; step < patience; ++step)
   {
     const unsigned int row = most_violated();
     if (row == none)
-      return true;
+    {
+      if (!recall(tolerance))
+        return true;
+      continue;
+    }
     if (take_in(row))
       continue;
-    if (slack(rows[row], implied) != 0.)
+    if (slack(rows[row], tolerance) != 0.)
       return false;
-    is_in[row] = true;
+    counts_as_met[row] = true;
   }
   return false;
+}
+
+/**
+ * Rows that others implied when their turn came, where x was far away and round-off large, may contradict those where x is now, or
+ * others may have gone. Such rows count no longer; true: there are some.
+ */
+bool InequalityProgram::recall(const double tolerance)
+{
+  bool result = false;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    if (counts_as_met[i] && slack(rows[i], tolerance) < 0.)
+    {
+      counts_as_met[i] = false;
+      result = true;
+    }
+  return result;
 }
 
 /** Move to the minimiser over the active rows and this one, giving up inequalities on the way. */
@@ -125,17 +152,19 @@ bool InequalityProgram::take_in(const unsigned int row)
   {
     J.vmult(d, rows[row].coefficients);
     const std::vector<double> r = combination(d);
+    // For what is round-off of the row no other one gives way, least of all where equations alone imply it.
+    const double least = dependent * d.l2_norm();
     double dual_step = infinity;
     unsigned int blocking = none;
     for (unsigned int k = 0; k < r.size(); ++k)
-      if (!rows[active[k]].is_equality && r[k] > 0. && y[k] / r[k] < dual_step)
+      if (!rows[active[k]].is_equality && r[k] * length_in_R(k) > least && y[k] / r[k] < dual_step)
       {
         dual_step = y[k] / r[k];
         blocking = k;
       }
     Vector<double> free(d);
     std::fill(free.begin(), free.begin() + r.size(), 0.);
-    const bool is_independent = free.l2_norm() > dependent * d.l2_norm();
+    const bool is_independent = free.l2_norm() > least;
     if (!is_independent && rows[row].is_equality)
       return slack(rows[row], dependent) == 0.; // what others imply need not be active
     double full_step = infinity;
@@ -147,14 +176,15 @@ bool InequalityProgram::take_in(const unsigned int row)
     if (is_independent)
     {
       J.Tvmult(z, free);
-      x.add(step, z);
+      move(step, z);
     }
     for (unsigned int k = 0; k < r.size(); ++k)
-      y[k] -= step * r[k];
+      y[k] = rows[active[k]].is_equality ? y[k] - step * r[k] : std::max(0., y[k] - step * r[k]);
     multiplier += step;
     if (step == full_step)
     {
       activate(row, multiplier, d);
+      meet_active();
       return true;
     }
     drop(blocking);
@@ -173,6 +203,42 @@ std::vector<double> InequalityProgram::combination(const Vector<double> &d) cons
     r[i] /= R(i, i);
   }
   return r;
+}
+
+/** Of an active row, in the norm of H^-1. */
+double InequalityProgram::length_in_R(const unsigned int place) const
+{
+  double sum = 0.;
+  for (unsigned int i = 0; i <= place; ++i)
+    sum += R(i, place) * R(i, place);
+  return std::sqrt(sum);
+}
+
+/** Take from x what round-off of the steps leaves of the active rows, else rows that these imply seem violated. */
+void InequalityProgram::meet_active()
+{
+  Vector<double> missing(x.size()), motion(x.size());
+  for (unsigned int k = 0; k < active.size(); ++k)
+  {
+    missing[k] = -slack(rows[active[k]], 0.);
+    for (unsigned int i = 0; i < k; ++i)
+      missing[k] -= R(i, k) * missing[i];
+    missing[k] /= R(k, k);
+  }
+  J.Tvmult(motion, missing);
+  move(1., motion);
+}
+
+void InequalityProgram::move(const double step, const Vector<double> &direction)
+{
+  x.add(step, direction);
+  note_reach();
+}
+
+void InequalityProgram::note_reach()
+{
+  for (unsigned int i = 0; i < x.size(); ++i)
+    reach[i] = std::max(reach[i], std::abs(x[i]));
 }
 
 /** Turn rows i and i + 1 of J so that (a, b) becomes (length, 0). */

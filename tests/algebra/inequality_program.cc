@@ -5,6 +5,7 @@
 #include <hpvi/quadratic/inequality_program.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace
@@ -253,6 +254,54 @@ TEST(InequalityProgram, ContradictsByRoundOff)
       EXPECT_NEAR(program.minimiser()[0], 1., 1e-8);
       EXPECT_NEAR(program.minimiser()[1], 0.5, 1e-15);
     }
+  }
+}
+
+/** Bounds at points of a segment, as those of friction: where equations hold x at one of them, that bound says the same again. */
+TEST(InequalityProgram, BearsBoundsThatRepeatEquations)
+{
+  for (unsigned int seed = 0; seed < 300; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    const unsigned int n = 4 + seed % 5;
+    Program program(n, random);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        program.H(i, j) *= std::pow(10., -0.5 * (i + j)); // what weighs little moves far
+    program.h *= 10.;
+    const auto at = [&](const double s)
+    {
+      Vector<double> row(n);
+      for (unsigned int i = 0; i < n; ++i)
+        row[i] = std::cos(i * std::acos(2. * s - 1.));
+      return row;
+    };
+    const Vector<double> mean = random_vector(n, random);
+    program.equalities.emplace_back(mean, 0.3 * mean[0] + 0.7 * mean[1]);
+    program.equalities.emplace_back(at(1.), 1.);
+    for (unsigned int k = 0; k <= 2 * n; ++k)
+      for (const double sign : {1., -1.})
+      {
+        Vector<double> row = at(0.5 / n * k);
+        row *= sign;
+        program.inequalities.emplace_back(row, -1.);
+      }
+    InequalityProgram solved = program.start();
+    ASSERT_TRUE(solved.solve());
+    const Vector<double> &x = solved.minimiser();
+    for (const auto &[row, value] : program.equalities)
+      EXPECT_NEAR(row * x, value, 1e-14);
+    for (const auto &[row, least] : program.inequalities)
+      EXPECT_GE(row * x, least - 1e-13);
+    // Without the bound that an equation repeats the minimum is the same, and more than that contradicts it.
+    Program once = program;
+    once.inequalities.resize(once.inequalities.size() - 2);
+    InequalityProgram other = once.start();
+    ASSERT_TRUE(other.solve());
+    expect_near(x, other.minimiser(), 1e-9);
+    once.inequalities.emplace_back(at(1.), 1. + 1e-9);
+    EXPECT_FALSE(once.start().solve());
   }
 }
 

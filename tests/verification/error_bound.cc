@@ -734,6 +734,9 @@ Scene<2> told(const ToldScene &scene, const Tensor<2, 2> &turn, const double shi
 const Overrides three_steps = {{"Material/Young's modulus", "10"},
                                {"Adaptivity/Method", "hpa3"},
                                {"Adaptivity/Maximum steps", "3"}};
+const Overrides more_steps = {{"Material/Young's modulus", "10"},
+                              {"Adaptivity/Method", "hpa1"},
+                              {"Adaptivity/Maximum steps", "5"}};
 const std::array<Point<2>, 4> leaning = {{{0, 0}, {1.5, 0}, {1.8, 1.2}, {0.3, 1.2}}},
                               upright = {{{0, 0}, {1.5, 0}, {1.5, 1.2}, {0, 1.2}}};
 
@@ -748,8 +751,11 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                             {"Friction bound", "1"}},
                   rubs_in_part = {{"Contact", "bilateral"},
                                   {"Friction bound", "0.05*max(0, X - 0.61)"}},
-                  free;
-  const Tensor<1, 2> none, down({0.004, -0.02}), along_left({-0.005, -0.02});
+                  rubs = {{"Contact", "tangential"}, {"Friction bound", "0.02"}},
+                  held = {{"Displacement", "0; 0"}}, loaded = {{"Pressure", "0.1"}},
+                  plate = {{"Rigid", "true"}}, free;
+  const Tensor<1, 2> none, down({0.004, -0.02}), along_left({-0.005, -0.02}),
+      sideways({0.02, -0.01});
   const std::vector<ToldScene> scenes = {{"leaning",
                                           leaning,
                                           {{4, 2}},
@@ -791,6 +797,34 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                                           {{rubs_in_part, free, free, free}},
                                           {{none, none, down, none}},
                                           three_steps,
+                                          1},
+                                         {"plate beside friction",
+                                          upright,
+                                          {{3, 2}},
+                                          {{rubs, held, loaded, plate}},
+                                          {{none, none, none, none}},
+                                          three_steps,
+                                          12345},
+                                         {"plate beside a gap",
+                                          upright,
+                                          {{3, 1}},
+                                          {{opens, held, loaded, plate}},
+                                          {{none, none, none, none}},
+                                          three_steps,
+                                          12345},
+                                         {"corner of two slanted sides that rub",
+                                          leaning,
+                                          {{2, 1}},
+                                          {{unilateral, free, free, rubs}},
+                                          {{none, none, along_left, none}},
+                                          three_steps,
+                                          12345},
+                                         {"halves beyond contact",
+                                          upright,
+                                          {{3, 2}},
+                                          {{rubs_in_part, free, free, opens}},
+                                          {{none, none, sideways, none}},
+                                          more_steps,
                                           1}};
   const Tensor<2, 2> as_it_is({{1, 0}, {0, 1}}), mirrored({{-1, 0}, {0, 1}}),
       turned({{std::cos(0.6), -std::sin(0.6)}, {std::sin(0.6), std::cos(0.6)}});

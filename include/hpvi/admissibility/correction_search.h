@@ -12,6 +12,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -76,7 +77,10 @@ private:
 
   std::vector<Role> roles(const std::vector<bool> &nearby) const;
   void add_normal_roles(std::vector<Role> &roles) const;
+  void join_roles(std::vector<Role> &roles) const;
+  std::vector<std::set<unsigned int>> slanted_corners() const;
   void free_coupled_edges(std::vector<Role> &roles) const;
+  std::vector<bool> contact_dofs() const;
   dealii::Vector<double> fixed_displacement() const;
   double open_joints(const dealii::Vector<double> &w) const;
   bool find_near_pressure(unsigned int face) const;

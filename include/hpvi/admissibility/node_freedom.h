@@ -7,6 +7,7 @@
 
 #include <array>
 #include <set>
+#include <vector>
 
 namespace hpvi
 {
@@ -23,6 +24,9 @@ public:
   /** Is it a part of a rigid plate, which would move with it? */
   bool is_on_plate(const Node &node) const;
 
+  /** The unknowns of each plate's motion: which components of which nodes they are depends on the frame. */
+  const std::vector<std::set<unsigned int>> &plates() const;
+
   /** Where supports leave it one direction, along an axis or along a slanted side with `u_n = 0`, that one; else zero. */
   dealii::Tensor<1, dim> only_direction(const Node &node) const;
 
@@ -32,6 +36,7 @@ public:
 private:
   const Unknowns<dim> &unknowns;
   std::set<dealii::types::global_dof_index> on_plates; ///< first components
+  std::vector<std::set<unsigned int>> of_plates;
 };
 } // namespace hpvi
 

@@ -13,7 +13,8 @@ namespace hpvi
  * The small dense program `min 1/2 x'Hx - h'x` with `E x = e` and `C x >= c`, H positive definite, by the
  * dual method of Goldfarb and Idnani (1983, doi:10.1007/BF02591962): from the minimiser without
  * conditions it takes in one violated row after the other, each time giving up those whose multipliers
- * would turn negative. Rows that depend on one another do no harm. More rows may be added after a
+ * would turn negative. Rows that depend on one another do no harm: what equations or active rows imply up to round-off
+ * counts as met, and takes the place of none of them. More rows may be added after a
  * solution; the next solve() goes on from there.
  */
 class InequalityProgram
@@ -30,7 +31,7 @@ public:
 
   /**
    * False: no x meets all rows, or round-off keeps the method from ending. A row that contradicts others by no more
-   * than the part @p implied of its terms, round-off of bounds that come from data, counts as met from then on.
+   * than the part @p implied of its terms, round-off of bounds that come from data, and 1e-12 at least, counts as met.
    */
   bool solve(double implied = 0.);
 
@@ -62,19 +63,26 @@ private:
 
   double slack(const Row &row, double tolerance) const;
   unsigned int most_violated() const;
+  bool recall(double tolerance);
   bool take_in(unsigned int row);
   std::vector<double> combination(const dealii::Vector<double> &d) const;
+  double length_in_R(unsigned int place) const;
+  void meet_active();
+  void move(double step, const dealii::Vector<double> &direction);
+  void note_reach();
   Rotation rotate(unsigned int i, double a, double b);
   void activate(unsigned int row, double multiplier, dealii::Vector<double> &d);
   void drop(unsigned int place);
 
   dealii::Vector<double> x;
+  dealii::Vector<double> reach; ///< the largest |x_i| so far, whose round-off x has
   std::vector<Row> rows;
   dealii::FullMatrix<double> J; ///< `J'J = H^-1`, turned so that `J N = (R; 0)`, R a triangle,
   dealii::FullMatrix<double> R; ///< where the columns of N are the active rows
   std::vector<unsigned int> active;
-  std::vector<double> y;   ///< multipliers of the active rows
-  std::vector<bool> is_in; ///< is a row active, or does it count as met?
+  std::vector<double> y;           ///< multipliers of the active rows
+  std::vector<bool> is_in;         ///< is a row active?
+  std::vector<bool> counts_as_met; ///< as active ones imply it, up to round-off
 };
 } // namespace hpvi
 
