@@ -263,13 +263,10 @@ void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
   step.forces = resultants(scene, step.equilibrium, step.contact);
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
-  if (!step.bound)
-    step.no_intervals = step.no_bound;
-  else if (scene.intervals)
-  {
-    step.no_intervals = backend->bound_forces(*step.bound, step.forces);
+  const bool is_bounded = step.bound && scene.intervals;
+  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
+  if (is_bounded)
     mean_intervals.set(step);
-  }
   history.back().relative_half_width = relative_half_width(step);
 }
 

@@ -66,20 +66,14 @@ private:
   std::array<Derivatives1D, dim> factors;
 };
 
-/** Gauss-Lobatto points and the order of shape functions cost more than a few points of a table: found once per thread. */
-template <int dim>
-TensorElement<dim> &element_of(const unsigned int degree)
-{
-  thread_local std::map<unsigned int, TensorElement<dim>> known;
-  return known.try_emplace(degree, degree).first->second;
-}
 } // namespace
 
 template <int dim>
 ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>> &points,
                          const std::vector<double> &weights, const bool second_derivatives)
 {
-  TensorElement<dim> &element = element_of<dim>(degree);
+  thread_local std::map<unsigned int, TensorElement<dim>> elements; // dearer than a few points
+  TensorElement<dim> &element = elements.try_emplace(degree, degree).first->second;
   ShapeTable<dim> table;
   table.n_shapes = element.n_shapes();
   table.rows_per_point = dim + (second_derivatives ? dim * dim : 0);
