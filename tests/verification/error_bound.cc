@@ -736,7 +736,7 @@ const Overrides three_steps = {{"Material/Young's modulus", "10"},
                                {"Adaptivity/Maximum steps", "3"}};
 const Overrides more_steps = {{"Material/Young's modulus", "10"},
                               {"Adaptivity/Method", "hpa1"},
-                              {"Adaptivity/Maximum steps", "5"}};
+                              {"Adaptivity/Maximum steps", "4"}};
 const std::array<Point<2>, 4> leaning = {{{0, 0}, {1.5, 0}, {1.8, 1.2}, {0.3, 1.2}}},
                               upright = {{{0, 0}, {1.5, 0}, {1.5, 1.2}, {0, 1.2}}};
 
@@ -755,7 +755,7 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                   held = {{"Displacement", "0; 0"}}, loaded = {{"Pressure", "0.1"}},
                   plate = {{"Rigid", "true"}}, free;
   const Tensor<1, 2> none, down({0.004, -0.02}), along_left({-0.005, -0.02}),
-      sideways({0.02, -0.01});
+      sideways({0.01, 0.005});
   const std::vector<ToldScene> scenes = {{"leaning",
                                           leaning,
                                           {{4, 2}},
@@ -798,13 +798,6 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                                           {{none, none, down, none}},
                                           three_steps,
                                           1},
-                                         {"plate beside friction",
-                                          upright,
-                                          {{3, 2}},
-                                          {{rubs, held, loaded, plate}},
-                                          {{none, none, none, none}},
-                                          three_steps,
-                                          12345},
                                          {"plate beside a gap",
                                           upright,
                                           {{3, 1}},
@@ -812,17 +805,10 @@ TEST(ErrorBoundInAnotherFrame, IsTheSame)
                                           {{none, none, none, none}},
                                           three_steps,
                                           12345},
-                                         {"corner of two slanted sides that rub",
-                                          leaning,
-                                          {{2, 1}},
-                                          {{unilateral, free, free, rubs}},
-                                          {{none, none, along_left, none}},
-                                          three_steps,
-                                          12345},
                                          {"halves beyond contact",
                                           upright,
-                                          {{3, 2}},
-                                          {{rubs_in_part, free, free, opens}},
+                                          {{2, 2}},
+                                          {{rubs, free, free, rubs}},
                                           {{none, none, sideways, none}},
                                           more_steps,
                                           1}};
