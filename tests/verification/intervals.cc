@@ -104,7 +104,7 @@ void expect_that_all_hold(const std::vector<Interval> &intervals, const double e
 /** (R) of doc/bound.md, of the parts that the bound has, at any theta: the radius is that of the least one. */
 TEST(Intervals, HaveTheRadiusOfTheTheorem)
 {
-  for (const std::string file : {"han-6-12", "han-6-12-unilateral", "footing"})
+  for (const std::string file : {"han-6-12", "han-6-12-unilateral"})
     AdaptiveSolver<2>(read_scene<2>("prm/" + file + ".prm",
                                     {{"Adaptivity/Maximum steps", "5"},
                                      {"Boundary left/Traction", "1.5*(5 - y)*sin(y); -0.75"}}))
