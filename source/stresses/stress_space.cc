@@ -34,7 +34,7 @@ void StressSpace::set_compliance(const Tensor<2, 2> &B, const Material &material
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int l = 0; l < 3; ++l)
       compliance[k][l] = law.complementary_product(s[k], s[l]);
-  for (unsigned int bits = 1; bits < 8; ++bits)
+  for (unsigned int bits = 0; bits < 8; ++bits) // of none: zero
   {
     // Inverse of the rows and columns in bits, the others left out.
     Tensor<2, 3> part;
