@@ -235,6 +235,17 @@ TEST(Intervals, OfFrictionAreSharpEnoughAtStuckCorners)
   EXPECT_LT(example.intervals.at("bottom.T").back().half_width, 8 * example.bound);
 }
 
+// What is loaded on the contact itself is no part of its friction: F_s agrees with F_w, and the interval is as narrow.
+TEST(Intervals, AreAsNarrowUnderLoadsOnTheContact)
+{
+  const Numbers plain = numbers_of("han-6-12", {}, 9),
+                loaded =
+                    numbers_of("han-6-12", {{"Boundary bottom/Traction", "0.2 + 0.1*x; 0"}}, 9);
+  const auto width = [](const Numbers &numbers)
+  { return numbers.intervals.at("bottom.T").back().half_width / numbers.radius; };
+  EXPECT_NEAR(width(loaded), width(plain), 0.1 * width(plain));
+}
+
 // Half-widths of a mean along the loaded end of a bar: |q|_*^2 = length/(E area) with nu = 0.
 TEST(Intervals, OfMeansHaveTheNormOfABar)
 {
