@@ -235,6 +235,33 @@ TEST(Intervals, OfFrictionAreSharpEnoughAtStuckCorners)
   EXPECT_LT(example.intervals.at("bottom.T").back().half_width, 8 * example.bound);
 }
 
+/** Where contact is open a fall is nowhere more than kappa times the room that is left. */
+TEST(Intervals, KnowHowOpenContactIs)
+{
+  Scene<2> scene = read_scene<2>("prm/hertz.prm", {{"Adaptivity/Maximum steps", "8"}});
+  const unsigned int bottom = scene.boundary("bottom").id;
+  unsigned int n_points = 0;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        if (!step.bound)
+          return;
+        for (const Point<2> &end : sides_of(scene)[bottom].pieces.front())
+        {
+          const OpenContact open(step.solution(), *step.bound, bottom, end);
+          const double l = open.length(), kappa = open.kappa(l);
+          for (const ContactPoint<2> &point : step.contact.at(0).points)
+            if (const double s = point.x.distance(end); s < l)
+            {
+              ++n_points;
+              EXPECT_LE(1 - s / l, kappa * point.gap) << step.number;
+            }
+        }
+      },
+      [](const Progress &) {});
+  EXPECT_GT(n_points, 20u);
+}
+
 // What is loaded on the contact itself is no part of its friction: F_s agrees with F_w, and the interval is as narrow.
 TEST(Intervals, AreAsNarrowUnderLoadsOnTheContact)
 {
@@ -309,6 +336,17 @@ TEST(Intervals, ASmoothMeanHasMassOne)
       mass += gauss.weight(q) * mean.radius * 2 * numbers::PI * s * mean.density(s);
     }
     EXPECT_NEAR(mass, 1., 1e-12);
+    // |tau|^2 = int |g|^2/mu, g = (what either density has within s)/(2 pi s)
+    double square = 0;
+    const dealii::QIterated<1> fine(dealii::QGauss<1>(8), 60);
+    for (unsigned int q = 0; q < fine.size(); ++q)
+    {
+      const double s = mean.radius * fine.point(q)[0],
+                   difference = std::min(1., std::pow(s / size, 2)) - 1 +
+                                std::pow(1 - std::pow(s / mean.radius, 2), 7);
+      square += fine.weight(q) * mean.radius * difference * difference / (2 * numbers::PI * s);
+    }
+    EXPECT_NEAR(mean.remainder, std::sqrt(square * 2.6 / 10), 1e-3 * mean.remainder);
     EXPECT_GT(mean.remainder * std::sqrt(10 / 2.6), 0.03); // in units of mu^{-1/2}
     EXPECT_LT(mean.remainder * std::sqrt(10 / 2.6), 0.24);
   }
