@@ -46,25 +46,18 @@ double product(const CellField<dim> &a, const CellField<dim> &b)
 
 template <int dim>
 PrimalSystem<dim>::PrimalSystem(const MomentSpace<dim> &space)
-    : f(space.ghosted_vector()), space(space)
+    : f(space.ghosted_vector()), space(space), stiffness(space)
 {
-  {
-    DynamicSparsityPattern pattern(space.relevant);
-    DoFTools::make_sparsity_pattern(space.dof_handler, pattern, space.constraints, false);
-    SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(),
-                                               space.relevant);
-    A.reinit(space.owned, space.owned, pattern, space.communicator());
-  }
-  together(space.communicator(), [this]() { assemble(); });
-  A.compress(VectorOperation::add);
+  together(space.communicator(), [this]() { assemble_loads(); });
   f.compress(VectorOperation::add);
   DistributedVector owned_part = space.owned_vector();
   owned_part.copy_locally_owned_data_from(f);
   f.swap(owned_part);
 }
 
+/** With what prescribed displacements do to the unknowns beside them. */
 template <int dim>
-void PrimalSystem<dim>::assemble()
+void PrimalSystem<dim>::assemble_loads()
 {
   const FESystem<dim> &fe = space.tables.fe;
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
@@ -77,59 +70,37 @@ void PrimalSystem<dim>::assemble()
         for (unsigned int c = 0; c < dim; ++c)
           nodal[space.tables.numbers[i][c]] = loads[i][c];
       const std::vector<bool> moment_components = space.moment_components(cell);
-      if (std::find(moment_components.begin(), moment_components.end(), true) ==
-          moment_components.end())
-        F = nodal;
-      else
+      if (any(moment_components))
         space.tables.basis_of_moments(moment_components).Tvmult(F, nodal);
+      else
+        F = nodal;
       cell->get_dof_indices(dofs);
-      space.constraints.distribute_local_to_global(stiffness(cell, moment_components), F, dofs, A,
-                                                   f);
+      space.constraints.distribute_local_to_global(F, dofs, f, stiffness(cell, moment_components));
     }
 }
 
 template <int dim>
-const FullMatrix<double> &
-PrimalSystem<dim>::stiffness(const Cell &cell, const std::vector<bool> &moment_components) const
+TrilinosWrappers::SparseMatrix &PrimalSystem<dim>::matrix()
 {
-  const auto [entry, is_new] =
-      matrices.try_emplace({size_class(cell), cell->material_id(), moment_components});
-  if (!is_new)
-    return entry->second;
-  const Matrix K = space.tables.stiffness(HookesLaw<dim>(space.scene.material_of(cell)),
-                                          MomentSpace<dim>::extent(cell));
-  if (std::find(moment_components.begin(), moment_components.end(), true) ==
-      moment_components.end())
-    return entry->second = K;
-  const Matrix T = space.tables.basis_of_moments(moment_components);
-  Matrix KT(K.m(), K.m());
-  K.mmult(KT, T);
-  entry->second.reinit(K.m(), K.m());
-  T.Tmmult(entry->second, KT);
-  return entry->second;
-}
-
-template <int dim>
-unsigned int PrimalSystem<dim>::size_class(const Cell &cell) const
-{
-  const auto &cuts = space.scene.geometry.cuts;
-  if (std::all_of(cuts.begin(), cuts.end(), [](const auto &lines) { return lines.empty(); }))
-    return cell->level();
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
-  const auto known = std::find_if(sizes.begin(), sizes.end(),
-                                  [&](const Tensor<1, dim> &other)
-                                  {
-                                    for (unsigned int d = 0; d < dim; ++d)
-                                      if (std::abs(other[d] - size[d]) > 1e-12 * size[d])
-                                        return false;
-                                    return true;
-                                  });
-  if (known == sizes.end())
+  if (A.m() > 0)
+    return A;
   {
-    sizes.push_back(size);
-    return sizes.size() - 1;
+    DynamicSparsityPattern pattern(space.relevant);
+    DoFTools::make_sparsity_pattern(space.dof_handler, pattern, space.constraints, false);
+    SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(),
+                                               space.relevant);
+    A.reinit(space.owned, space.owned, pattern, space.communicator());
   }
-  return known - sizes.begin();
+  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  for (const Cell &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      space.constraints.distribute_local_to_global(stiffness(cell, space.moment_components(cell)),
+                                                   dofs, A);
+    }
+  A.compress(VectorOperation::add);
+  return A;
 }
 
 template <int dim>
@@ -171,13 +142,12 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 {
   double sum = 0;
   const FESystem<dim> &fe = space.tables.fe;
-  const std::vector<bool> none(dim * GeometryInfo<dim>::faces_per_cell, false);
   Vector<double> local(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       cell->get_dof_values(u, local);
-      sum += stiffness(cell, none).matrix_norm_square(local);
+      sum += stiffness.nodal(cell).matrix_norm_square(local);
     }
   return Utilities::MPI::sum(sum, space.communicator());
 }
@@ -216,7 +186,6 @@ template <int dim>
 void PrimalSystem<dim>::add_nodal_forces(const DistributedVector &u, NodalForces &forces) const
 {
   const FESystem<dim> &fe = space.tables.fe;
-  const std::vector<bool> none(dim * GeometryInfo<dim>::faces_per_cell, false);
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
   Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
@@ -224,7 +193,7 @@ void PrimalSystem<dim>::add_nodal_forces(const DistributedVector &u, NodalForces
     {
       cell->get_dof_indices(dofs);
       cell->get_dof_values(u, local);
-      stiffness(cell, none).vmult(internal, local);
+      stiffness.nodal(cell).vmult(internal, local);
       const CellField<dim> loads = load(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {

@@ -188,9 +188,13 @@ void add_program_entries(std::vector<Entry> &entries)
         "in space, on several processes, and where it offers what the scene asks for and the first "
         "mesh has so many multipliers that their dense algebra would take longer, from about 800 "
         "on; else reduced."},
-       {"Solver", "Linear", "amg", one_of(linear_names), "amg or direct",
-        "primal in space: conjugate gradients with algebraic multigrid, or a sparse factorisation, "
-        "which the plane always has."},
+       {"Solver", "Linear", "automatic", one_of(linear_names),
+        "automatic, multigrid, amg or direct",
+        "primal in space. multigrid: conjugate gradients without a matrix, with geometric "
+        "multigrid, "
+        "degrees 2 to 4; amg: with a matrix and algebraic multigrid; direct: a sparse "
+        "factorisation, which the plane always has. automatic: multigrid where the coarse mesh has "
+        "at most 20000 unknowns, else amg. What breaks down gives way to the next one."},
        {"Solver", "Primal tolerance", "0", matching(Patterns::Double(0, 1)), "a number in [0, 1]",
         "primal: Newton's method stops where its residual is below this part of the load vector; "
         "0: where what it leaves is below a hundredth of the estimated error."},

@@ -89,7 +89,7 @@ double dual_minimum(const MomentSpace<3> &space)
   const PrimalSystem<3> system(space);
   SolverControl control;
   TrilinosWrappers::SolverDirect factor(control);
-  factor.initialize(system.A);
+  factor.initialize(system.matrix());
   const ContactForces forces = contact_forces(space);
   const unsigned int n = forces.unknowns.size();
   LAPACKFullMatrix<double> S(n);

@@ -2,12 +2,9 @@
 #ifndef hpvi_primal_system_h
 #define hpvi_primal_system_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/moments/box_stiffness.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-
-#include <map>
-#include <tuple>
 
 namespace hpvi
 {
@@ -31,26 +28,23 @@ public:
   /** Of all nodes of this process and beside it. Collective. */
   NodalForces nodal_forces(const DistributedVector &u) const;
 
-  dealii::TrilinosWrappers::SparseMatrix A;
+  /** A, assembled when it is asked for first: matrix-free methods never do. Collective. */
+  dealii::TrilinosWrappers::SparseMatrix &matrix();
+
   DistributedVector f;
 
 private:
   using Cell = typename MomentSpace<dim>::Cell;
-  using Matrix = dealii::FullMatrix<double>;
 
-  /** Cells of one size, material and set of components with moments share K and T'KT. */
-  const Matrix &stiffness(const Cell &cell, const std::vector<bool> &moment_components) const;
-  /** The same for cells of one size: their level, unless grid lines cut some of the coarse mesh shorter. */
-  unsigned int size_class(const Cell &cell) const;
   CellField<dim> body_load(const Cell &cell) const;
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;
-  void assemble();
+  void assemble_loads();
   void add_nodal_forces(const DistributedVector &u, NodalForces &forces) const;
 
   const MomentSpace<dim> &space;
-  mutable std::vector<dealii::Tensor<1, dim>> sizes; ///< by size_class(), of cells that differ
-  mutable std::map<std::tuple<unsigned int, unsigned int, std::vector<bool>>, Matrix> matrices;
+  const BoxStiffness<dim> stiffness;
+  dealii::TrilinosWrappers::SparseMatrix A; ///< empty until matrix()
 };
 } // namespace hpvi
 

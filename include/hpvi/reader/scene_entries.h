@@ -27,7 +27,7 @@ inline const std::vector<std::string> reading_names = {"plain", "joint"},
                                       load_adaptivity_names = {"first step", "every step"},
                                       output_steps_names = {"all", "last"},
                                       path_names = {"auto", "reduced", "primal"},
-                                      linear_names = {"amg", "direct"},
+                                      linear_names = {"automatic", "multigrid", "amg", "direct"},
                                       friction_law_names = {"automatic", "limited", "cohesive"};
 
 /** The enumerator whose name is the value of an entry. */

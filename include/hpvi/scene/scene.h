@@ -125,15 +125,17 @@ enum class SolutionPath
 /** What solves the linear systems of the primal path. */
 enum class LinearMethod
 {
-  amg,   ///< conjugate gradients, preconditioned by algebraic multigrid
-  direct ///< sparse factorisation
+  automatic, ///< the fastest that the mesh allows, see MomentMatrix
+  multigrid, ///< conjugate gradients without a matrix, preconditioned by geometric multigrid: in space
+  amg,       ///< conjugate gradients, preconditioned by algebraic multigrid
+  direct     ///< sparse factorisation
 };
 
 /** How the discrete problem is solved. */
 struct SolverSettings
 {
   SolutionPath path = SolutionPath::automatic;
-  LinearMethod linear = LinearMethod::amg;
+  LinearMethod linear = LinearMethod::automatic;
   double primal_tolerance = 0; ///< of Newton's residual, relative to the load vector; 0: see entry
   QpSolver qp_solver = QpSolver::active_set;
   bool qp_warm_start = true;                        ///< from the multiplier of the previous step

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/moments/moment_matrix.h>
+#include <hpvi/primal/moment_matrix.h>
 
 #include <deal.II/base/timer.h>
 
@@ -17,7 +17,7 @@ using namespace dealii;
 namespace
 {
 constexpr double held_factor = 1e4;
-constexpr unsigned int maximum_steps = 300;
+constexpr unsigned int maximum_steps = 300, multigrid_steps = 100;
 
 template <int dim>
 constexpr unsigned int n_motions = dim *(dim + 1) / 2;
@@ -60,18 +60,57 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
 }
 } // namespace
 
+namespace
+{
+template <int dim>
+LinearMethod choose(const MomentSpace<dim> &space)
+{
+  if constexpr (dim == 3)
+    if (const LinearMethod wanted = space.scene.solver.linear; wanted != LinearMethod::automatic)
+      return wanted;
+    else
+      return Multigrid::is_for(space) ? LinearMethod::multigrid : LinearMethod::amg;
+  else
+    return LinearMethod::direct;
+}
+} // namespace
+
 template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
-    : space(space), system(system), blocks(space.contact.size()), inserted(space.contact.size()),
-      states(space.contact.size()),
-      is_direct(dim == 2 || space.scene.solver.linear == LinearMethod::direct)
+    : method(choose(space)), space(space), system(system), blocks(space.contact.size()),
+      inserted(space.contact.size()), states(space.contact.size())
 {
+  begin();
+}
+
+/** What #method wants. */
+template <int dim>
+void MomentMatrix<dim>::begin()
+{
+  const Timer timer;
+  if constexpr (dim == 3)
+    if (method == LinearMethod::multigrid)
+    {
+      multigrid = std::make_unique<Multigrid>(space);
+      blocks = multigrid->finest.blocks;
+      setup_seconds += timer.wall_time();
+      return;
+    }
+  multigrid.reset();
+  assemble();
+  setup_seconds += timer.wall_time();
+}
+
+template <int dim>
+void MomentMatrix<dim>::assemble()
+{
+  A = &system.matrix();
   for (unsigned int k = 0; k < blocks.size(); ++k)
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s; ++t)
         if (const auto &moment = space.contact[k]; moment.is_friction() || s == t)
-          blocks[k][s][t] = system.A.el(space.owned.nth_index_in_set(moment.unknowns[s]),
-                                        space.owned.nth_index_in_set(moment.unknowns[t]));
+          blocks[k][s][t] = A->el(space.owned.nth_index_in_set(moment.unknowns[s]),
+                                  space.owned.nth_index_in_set(moment.unknowns[t]));
   motions = rigid_motions();
 }
 
@@ -93,7 +132,13 @@ void MomentMatrix<dim>::mask(DistributedVector &x) const
 template <int dim>
 void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &x) const
 {
-  system.A.vmult(y, x);
+  if constexpr (dim == 3)
+    if (multigrid)
+    {
+      multigrid->multiply(y, x);
+      return;
+    }
+  A->vmult(y, x);
   for (unsigned int k = 0; k < inserted.size(); ++k)
     space.add_moment(y, k, -(inserted[k] * space.moment(x, k)));
 }
@@ -101,7 +146,13 @@ void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &
 template <int dim>
 void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const DistributedVector &x) const
 {
-  system.A.vmult(y, x);
+  if constexpr (dim == 3)
+    if (multigrid)
+    {
+      multigrid->multiply_linearised(y, x);
+      return;
+    }
+  A->vmult(y, x);
   for (unsigned int k = 0; k < states.size(); ++k)
     space.add_moment(y, k, (states[k].stiffness - inserted[k]) * space.moment(x, k));
   mask(y);
@@ -156,8 +207,8 @@ void MomentMatrix<dim>::set_block(const unsigned int k, const Block &block)
   const unsigned int n = space.contact[k].n_unknowns();
   for (unsigned int s = 0; s < n; ++s)
     for (unsigned int t = 0; t < n; ++t)
-      system.A.set(space.owned.nth_index_in_set(unknowns[s]),
-                   space.owned.nth_index_in_set(unknowns[t]), block[s][t]);
+      A->set(space.owned.nth_index_in_set(unknowns[s]), space.owned.nth_index_in_set(unknowns[t]),
+             block[s][t]);
 }
 
 template <int dim>
@@ -179,10 +230,10 @@ void MomentMatrix<dim>::set_up()
       }
     set_block(k, blocks[k] + inserted[k]);
   }
-  system.A.compress(VectorOperation::insert);
+  A->compress(VectorOperation::insert);
   Teuchos::ParameterList parameters = multigrid_parameters<dim>(free_motions);
   amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-  amg->initialize(system.A, parameters);
+  amg->initialize(*A, parameters);
   known = states;
   ++n_setups;
   setup_seconds += timer.wall_time();
@@ -197,13 +248,13 @@ void MomentMatrix<dim>::factor_alone()
     for (const unsigned int unknown : space.contact[k].unknowns)
       is_held[unknown] = states[k].is_held;
   SymmetricMatrix upper; // its column j is what row j has up to the diagonal
-  upper.resize((system.A.n_nonzero_elements() + is_held.size()) / 2);
+  upper.resize((A->n_nonzero_elements() + is_held.size()) / 2);
   int n_entries = 0;
   for (unsigned int j = 0; j < is_held.size(); ++j)
   {
     int n = 0, *columns = nullptr;
     double *values = nullptr;
-    system.A.trilinos_matrix().ExtractMyRowView(j, n, values, columns);
+    A->trilinos_matrix().ExtractMyRowView(j, n, values, columns);
     for (int e = 0; e < n; ++e)
     {
       const unsigned int i = columns[e]; // numbered alike on one process
@@ -226,8 +277,8 @@ void MomentMatrix<dim>::factor_together()
   for (unsigned int k = 0; k < states.size(); ++k)
     for (unsigned int s = 0; states[k].is_held && s < space.contact[k].n_unknowns(); ++s)
       held.push_back(space.owned.nth_index_in_set(space.contact[k].unknowns[s]));
-  factored.reinit(system.A);
-  factored.copy_from(system.A);
+  factored.reinit(*A);
+  factored.copy_from(*A);
   factored.clear_rows(held, 1.);
   using Factors = TrilinosWrappers::SolverDirect;
   factors = std::make_unique<Factors>(control, Factors::AdditionalData(false, "Amesos_Mumps"));
@@ -246,7 +297,7 @@ void MomentMatrix<dim>::factor()
     inserted[k] = states[k].stiffness;
     set_block(k, blocks[k] + inserted[k]);
   }
-  system.A.compress(VectorOperation::insert);
+  A->compress(VectorOperation::insert);
   if (Utilities::MPI::n_mpi_processes(space.communicator()) == 1)
     factor_alone();
   else
@@ -262,7 +313,16 @@ void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_state
   for (unsigned int k = 0; k < states.size(); ++k)
     changed += states[k].is_held != new_states[k].is_held;
   states = new_states;
-  if (is_direct)
+  if constexpr (dim == 3)
+    if (multigrid)
+    {
+      const Timer timer;
+      multigrid->linearise(states);
+      n_setups = std::max(n_setups, 1u);
+      setup_seconds += timer.wall_time();
+      return;
+    }
+  if (method == LinearMethod::direct)
     factor();
   else if (anew || !amg ||
            50 * Utilities::MPI::sum(changed, space.communicator()) >
@@ -273,6 +333,13 @@ void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_state
 template <int dim>
 void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVector &r) const
 {
+  if constexpr (dim == 3)
+    if (multigrid)
+    {
+      multigrid->precondition(z, r);
+      mask(z);
+      return;
+    }
   if (own_factors)
   {
     const Vector<double> solution = own_factors->solve(Vector<double>(r.begin(), r.end()));
@@ -293,7 +360,10 @@ void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVect
   mask(z);
 }
 
-/** Conjugate gradients; false where they break down. */
+/**
+ * Conjugate gradients; false where they break down. Multigrid of single precision is no symmetric operator to the last bits: the
+ * next direction is made orthogonal to the last one by its own product (Polak and Ribiere).
+ */
 template <int dim>
 bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b,
                                 const double tolerance)
@@ -302,7 +372,8 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
   multiply_linearised(q, v);
   mask(r);
   r -= q;
-  double rho = 0;
+  double rho = 0, length = 0;
+  const unsigned int most = method == LinearMethod::multigrid ? multigrid_steps : maximum_steps;
   for (unsigned int step = 0; !(r.l2_norm() <= tolerance); ++step, ++n_steps)
   {
     before_step();
@@ -311,14 +382,15 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
     if (step == 0)
       p = z;
     else
-      p.sadd(next / rho, 1., z);
+      p.sadd(method == LinearMethod::multigrid ? -length * (z * q) / rho : next / rho, 1., z);
     rho = next;
     multiply_linearised(q, p);
     const double curvature = p * q;
-    if (!(rho > 0 && curvature > 0 && std::isfinite(rho / curvature)) || step == maximum_steps)
+    if (!(rho > 0 && curvature > 0 && std::isfinite(rho / curvature)) || step == most)
       return false;
-    v.add(rho / curvature, p);
-    r.add(-rho / curvature, q);
+    length = rho / curvature;
+    v.add(length, p);
+    r.add(-length, q);
   }
   return true;
 }
@@ -328,16 +400,19 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
                               const double tolerance)
 {
   const DistributedVector start = v;
-  if (iterate(v, b, tolerance))
-    return;
-  fell_back = fell_back || !is_direct;
-  is_direct = true;
-  factor();
-  v = start;
-  if (!iterate(v, b, tolerance))
-    throw NumericalFailure("neither conjugate gradients with multigrid nor a factorisation solve "
-                           "for the displacement; keep Poisson's ratio away from 1/2, take a mesh "
-                           "of less slender cells or raise Solver/Primal tolerance");
+  while (!iterate(v, b, tolerance))
+  {
+    if (method == LinearMethod::direct)
+      throw NumericalFailure(
+          "neither conjugate gradients with multigrid nor a factorisation solve "
+          "for the displacement; keep Poisson's ratio away from 1/2, take a mesh "
+          "of less slender cells or raise Solver/Primal tolerance");
+    fell_back = true;
+    method = method == LinearMethod::multigrid ? LinearMethod::amg : LinearMethod::direct;
+    begin();
+    linearise(std::vector<MomentState<dim>>(states), /*anew=*/true);
+    v = start;
+  }
 }
 
 template class MomentMatrix<2>;

@@ -3,9 +3,10 @@
 #define hpvi_moment_matrix_h
 
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/moments/moment_state.h>
 #include <hpvi/moments/primal_system.h>
+#include <hpvi/multigrid/multigrid.h>
 
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
@@ -15,22 +16,16 @@
 
 namespace hpvi
 {
-/** What Newton's method makes of a moment of the contact: no motion, or a stiffness H. */
-template <int dim>
-struct MomentState
-{
-  bool is_held = false; ///< it sticks, or a pressure acts
-  dealii::SymmetricTensor<2, dim - 1> stiffness;
-};
-
 /**
  * All that Newton's method asks of the matrix: products with A, its blocks at the moments of contact, and
- * solutions of `(A + H) v = b` in the unknowns that are not held, by conjugate gradients with the algebraic
- * multigrid of ML. Multigrid sees A + H with 1e4-fold diagonals where moments are held, and rigid body
- * motions that vanish there. It is set up anew only where more than a fiftieth of the moments has changed
- * its state; until then what is held is masked, and what moves now gets its own block as a
- * correction. In the plane, where the scene wants that, or where multigrid breaks down, a factorisation
- * anew for each linearisation stands in its place: LinearSolver's on one process, MUMPS's on several. Behind this interface the matrix could as well be free of entries.
+ * solutions of `(A + H) v = b` in the unknowns that are not held, by conjugate gradients. In space they have one of three
+ * preconditioners, each of which takes over where the one before breaks down:
+ *
+ * - Multigrid, geometric and without a matrix, whose products A then are; it gives way after a hundred steps;
+ * - the algebraic multigrid of ML on the assembled matrix: it sees A + H with 1e4-fold diagonals where moments are held, and
+ *   rigid body motions that vanish there. It is set up anew only where more than a fiftieth of the moments has changed
+ *   its state; until then what is held is masked, and what moves now gets its own block as a correction;
+ * - a factorisation anew for each linearisation, which the plane always has: LinearSolver's on one process, MUMPS's on several.
  */
 template <int dim>
 class MomentMatrix
@@ -38,7 +33,7 @@ class MomentMatrix
 public:
   using Block = dealii::SymmetricTensor<2, dim - 1>;
 
-  /** Takes changes of the entries of @p system.A at moments of contact for its own. */
+  /** Takes changes of the entries of @p system.matrix() at moments of contact for its own. Collective. */
   MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system);
 
   /** y = A x */
@@ -52,7 +47,7 @@ public:
 
   /**
    * Improves @p v until the residual is below @p tolerance; what is held stays as it is in v. Collective. Where
-   * multigrid takes more than three hundred steps a factorisation takes its place from here on. Throws
+   * multigrid takes too many steps the next method takes its place from here on. Throws
    * NumericalFailure where that does not help.
    */
   void solve(DistributedVector &v, const DistributedVector &b, double tolerance);
@@ -65,10 +60,13 @@ public:
   unsigned int n_steps = 0;  ///< of conjugate gradients so far
   unsigned int n_setups = 0; ///< of multigrid, or factorisations, so far
   double setup_seconds = 0;  ///< which these took
-  bool fell_back = false;    ///< has multigrid broken down?
+  bool fell_back = false;    ///< has a method broken down?
+  LinearMethod method;       ///< in use
 
 private:
   void mask(DistributedVector &x) const;
+  void begin();
+  void assemble();
   void set_up();
   void factor();
   void factor_alone();
@@ -81,10 +79,11 @@ private:
   const MomentSpace<dim> &space;
   PrimalSystem<dim> &system;
   std::vector<Block> blocks, inserted; ///< of A; what set_up() has added to them in the matrix
-  std::vector<MomentState<dim>> states, known; ///< now; when multigrid was set up
-  std::vector<double> motions;                 ///< rigid_motions(), one after the other
+  std::vector<MomentState<dim>> states, known;         ///< now; when multigrid was set up
+  std::vector<double> motions;                         ///< rigid_motions(), one after the other
+  dealii::TrilinosWrappers::SparseMatrix *A = nullptr; ///< of the system; null: there is none
+  std::unique_ptr<Multigrid> multigrid;
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
-  bool is_direct;
   dealii::SolverControl control;
   dealii::TrilinosWrappers::SparseMatrix
       factored; ///< A + H with rows of the unit matrix where moments are held

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_moment_transform_h
+#define hpvi_moment_transform_h
+
+#include <hpvi/moments/moment_space.h>
+
+#include <functional>
+
+namespace hpvi
+{
+/**
+ * Between moments and the inner nodes of contact faces whose place they take (see BoxTables), in vectors of nodal values without
+ * constrained ones: `u = T v` is `u_inner = M^-1 (m - W u_rim)`, all else alike. A contact face is one cell's, so
+ * that all of it works on local elements, those of neighbours included.
+ */
+template <typename Number>
+class MomentTransform
+{
+public:
+  using Vector = dealii::LinearAlgebra::distributed::Vector<Number>;
+
+  /** For vectors like @p pattern. */
+  MomentTransform(const MomentSpace<3> &space, const Vector &pattern);
+
+  /** T in place; values of neighbours are brought up to date and kept. Puts moments into @p kept where it is not null. */
+  void to_nodes(Vector &v, std::vector<Number> *kept = nullptr) const;
+  void restore(Vector &v, const std::vector<Number> &kept) const; ///< moments that to_nodes() kept
+  void to_nodes_transposed(Vector &r) const;                      ///< T' in place
+  void to_moments(Vector &v) const;            ///< T^-1 in place, without neighbours then
+  void to_moments_transposed(Vector &r) const; ///< T^-T in place
+
+  /** Called with local elements and weights of `sum weight v`, the value at a node of a cell. */
+  static void resolve(const MomentSpace<3> &space, const Vector &pattern,
+                      dealii::types::global_dof_index dof,
+                      const std::function<void(unsigned int, double)> &take);
+
+private:
+  struct Row ///< one component of a face
+  {
+    unsigned int first_inner, first_rim, n_rim;
+  };
+
+  template <bool inverse>
+  void transform(Vector &v, std::vector<Number> *kept) const;
+  template <bool inverse>
+  void transform_transposed(Vector &r) const;
+
+  unsigned int n = 0; ///< moments of a component
+  std::vector<Number> M, M_inverse;
+  std::vector<Row> rows;
+  std::vector<unsigned int> inner, rim; ///< local elements
+  std::vector<Number> to_inner;         ///< -M^-1 W with constraints resolved, n for each of #rim
+};
+} // namespace hpvi
+
+#endif

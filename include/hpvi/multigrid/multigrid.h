@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_multigrid_h
+#define hpvi_multigrid_h
+
+#include <hpvi/base/processes.h>
+#include <hpvi/multigrid/coarse_solver.h>
+#include <hpvi/multigrid/level_transfer.h>
+
+#include <deal.II/lac/precondition.h>
+
+namespace hpvi
+{
+/**
+ * Geometric multigrid for `A + H` in space by global coarsening: each mesh has all cells of the next one coarsened once,
+ * moments of the same degree on its contact faces, and the states of contact that LevelTransfer hands down. A V-cycle
+ * smooths by Chebyshev polynomials of degree 4 in single precision. A new state of the contact takes no set-up but
+ * the factorisation of the coarsest mesh.
+ */
+class Multigrid
+{
+public:
+  /** Does @p space offer what it takes: degrees 2 to 4, and a coarse mesh that a factorisation likes? */
+  static bool is_for(const MomentSpace<3> &space);
+
+  /** @p space must outlive it. Collective. */
+  explicit Multigrid(const MomentSpace<3> &space);
+
+  void multiply(DistributedVector &y, const DistributedVector &x) const;            ///< y = A x
+  void multiply_linearised(DistributedVector &y, const DistributedVector &x) const; ///< (A + H) x
+  void linearise(const std::vector<MomentState<3>> &states);                        ///< collective
+  void precondition(DistributedVector &z, const DistributedVector &r) const;        ///< one V-cycle
+
+  const MultigridLevel<double> finest; ///< A, to which conjugate gradients are exact
+  double bytes() const;                ///< of all levels, of this process
+  unsigned int n_levels() const;
+
+private:
+  using Vector = MultigridLevel<float>::Vector;
+  using Smoother = dealii::PreconditionChebyshev<MultigridLevel<float>, Vector, BlockJacobi<float>>;
+
+  struct Level
+  {
+    std::shared_ptr<const dealii::Triangulation<3>> mesh;
+    std::unique_ptr<MomentSpace<3>> own_space; ///< null on the finest mesh
+    std::unique_ptr<MultigridLevel<float>> matrix;
+    std::unique_ptr<LevelTransfer> from_below; ///< null on the coarsest mesh
+    std::unique_ptr<Smoother> smoother;
+    double largest_eigenvalue = 0;
+    mutable Vector x, b, r;
+  };
+
+  void prepare(Level &level);
+  void cycle(unsigned int l) const;
+
+  std::vector<Level> levels; ///< from the coarsest on
+  std::unique_ptr<CoarseSolver> coarse;
+  mutable DistributedVector from, to; ///< of the finest, with neighbours
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_multigrid_level_h
+#define hpvi_multigrid_level_h
+
+#include <hpvi/moments/box_stiffness.h>
+#include <hpvi/moments/moment_state.h>
+#include <hpvi/multigrid/cell_operator.h>
+#include <hpvi/multigrid/moment_transform.h>
+
+#include <deal.II/base/subscriptor.h>
+
+namespace hpvi
+{
+/**
+ * `A + H` on one mesh in the basis of moments, `A = T'KT`, without a matrix: what is held or constrained is zero in all
+ * results. Of blocks at moments and the diagonal there are entries, exact ones, hanging nodes included.
+ */
+template <typename Number>
+class MultigridLevel : public dealii::Subscriptor
+{
+public:
+  using Vector = typename CellOperator<Number>::Vector;
+  using Block = dealii::SymmetricTensor<2, 2>;
+
+  /** @p space must outlive it. Collective. */
+  explicit MultigridLevel(const MomentSpace<3> &space);
+
+  void reinit(Vector &v) const;                              ///< zero, as products want it
+  void multiply(Vector &y, const Vector &x) const;           ///< y = A x; x may lack neighbours
+  void linearise(const std::vector<MomentState<3>> &states); ///< what is held, and H, from here on
+  void vmult(Vector &y, const Vector &x) const;              ///< y = (A + H) x
+  void mask(Vector &x) const; ///< zero where it is held or constrained
+
+  /** z = D^-1 r with the diagonal, and 2x2 blocks of `A + H` at friction that slips. */
+  void precondition(Vector &z, const Vector &r) const;
+
+  const MomentSpace<3> &space;
+  std::vector<Block> blocks; ///< of A at moments; of a pressure a multiple of the unit matrix
+  std::vector<MomentState<3>> states; ///< as last linearised
+  const MomentTransform<Number> &transform() const
+  {
+    return *moments;
+  }
+  const dealii::Utilities::MPI::Partitioner &partitioner() const
+  {
+    return *inverse_diagonal.get_partitioner();
+  }
+  /** Local elements and weights that make up the value at @p dof, if it is constrained. */
+  void resolve(dealii::types::global_dof_index dof,
+               const std::function<void(unsigned int, double)> &take) const
+  {
+    MomentTransform<Number>::resolve(space, inverse_diagonal, dof, take);
+  }
+  unsigned int width() const
+  {
+    return cells->width();
+  }
+  double bytes() const;
+
+private:
+  void find_diagonal();
+  void find_blocks(const BoxStiffness<3> &stiffness);
+
+  dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers
+  std::unique_ptr<CellOperator<Number>> cells;
+  std::unique_ptr<MomentTransform<Number>> moments;
+  Vector inverse_diagonal;
+  std::vector<unsigned int> constrained; ///< of this process
+  mutable std::vector<Number> kept;
+  mutable Vector scratch;
+};
+
+/** The preconditioner of Chebyshev's smoother. */
+template <typename Number>
+class BlockJacobi
+{
+public:
+  explicit BlockJacobi(const MultigridLevel<Number> &level) : level(level)
+  {
+  }
+
+  void vmult(typename MultigridLevel<Number>::Vector &z,
+             const typename MultigridLevel<Number>::Vector &r) const
+  {
+    level.precondition(z, r);
+  }
+
+private:
+  const MultigridLevel<Number> &level;
+};
+} // namespace hpvi
+
+#endif

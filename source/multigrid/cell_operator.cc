@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/multigrid/cell_operator.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/matrix_free/fe_evaluation.h>
+#include <deal.II/matrix_free/matrix_free.h>
+
+#ifdef HPVI_WIDE // deal.II's library has what follows for its own width alone
+#define FE_EVAL_FACTORY_DEGREE_MAX 4
+#include <deal.II/matrix_free/dof_info.templates.h>
+#include <deal.II/matrix_free/evaluation_template_factory.templates.h>
+#undef dealii_matrix_free_evaluation_template_factory_templates_h // two headers of 9.4.1 have one guard
+#include <deal.II/matrix_free/evaluation_template_face_factory.templates.h>
+#include <deal.II/matrix_free/evaluation_template_factory_hanging_nodes.templates.h>
+#include <deal.II/matrix_free/mapping_info.templates.h>
+#include <deal.II/matrix_free/matrix_free.templates.h>
+#include <deal.II/matrix_free/shape_info.templates.h>
+#endif
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int degree, typename Number>
+class ElasticOperator : public CellOperator<Number>
+{
+public:
+  using Vector = typename CellOperator<Number>::Vector;
+
+  ElasticOperator(const DoFHandler<3> &dof_handler, const AffineConstraints<Number> &constraints,
+                  const std::vector<IsotropicStiffness> &stiffness)
+  {
+    typename Cells::AdditionalData settings;
+    settings.tasks_parallel_scheme = Cells::AdditionalData::none;
+    settings.mapping_update_flags = update_gradients | update_JxW_values;
+    cells.reinit(MappingQ1<3>(), dof_handler, constraints, QGauss<1>(degree + 1), settings);
+    const bool is_uniform = stiffness.size() == 1;
+    volume.resize(is_uniform ? 1 : cells.n_cell_batches());
+    shear.resize(volume.size());
+    for (unsigned int batch = 0; batch < volume.size(); ++batch)
+      for (unsigned int v = 0; v < Wide::size(); ++v)
+      {
+        const bool is_cell = !is_uniform && v < cells.n_active_entries_per_cell_batch(batch);
+        const IsotropicStiffness &own =
+            stiffness[is_cell ? cells.get_cell_iterator(batch, v)->material_id() : 0];
+        volume[batch][v] = own.volume;
+        shear[batch][v] = own.shear;
+      }
+  }
+
+  void multiply(Vector &y, const Vector &x) const override
+  {
+    cells.template cell_loop<Vector, Vector>(
+        [this](const Cells &, Vector &to, const Vector &from,
+               const std::pair<unsigned int, unsigned int> &range)
+        { add_product(to, from, range); },
+        y, x, /*zero_dst_vector=*/true);
+  }
+
+  void reinit(Vector &v) const override
+  {
+    cells.initialize_dof_vector(v);
+  }
+
+  const std::vector<unsigned int> &constrained() const override
+  {
+    return cells.get_constrained_dofs();
+  }
+
+  double bytes() const override
+  {
+    return cells.memory_consumption();
+  }
+
+  unsigned int width() const override
+  {
+    return Wide::size();
+  }
+
+private:
+  using Cells = MatrixFree<3, Number>;
+  using Wide = VectorizedArray<Number>;
+
+  void add_product(Vector &y, const Vector &x,
+                   const std::pair<unsigned int, unsigned int> &range) const
+  {
+    FEEvaluation<3, degree, degree + 1, 3, Number> values(cells);
+    for (unsigned int batch = range.first; batch < range.second; ++batch)
+    {
+      values.reinit(batch);
+      values.gather_evaluate(x, EvaluationFlags::gradients);
+      const unsigned int own = volume.size() == 1 ? 0 : batch;
+      for (unsigned int q = 0; q < values.static_n_q_points; ++q)
+      {
+        const auto gradient = values.get_gradient(q);
+        const Wide pressure = volume[own] * trace(gradient);
+        Tensor<2, 3, Wide> stress;
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          stress[i][i] = 2. * shear[own] * gradient[i][i] + pressure;
+          for (unsigned int j = 0; j < i; ++j)
+            stress[i][j] = stress[j][i] = shear[own] * (gradient[i][j] + gradient[j][i]);
+        }
+        values.submit_gradient(stress, q);
+      }
+      values.integrate_scatter(EvaluationFlags::gradients, y);
+    }
+  }
+
+  Cells cells;
+  AlignedVector<Wide> volume, shear; ///< by batch of cells; of one material alone: one entry
+};
+} // namespace
+
+template <typename Number>
+std::unique_ptr<CellOperator<Number>>
+make_cell_operator(const DoFHandler<3> &dof_handler, const AffineConstraints<Number> &constraints,
+                   const std::vector<IsotropicStiffness> &stiffness)
+{
+  switch (dof_handler.get_fe().degree)
+  {
+  case 2:
+    return std::make_unique<ElasticOperator<2, Number>>(dof_handler, constraints, stiffness);
+  case 3:
+    return std::make_unique<ElasticOperator<3, Number>>(dof_handler, constraints, stiffness);
+  case 4:
+    return std::make_unique<ElasticOperator<4, Number>>(dof_handler, constraints, stiffness);
+  default:
+    return nullptr;
+  }
+}
+
+template std::unique_ptr<CellOperator<double>>
+make_cell_operator(const DoFHandler<3> &, const AffineConstraints<double> &,
+                   const std::vector<IsotropicStiffness> &);
+template std::unique_ptr<CellOperator<float>>
+make_cell_operator(const DoFHandler<3> &, const AffineConstraints<float> &,
+                   const std::vector<IsotropicStiffness> &);
+} // namespace hpvi

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/multigrid/moment_transform.h>
+
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <typename Number>
+void MomentTransform<Number>::resolve(const MomentSpace<3> &space, const Vector &pattern,
+                                      const types::global_dof_index dof,
+                                      const std::function<void(unsigned int, double)> &take)
+{
+  const Utilities::MPI::Partitioner &partitioner = *pattern.get_partitioner();
+  if (!space.constraints.is_constrained(dof))
+    take(partitioner.global_to_local(dof), 1.);
+  else
+    for (const auto &[other, weight] : *space.constraints.get_constraint_entries(dof))
+      take(partitioner.global_to_local(other), weight);
+}
+
+template <typename Number>
+MomentTransform<Number>::MomentTransform(const MomentSpace<3> &space, const Vector &pattern)
+{
+  if (space.faces.empty())
+    return;
+  const BoxTables<3> &tables = space.tables;
+  n = tables.n_moments();
+  FullMatrix<double> C(n, tables.W.n());
+  tables.M_inverse.mmult(C, tables.W);
+  for (unsigned int k = 0; k < n; ++k)
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      M.push_back(tables.M(k, j));
+      M_inverse.push_back(tables.M_inverse(k, j));
+    }
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  for (const MomentFace<3> &face : space.faces)
+  {
+    face.cell->get_dof_indices(dofs);
+    for (const unsigned int axis : face.axes())
+    {
+      std::map<unsigned int, std::vector<double>> columns;
+      for (unsigned int j = 0; j < C.n(); ++j)
+        resolve(space, pattern, dofs[tables.numbers[tables.rim[face.face][j]][axis]],
+                [&](const unsigned int local, const double weight)
+                {
+                  std::vector<double> &column = columns[local];
+                  column.resize(n);
+                  for (unsigned int k = 0; k < n; ++k)
+                    column[k] -= weight * C(k, j);
+                });
+      rows.push_back({static_cast<unsigned int>(inner.size()),
+                      static_cast<unsigned int>(rim.size()),
+                      static_cast<unsigned int>(columns.size())});
+      for (const unsigned int shape : tables.inner[face.face])
+        inner.push_back(
+            pattern.get_partitioner()->global_to_local(dofs[tables.numbers[shape][axis]]));
+      for (const auto &[local, column] : columns)
+      {
+        rim.push_back(local);
+        to_inner.insert(to_inner.end(), column.begin(), column.end());
+      }
+    }
+  }
+}
+
+// With `C = -M^-1 W` over the rim T is `u_inner = M^-1 m + C u_rim`, its inverse `m = M (u_inner - C u_rim)`.
+template <typename Number>
+template <bool inverse>
+void MomentTransform<Number>::transform(Vector &v, std::vector<Number> *const kept) const
+{
+  std::vector<Number> old(n), rest(n);
+  for (const Row &row : rows)
+  {
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      old[k] = v.local_element(inner[row.first_inner + k]);
+      rest[k] = 0;
+    }
+    if (kept)
+      kept->insert(kept->end(), old.begin(), old.end());
+    const Number *column = to_inner.data() + std::size_t(row.first_rim) * n;
+    for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
+    {
+      const Number value = v.local_element(rim[row.first_rim + j]);
+      for (unsigned int k = 0; k < n; ++k)
+        rest[k] += column[k] * value;
+    }
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      Number sum = inverse ? 0 : rest[k];
+      for (unsigned int j = 0; j < n; ++j)
+        sum += inverse ? M[k * n + j] * (old[j] - rest[j]) : M_inverse[k * n + j] * old[j];
+      v.local_element(inner[row.first_inner + k]) = sum;
+    }
+  }
+}
+
+template <typename Number>
+template <bool inverse>
+void MomentTransform<Number>::transform_transposed(Vector &r) const
+{
+  std::vector<Number> old(n), on_rim(n);
+  for (const Row &row : rows)
+  {
+    for (unsigned int k = 0; k < n; ++k)
+      old[k] = r.local_element(inner[row.first_inner + k]);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      Number sum = 0;
+      for (unsigned int j = 0; j < n; ++j)
+        sum += (inverse ? M[j * n + k] : M_inverse[j * n + k]) * old[j];
+      r.local_element(inner[row.first_inner + k]) = sum;
+      on_rim[k] = inverse ? -sum : old[k];
+    }
+    const Number *column = to_inner.data() + std::size_t(row.first_rim) * n;
+    for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
+    {
+      Number sum = 0;
+      for (unsigned int k = 0; k < n; ++k)
+        sum += column[k] * on_rim[k];
+      r.local_element(rim[row.first_rim + j]) += sum;
+    }
+  }
+}
+
+template <typename Number>
+void MomentTransform<Number>::to_nodes(Vector &v, std::vector<Number> *const kept) const
+{
+  v.update_ghost_values();
+  if (kept)
+    kept->clear();
+  transform<false>(v, kept);
+}
+
+template <typename Number>
+void MomentTransform<Number>::restore(Vector &v, const std::vector<Number> &kept) const
+{
+  for (std::size_t k = 0; k < inner.size(); ++k)
+    v.local_element(inner[k]) = kept[k];
+  v.zero_out_ghost_values();
+}
+
+template <typename Number>
+void MomentTransform<Number>::to_nodes_transposed(Vector &r) const
+{
+  transform_transposed<false>(r);
+  r.compress(VectorOperation::add);
+}
+
+template <typename Number>
+void MomentTransform<Number>::to_moments(Vector &v) const
+{
+  v.update_ghost_values();
+  transform<true>(v, nullptr);
+  v.zero_out_ghost_values();
+}
+
+template <typename Number>
+void MomentTransform<Number>::to_moments_transposed(Vector &r) const
+{
+  transform_transposed<true>(r);
+  r.compress(VectorOperation::add);
+}
+
+template class MomentTransform<double>;
+template class MomentTransform<float>;
+} // namespace hpvi

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/multigrid/multigrid.h>
+
+#include <deal.II/multigrid/mg_transfer_global_coarsening.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr unsigned int smoothing_degree = 4;
+constexpr double smoothing_range =
+    30; ///< eigenvalues above the largest over this are the smoother's
+constexpr types::global_dof_index largest_coarse_mesh = 20000; ///< unknowns
+} // namespace
+
+bool Multigrid::is_for(const MomentSpace<3> &space)
+{
+  const double per_cell = 3 * std::pow(space.tables.degree, 3);
+  const auto &mesh = space.dof_handler.get_triangulation();
+  return has_cell_operator(space.tables.degree) &&
+         mesh.n_global_coarse_cells() * per_cell < largest_coarse_mesh;
+}
+
+Multigrid::Multigrid(const MomentSpace<3> &space) : finest(space)
+{
+  const auto meshes = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
+      space.dof_handler.get_triangulation());
+  levels.resize(meshes.size());
+  for (unsigned int l = 0; l < levels.size(); ++l)
+  {
+    Level &level = levels[l];
+    level.mesh = meshes[l];
+    if (l + 1 < levels.size())
+      level.own_space = std::make_unique<MomentSpace<3>>(
+          space.scene, dynamic_cast<const MomentSpace<3>::Mesh &>(*meshes[l]), space.tables);
+    level.matrix =
+        std::make_unique<MultigridLevel<float>>(level.own_space ? *level.own_space : space);
+    for (Vector *const v : {&level.x, &level.b, &level.r})
+      level.matrix->reinit(*v);
+    if (l > 0)
+      level.from_below = std::make_unique<LevelTransfer>(*levels[l - 1].matrix, *level.matrix);
+  }
+  coarse = std::make_unique<CoarseSolver>(*levels.front().matrix);
+  finest.reinit(from);
+  finest.reinit(to);
+}
+
+/** The largest eigenvalue is estimated once: it changes little with the states of the contact. */
+void Multigrid::prepare(Level &level)
+{
+  Smoother::AdditionalData settings;
+  settings.degree = smoothing_degree;
+  settings.smoothing_range = smoothing_range;
+  settings.preconditioner = std::make_shared<BlockJacobi<float>>(*level.matrix);
+  settings.eig_cg_n_iterations = level.largest_eigenvalue > 0 ? 0 : 12;
+  settings.max_eigenvalue = level.largest_eigenvalue;
+  level.smoother = std::make_unique<Smoother>();
+  level.smoother->initialize(*level.matrix, settings);
+  if (level.largest_eigenvalue == 0)
+    level.largest_eigenvalue =
+        level.smoother->estimate_eigenvalues(level.b).max_eigenvalue_estimate * 1.2;
+}
+
+void Multigrid::linearise(const std::vector<MomentState<3>> &states)
+{
+  const_cast<MultigridLevel<double> &>(finest).linearise(states);
+  for (unsigned int l = levels.size(); l-- > 0;)
+  {
+    levels[l].matrix->linearise(l + 1 == levels.size() ? states
+                                                       : levels[l + 1].from_below->coarse_states());
+    if (l > 0 && levels[l].largest_eigenvalue == 0)
+      prepare(levels[l]);
+  }
+  coarse->factor();
+}
+
+void Multigrid::multiply(DistributedVector &y, const DistributedVector &x) const
+{
+  from.copy_locally_owned_data_from(x);
+  finest.multiply(to, from);
+  y.copy_locally_owned_data_from(to);
+}
+
+void Multigrid::multiply_linearised(DistributedVector &y, const DistributedVector &x) const
+{
+  from.copy_locally_owned_data_from(x);
+  finest.vmult(to, from);
+  y.copy_locally_owned_data_from(to);
+}
+
+void Multigrid::precondition(DistributedVector &z, const DistributedVector &r) const
+{
+  const Level &top = levels.back();
+  top.b.copy_locally_owned_data_from(r);
+  top.matrix->mask(top.b);
+  cycle(levels.size() - 1);
+  z.copy_locally_owned_data_from(top.x);
+}
+
+void Multigrid::cycle(const unsigned int l) const
+{
+  const Level &level = levels[l];
+  if (l == 0)
+  {
+    coarse->solve(level.x, level.b);
+    return;
+  }
+  const Level &below = levels[l - 1];
+  level.smoother->vmult(level.x, level.b);
+  level.matrix->vmult(level.r, level.x);
+  level.r.sadd(-1., 1., level.b);
+  level.from_below->restrict_to(below.b, level.r);
+  cycle(l - 1);
+  level.from_below->prolongate(level.r, below.x);
+  level.x += level.r;
+  level.smoother->step(level.x, level.b);
+}
+
+double Multigrid::bytes() const
+{
+  double sum = finest.bytes();
+  for (const Level &level : levels)
+    sum += level.matrix->bytes();
+  return sum;
+}
+
+unsigned int Multigrid::n_levels() const
+{
+  return levels.size();
+}
+} // namespace hpvi

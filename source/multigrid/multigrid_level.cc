@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/multigrid/multigrid_level.h>
+
+#include <algorithm>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+std::vector<IsotropicStiffness> stiffness_of_materials(const Scene<3> &scene)
+{
+  std::vector<IsotropicStiffness> result;
+  for (const Material &material : scene.materials)
+  {
+    const HookesLaw<3> law(material);
+    const auto unit = [](const unsigned int i, const unsigned int j)
+    {
+      Tensor<2, 3> gradient;
+      gradient[i][j] = 1;
+      return gradient;
+    };
+    result.push_back({law.stress(unit(0, 0))[1][1], law.stress(unit(0, 1))[0][1]});
+  }
+  return result;
+}
+} // namespace
+
+template <typename Number>
+MultigridLevel<Number>::MultigridLevel(const MomentSpace<3> &space)
+    : space(space), states(space.contact.size())
+{
+  constraints.copy_from(space.constraints);
+  cells = make_cell_operator<Number>(space.dof_handler, constraints,
+                                     stiffness_of_materials(space.scene));
+  reinit(scratch);
+  moments = std::make_unique<MomentTransform<Number>>(space, scratch);
+  for (const unsigned int i : cells->constrained())
+    if (i < space.owned.n_elements())
+      constrained.push_back(i);
+  find_diagonal();
+}
+
+template <typename Number>
+void MultigridLevel<Number>::reinit(Vector &v) const
+{
+  cells->reinit(v);
+}
+
+// Of a cell with constrained nodes an unknown J has `sum_ij w_iJ K_ij w_jJ`, over all nodes that depend on it.
+template <typename Number>
+void MultigridLevel<Number>::find_diagonal()
+{
+  const BoxStiffness<3> stiffness(space);
+  reinit(inverse_diagonal);
+  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      const FullMatrix<double> &K = stiffness(cell, space.moment_components(cell));
+      std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> shares;
+      const bool is_free =
+          std::none_of(dofs.begin(), dofs.end(),
+                       [this](const auto dof) { return space.constraints.is_constrained(dof); });
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        MomentTransform<Number>::resolve(space, inverse_diagonal, dofs[i],
+                                         [&](const unsigned int local, const double weight)
+                                         {
+                                           if (is_free)
+                                             inverse_diagonal.local_element(local) += K(i, i);
+                                           else
+                                             shares[local].emplace_back(i, weight);
+                                         });
+      for (const auto &[local, nodes] : shares)
+      {
+        double sum = 0;
+        for (const auto &[i, w_i] : nodes)
+          for (const auto &[j, w_j] : nodes)
+            sum += w_i * K(i, j) * w_j;
+        inverse_diagonal.local_element(local) += sum;
+      }
+    }
+  inverse_diagonal.compress(VectorOperation::add);
+  for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
+    inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
+  for (const unsigned int i : constrained)
+    inverse_diagonal.local_element(i) = 0;
+  find_blocks(stiffness);
+}
+
+/** Moments belong to one cell. */
+template <typename Number>
+void MultigridLevel<Number>::find_blocks(const BoxStiffness<3> &stiffness)
+{
+  blocks.resize(space.contact.size());
+  for (const MomentFace<3> &face : space.faces)
+  {
+    const FullMatrix<double> &K = stiffness(face.cell, space.moment_components(face.cell));
+    const auto number = [&](const unsigned int k, const unsigned int axis)
+    { return space.tables.numbers[space.tables.inner[face.face][k]][axis]; };
+    const auto axes = tangents<3>(face.face);
+    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+    {
+      for (unsigned int s = 0; face.has_friction() && s < 2; ++s)
+        for (unsigned int t = 0; t <= s; ++t)
+          blocks[face.friction + k][s][t] = K(number(k, axes[s]), number(k, axes[t]));
+      if (const unsigned int i = number(k, face.face / 2); face.has_pressure())
+        blocks[face.pressure + k] = K(i, i) * unit_symmetric_tensor<2>();
+    }
+  }
+}
+
+template <typename Number>
+void MultigridLevel<Number>::multiply(Vector &y, const Vector &x) const
+{
+  Vector &nodal = const_cast<Vector &>(x); // as it was when this returns
+  moments->to_nodes(nodal, &kept);
+  cells->multiply(y, nodal);
+  moments->restore(nodal, kept);
+  moments->to_nodes_transposed(y);
+}
+
+template <typename Number>
+void MultigridLevel<Number>::linearise(const std::vector<MomentState<3>> &new_states)
+{
+  states = new_states;
+}
+
+template <typename Number>
+void MultigridLevel<Number>::vmult(Vector &y, const Vector &x) const
+{
+  multiply(y, x);
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    const auto &moment = space.contact[k];
+    for (unsigned int s = 0; !states[k].is_held && s < moment.n_unknowns(); ++s)
+      for (unsigned int t = 0; t < moment.n_unknowns(); ++t)
+        y.local_element(moment.unknowns[s]) +=
+            states[k].stiffness[s][t] * x.local_element(moment.unknowns[t]);
+  }
+  mask(y);
+}
+
+template <typename Number>
+void MultigridLevel<Number>::mask(Vector &x) const
+{
+  for (const unsigned int i : constrained)
+    x.local_element(i) = 0;
+  for (unsigned int k = 0; k < states.size(); ++k)
+    for (unsigned int s = 0; states[k].is_held && s < space.contact[k].n_unknowns(); ++s)
+      x.local_element(space.contact[k].unknowns[s]) = 0;
+}
+
+template <typename Number>
+void MultigridLevel<Number>::precondition(Vector &z, const Vector &r) const
+{
+  const unsigned int n = z.locally_owned_size();
+  Number *const to = z.begin();
+  const Number *const from = r.begin(), *const factor = inverse_diagonal.begin();
+  for (unsigned int i = 0; i < n; ++i)
+    to[i] = factor[i] * from[i];
+  for (unsigned int k = 0; k < states.size(); ++k)
+  {
+    const auto &moment = space.contact[k];
+    if (states[k].is_held || states[k].stiffness.norm() == 0)
+      continue;
+    const Block inverse = invert(blocks[k] + states[k].stiffness);
+    for (unsigned int s = 0; s < moment.n_unknowns(); ++s)
+    {
+      Number sum = 0;
+      for (unsigned int t = 0; t < moment.n_unknowns(); ++t)
+        sum += inverse[s][t] * from[moment.unknowns[t]];
+      to[moment.unknowns[s]] = sum;
+    }
+  }
+  mask(z);
+}
+
+template <typename Number>
+double MultigridLevel<Number>::bytes() const
+{
+  return cells->bytes() + 2 * sizeof(Number) * inverse_diagonal.locally_owned_size();
+}
+
+template class MultigridLevel<double>;
+template class MultigridLevel<float>;
+} // namespace hpvi
