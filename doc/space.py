@@ -216,8 +216,8 @@ def coulomb():
 def draw_coulomb():
     rows = read("coulomb.csv")
     chart("coulomb.png", "coefficient of friction [-]", "Newton steps in all problems of Tresca of a mesh [-]",
-          {name: ([(row["coefficient"], row["newton_steps"]) for row in rows if row["method"] == name], -1, (-6, 8))
-           for name in ("dome", "slab", "block")}, log_y=False)
+          {name: ([(row["coefficient"], row["newton_steps"]) for row in rows if row["method"] == name], -1, offset)
+           for name, offset in (("dome", (-4, -10)), ("slab", (-12, -2)), ("block", (-6, 8)))}, log_y=False)
 
 
 def draw_crossover():

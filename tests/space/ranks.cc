@@ -74,6 +74,7 @@ TEST(Ranks, FrictionThatFollowsThePressure)
     expect_same_run(slab({{"Boundary bottom/Contact", contact},
                           {"Boundary bottom/Friction bound", ""},
                           {"Boundary bottom/Friction coefficient", "0.6"},
+                          {"Geometry/Subdivisions", "2, 2, 1"},
                           {"Adaptivity/Maximum steps", "2"}}));
 }
 
@@ -97,6 +98,7 @@ TEST(Ranks, LoadHistory)
         .run(
             [&](const StepReport<3> &step)
             {
+              EXPECT_EQ(step.primal->newton.augmented_steps, 0u); // where slip turns, too
               for (const double number : {step.energies.lagrangian, step.load.work,
                                           step.load.dissipated, step.load.unbalanced})
                 numbers.push_back(number);
