@@ -127,6 +127,33 @@ TEST(History, BothPathsAgreeInThePlane)
   }
 }
 
+/** Each load step refines once: past slip goes to its new mesh. */
+TEST(History, BothPathsAgreeOnMeshesThatAreRefined)
+{
+  for (const char *const law : {"tresca", "coulomb"})
+  {
+    const auto run = [&](const char *const path)
+    {
+      return evolution<2>(in_plane(law, {{"Adaptivity/Method", "hup2"},
+                                         {"Adaptivity/Tolerance", "1e-6"},
+                                         {"Adaptivity/Tolerance on", "residual"},
+                                         {"Loading/Steps", "4"},
+                                         {"Loading/Adapt", "every step"},
+                                         {"Solver/Path", path}}));
+    };
+    auto reduced = run("reduced"), primal = run("primal");
+    expect_balance(primal);
+    for (auto *const states : {&reduced, &primal}) // reactions of the past act on either mesh
+      for (State &state : *states)
+      {
+        state.load.work -= state.load.unbalanced;
+        state.load.unbalanced = 0;
+      }
+    expect_equal(primal, reduced);
+    EXPECT_GT(primal.back().n_free, 16 * primal.front().n_free);
+  }
+}
+
 /** A cycle of a slab of one layer with u_z = 0 on both sides. */
 TEST(History, SlabIsPlaneStrain)
 {
