@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
-GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, and where the primal path
-overtakes the reduced one in the plane. Runs that are there already are not repeated; --without million leaves some out;
+GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, where the primal path
+overtakes the reduced one in the plane, and what Coulomb's law takes. Runs that are there already are not repeated; --without million leaves some out;
 --draw runs nothing and draws the charts from the tables of doc/space."""
 import argparse
 import csv
@@ -24,7 +24,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=20000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb"])
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
 OUTPUT, FIGURES = pathlib.Path(options.output), pathlib.Path(options.figures)
@@ -191,6 +191,35 @@ def crossover():
         print(*row)
 
 
+def coulomb():
+    """Problems of Tresca and linear systems of the largest mesh over the coefficient of friction."""
+    rubbed = {"Boundary bottom/Friction bound": "", "Adaptivity/Maximum unknowns": 8000}
+    problems = {"dome": ("prm/dome.prm", {}), "slab": ("prm/slab.prm", {"Boundary bottom/Contact": "unilateral"}),
+                "block": ("prm/dome.prm", {"Boundary bottom/Gap": "", "Boundary top/Displacement": "0.04; -0.02; 0.02"})}
+    table = []
+    for name, (scene, entries) in problems.items():
+        for mu in (0.1, 0.2, 0.5, 1, 2):
+            try:
+                last = run(f"coulomb-{name}-{mu}", scene, **{**rubbed, **entries, "Boundary bottom/Friction coefficient": mu})[-1]
+            except subprocess.CalledProcessError:
+                table.append([name, mu, *[""] * 7])
+                continue
+            table.append([name, mu, *(int(last[key]) for key in ("dofs_free", "slipping", "pressing", "coulomb_fixed_point",
+                                                                  "newton_steps", "newton_cg")), int(last["augmented_steps"])])
+    write("coulomb.csv", ["method", "coefficient", "dofs_free", "slipping", "pressing", "tresca_problems", "newton_steps",
+                          "cg_steps", "augmented_steps"], table)
+    draw_coulomb()
+    for row in table:
+        print(*row)
+
+
+def draw_coulomb():
+    rows = read("coulomb.csv")
+    chart("coulomb.png", "coefficient of friction [-]", "Newton steps in all problems of Tresca of a mesh [-]",
+          {name: ([(row["coefficient"], row["newton_steps"]) for row in rows if row["method"] == name], -1, offset)
+           for name, offset in (("dome", (-4, -10)), ("slab", (-12, -2)), ("block", (-6, 8)))}, log_y=False)
+
+
 def draw_crossover():
     rows = read("crossover.csv")
     chart("crossover.png", "multipliers of friction [-]", "CPU time of a run [s]",
@@ -202,6 +231,7 @@ if options.draw:
     draw_accuracy()
     draw_million()
     draw_crossover()
-for part in (million, accuracy, crossover, speedup):
+    draw_coulomb()
+for part in (million, accuracy, crossover, speedup, coulomb):
     if not options.draw and part.__name__ not in options.without:
         part()

@@ -235,6 +235,7 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report()
                        norms,
                        bound.bound,
                        bound.missing,
+                       bound.energy_high,
                        bound.imbalance,
                        backend->reduced(),
                        backend->primal()};

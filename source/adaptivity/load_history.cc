@@ -27,6 +27,17 @@ struct Past
   std::shared_ptr<const Scene<dim>> scene; ///< of the solution, which it has to outlive
   Solution<dim> solution;
 };
+
+/** Along the contact of the primal path, of all processes: what stands for data of the next load step. */
+template <int dim>
+double largest_slip(const StepReport<dim> &step)
+{
+  double largest = 0;
+  for (const ContactState<dim> &state : step.contact)
+    for (const ContactPoint<dim> &point : state.points)
+      largest = std::max(largest, size_of(point.tangential_jump));
+  return step.primal ? Utilities::MPI::max(largest, step.field.communicator()) : 0.;
+}
 } // namespace
 
 template <int dim>
@@ -40,6 +51,7 @@ struct LoadHistory<dim>::Evolution
   LoadStep load;
   unsigned int n_steps = 0; ///< of finished load steps
   double seconds = 0;       ///< likewise
+  double slipped = 0;       ///< the largest |u_t| along the contact of the primal path
   double initial_part = 0;  ///< of stored energy: initial_energy()
   unsigned int first = 0;   ///< load step with an error; 0: none yet
   double tolerance = 0;     ///< that it sets for those after it
@@ -53,6 +65,7 @@ struct LoadHistory<dim>::Evolution
   std::string reason(const std::string &stopped_by) const;
   void conclude(StepReport<dim> &report);
   PastSlip<dim> slip_so_far() const;
+  void count(const Work &done);
   void count_work(const ReducedPart<dim> &part);
   std::string place() const;
 };
@@ -89,6 +102,7 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
     for (const Point<dim> &x : sides[boundary].sample())
       next->past_data.displacement =
           std::max(next->past_data.displacement, std::abs(u_t->value(x)));
+  next->past_data.displacement = std::max(next->past_data.displacement, slipped);
   if (keeps_mesh())
     next->adaptivity.maximum_steps = 1;
   if (next->adaptivity.tolerance == 0)
@@ -145,6 +159,9 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
 {
   if (report.reduced)
     count_work(*report.reduced);
+  if (report.primal)
+    count(report.primal->work_done());
+  slipped = std::max(slipped, largest_slip(report));
   load.stored = 0.5 * report.energies.norm * report.energies.norm + initial_part;
   report.load = load;
   n_steps = report.number;
@@ -160,6 +177,15 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
     report.warnings = warnings;
 }
 
+template <int dim>
+void LoadHistory<dim>::Evolution::count(const Work &done)
+{
+  load.work += scene.thickness * done.external;
+  load.dissipated += scene.thickness * done.dissipated;
+  load.released += scene.thickness * done.released;
+  load.unbalanced += scene.thickness * done.unbalanced;
+}
+
 /** What the load step did from where the one before has ended. */
 template <int dim>
 void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
@@ -170,15 +196,12 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
     const Vector<double> &loads = part.system.loads();
     const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
                            : work_from_rest(solution, loads);
-    load.work += scene.thickness * done.external;
+    count(done);
     const double initial =
         scene.thickness *
         initial_energy(solution.scene, solution.displacement_space, solution.tables, solution.u);
     load.work += initial - initial_part; // what heats the body does work on it, too
     initial_part = initial;
-    load.dissipated += scene.thickness * done.dissipated;
-    load.released += scene.thickness * done.released;
-    load.unbalanced += scene.thickness * done.unbalanced;
     past.emplace(Past<dim>{current, solution});
   }
 }

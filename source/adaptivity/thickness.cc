@@ -54,7 +54,8 @@ void take_thickness(StepReport<dim> &step)
            norms.penetration, norms.tension, norms.excess, norms.total, step.scaled_estimate);
   if (step.bound)
     take(b, root, *step.bound);
-  multiply(b, step.energies.lagrangian, step.energies.energy, step.energies.slack);
+  multiply(b, step.energies.lagrangian, step.energies.energy, step.energies.slack,
+           step.energy_high);
   step.energies.norm *= root;
   TrueErrors &errors = step.errors; // J(u) stands in its file as that run has reported it
   multiply(root, errors.energy, errors.energy_norm, errors.l2, errors.multiplier_l2,

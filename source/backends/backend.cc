@@ -71,6 +71,7 @@ namespace
 bool fits_primal_path(const Scene<2> &scene)
 {
   if (scene.has_unilateral_contact() || // solved by nodes or multipliers, as the scene says
+      scene.has_coulomb_friction() ||   // by Newton's method on the cones
       (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound))
     return false;
   try

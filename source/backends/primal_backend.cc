@@ -6,11 +6,13 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/checks/checks.h>
+#include <hpvi/primal/cell_numbers.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/memory_need.h>
 #include <hpvi/primal/moment_field.h>
 #include <hpvi/primal/nodal_forces.h>
 #include <hpvi/primal/transfer.h>
+#include <hpvi/primal/upper_energy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +70,15 @@ std::unique_ptr<Backend<dim>> PrimalBackend<dim>::next_load_step(const Scene<dim
   result->u = u;
   result->lambda = lambda;
   result->has_start = has_start;
+  result->past = end_state();
   return result;
+}
+
+/** From where the next load step counts. */
+template <int dim>
+PastState<dim> PrimalBackend<dim>::end_state() const
+{
+  return hpvi::end_state(*space, u, lambda, hpvi::nodal_forces(*space, *system, u, lambda));
 }
 
 template <int dim>
@@ -76,7 +86,7 @@ void PrimalBackend<dim>::number()
 {
   begin("numbering the unknowns of " + std::to_string(mesh->n_global_active_cells()) + " elements");
   StageTimer timer(times.setup);
-  space = std::make_unique<const MomentSpace<dim>>(scene, *mesh, tables);
+  space = std::make_unique<MomentSpace<dim>>(scene, *mesh, tables);
 }
 
 template <int dim>
@@ -85,7 +95,11 @@ void PrimalBackend<dim>::discretise()
   if (system)
     return; // prepare() has been here
   if (!space)
+  {
     number();
+    if (past)
+      space->count_slip_from(past->u);
+  }
   require_room(*space);
   begin("assembling " + std::to_string(mesh->n_global_active_cells()) + " elements",
         memory_note(*space));
@@ -95,7 +109,7 @@ void PrimalBackend<dim>::discretise()
 
 /** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
 template <int dim>
-void PrimalBackend<dim>::iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &matrix,
+void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<dim> &matrix,
                                  DistributedVector &v, const NewtonSettings &settings)
 {
   const unsigned int steps_before = matrix.n_steps;
@@ -105,14 +119,14 @@ void PrimalBackend<dim>::iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &m
     begin("finding stick and slip: " + place + std::to_string(matrix.n_steps - steps_before) +
           " steps of conjugate gradients");
   };
-  report += newton.solve(v, lambda, settings,
-                         [&](const NewtonReport &sofar)
-                         {
-                           place =
-                               std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
+  report +=
+      friction.solve(v, lambda, settings,
+                     [&](const NewtonReport &sofar)
+                     {
+                       place = std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
                                                                      : "Newton step ") +
                                std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
-                         });
+                     });
 }
 
 /** Before the error of this mesh is estimated: as if it were half of that before. */
@@ -146,6 +160,7 @@ bool PrimalBackend<dim>::is_exact(NewtonSettings &settings) const
 template <int dim>
 void PrimalBackend<dim>::take()
 {
+  known_energies.reset();
   values_at_points = std::make_unique<const MomentField<dim>>(*space, shape_tables, u, lambda);
   begin("estimating the error");
   StageTimer timer(times.estimate);
@@ -160,6 +175,7 @@ void PrimalBackend<dim>::solve()
   Timer timer;
   MomentMatrix<dim> matrix(*space, *system);
   MomentNewton<dim> newton(*space, *system, matrix);
+  FrictionIteration<dim> friction(*space, newton);
   DistributedVector v = has_start ? space->moments(u) : space->owned_vector();
   NewtonSettings settings = first_settings();
   report = {};
@@ -167,7 +183,7 @@ void PrimalBackend<dim>::solve()
   do
   {
     timer.restart();
-    iterate(newton, matrix, v, settings);
+    iterate(friction, matrix, v, settings);
     times.qp += timer.wall_time();
     u = space->displacement(v);
     take();
@@ -204,7 +220,9 @@ ErrorEstimate PrimalBackend<dim>::estimate()
 template <int dim>
 Energies PrimalBackend<dim>::energies()
 {
-  return hpvi::energies(field(), system->energy_product(u), system->work(u));
+  if (!known_energies)
+    known_energies = hpvi::energies(field(), system->energy_product(u), system->work(u));
+  return *known_energies;
 }
 
 template <int dim>
@@ -216,13 +234,17 @@ NodalForces<dim> PrimalBackend<dim>::nodal_forces()
 template <int dim>
 std::optional<PrimalPart<dim>> PrimalBackend<dim>::primal() const
 {
-  return PrimalPart<dim>{*space, u, report};
+  return PrimalPart<dim>{*space, u, report, [this]() {
+                           return work(past ? &*past : nullptr, end_state(), *space, *system);
+                         }};
 }
 
 template <int dim>
 BoundOfStep PrimalBackend<dim>::bound(double)
 {
-  return {std::nullopt, "the primal path has no guaranteed bound of the error"};
+  return {std::nullopt, "the primal path has no guaranteed bound of the error",
+          std::numeric_limits<double>::quiet_NaN(),
+          upper_energy(*space, u, energies(), system->work(u))};
 }
 
 /** One degree stays: nobody asks. */
@@ -286,7 +308,7 @@ template <int dim>
 void PrimalBackend<dim>::refine(const Refinement &refinement)
 {
   begin("refining");
-  std::unique_ptr<Transfer<dim>> transfer;
+  std::unique_ptr<Transfer<dim>> transfer, of_past;
   {
     StageTimer timer(times.refine);
     for (const auto &cell : mesh->active_cell_iterators())
@@ -295,6 +317,8 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
     mesh->prepare_coarsening_and_refinement();
     if (has_start)
       transfer = std::make_unique<Transfer<dim>>(*mesh, *space, u, lambda);
+    if (past)
+      of_past = std::make_unique<Transfer<dim>>(*mesh, *space, past->u, past->traction);
     mesh->execute_coarsening_and_refinement();
   }
   values_at_points.reset();
@@ -303,23 +327,12 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
   StageTimer timer(times.refine);
   if (transfer)
     transfer->unpack(*space, u, lambda);
+  if (of_past)
+  {
+    of_past->unpack(*space, past->u, past->traction);
+    space->count_slip_from(past->u);
+  }
 }
-
-namespace
-{
-/** Numbers of cells of this process, by global_active_cell_index, as those of all processes. */
-using OfCells = std::vector<std::pair<types::global_cell_index, std::vector<double>>>;
-
-std::vector<std::vector<double>> of_all_cells(const OfCells &own, const unsigned int n_cells,
-                                              MPI_Comm communicator)
-{
-  std::vector<std::vector<double>> result(n_cells);
-  for (const OfCells &part : Utilities::MPI::all_gather(communicator, own))
-    for (const auto &[cell, numbers] : part)
-      result[cell] = numbers;
-  return result;
-}
-} // namespace
 
 // @sect3{Going on}
 //
@@ -327,7 +340,7 @@ std::vector<std::vector<double>> of_all_cells(const OfCells &own, const unsigned
 template <int dim>
 SolutionValues PrimalBackend<dim>::values() const
 {
-  OfCells own_u, own_z;
+  CellNumbers own_u, own_z;
   for (const auto &cell : space->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
@@ -335,11 +348,11 @@ SolutionValues PrimalBackend<dim>::values() const
       own_u.emplace_back(cell->global_active_cell_index(), values.u);
       own_z.emplace_back(cell->global_active_cell_index(), values.lambda);
     }
-  const auto joined = [this](const OfCells &own)
+  const auto joined = [this](const CellNumbers &own)
   {
     std::vector<double> all;
     for (const auto &numbers :
-         of_all_cells(own, mesh->n_global_active_cells(), space->communicator()))
+         join_cells(own, mesh->n_global_active_cells(), space->communicator()))
       all.insert(all.end(), numbers.begin(), numbers.end());
     return Vector<double>(all.begin(), all.end());
   };
@@ -352,13 +365,13 @@ bool PrimalBackend<dim>::restore(const SolutionValues &values)
   const unsigned int n = tables.fe.dofs_per_cell, n_cells = mesh->n_global_active_cells();
   u = space->ghosted_vector();
   lambda.assign(space->contact.size(), ContactVector<dim>());
-  OfCells sizes; // of the multiplier
+  CellNumbers sizes; // of the multiplier
   for (const auto &cell : space->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       sizes.emplace_back(cell->global_active_cell_index(),
                          std::vector<double>(1, values_on(cell, *space, u, lambda).lambda.size()));
   std::vector<std::size_t> first(1, 0);
-  for (const auto &size : of_all_cells(sizes, n_cells, space->communicator()))
+  for (const auto &size : join_cells(sizes, n_cells, space->communicator()))
     first.push_back(first.back() + size.front());
   if (values.u.size() != n * n_cells || values.z.size() != first.back() || values.motion.size() > 0)
     return false;

@@ -248,7 +248,9 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   std::string names;
   for (const std::string &name : geometry.boundary_names())
     names += (names.empty() || name.empty() ? "" : ", ") + name;
-  if (const auto motions = motions_of(rows.resisted); !motions.empty() && !may_rest_on_contact)
+  // In space neither friction nor a pressure that is found with it is asked to hold the body.
+  if (const auto motions = motions_of(dim == 2 ? rows.resisted : rows.held);
+      !motions.empty() && !may_rest_on_contact)
     throw InputError(printable(origin(), 400) + ": Boundary " + names +
                      "/Displacement: the supports leave a rigid-body motion free, " +
                      describe(motions.front(), centre, length) +

@@ -177,11 +177,6 @@ void check_primal_path(const Scene<dim> &scene)
   if (adaptivity.start_degree < 2 || adaptivity.start_degree > 8)
     reject(scene, "Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
            std::to_string(adaptivity.start_degree));
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.friction.knows_pressure())
-      reject(scene, section_of(boundary), "Friction coefficient",
-             "is " + boundary.friction.name() + ", which " + why +
-                 " does not offer; give Friction bound, Tresca's");
   for (const Material &material : scene.materials)
     if (material.orthotropy)
       reject(scene, section_of_material(material.name), "Elasticity",
@@ -224,10 +219,6 @@ void check_primal_path(const Scene<dim> &scene)
   if (scene.output.reference || !scene.reference_solution.empty())
     reject(scene, scene.output.reference ? "Output" : "Error", "Reference solution",
            "is not offered by " + why + "; remove it");
-  if (scene.loading.steps > 0)
-    reject(scene, "Loading", "Steps",
-           "is a load history, which " + why + " does not offer; remove it",
-           std::to_string(scene.loading.steps));
   if (scene.geometry.shape != Shape::box)
     reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
            name_of_shape<dim>(scene.geometry.shape));

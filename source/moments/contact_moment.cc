@@ -12,14 +12,14 @@ ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) co
   if (is_friction())
     result = z / std::max(1., z.norm());
   else
-    result[0] = std::max(0., z[0]);
+    result[0] = kind == Kind::pressure ? std::max(0., z[0]) : z[0];
   return result;
 }
 
 template <int dim>
 bool ContactMoment<dim>::holds(const ContactVector<dim> &z) const
 {
-  return is_friction() ? z.norm() <= 1 : z[0] > 0;
+  return is_friction() ? z.norm() <= 1 : kind == Kind::reaction || z[0] > 0;
 }
 
 template <int dim>

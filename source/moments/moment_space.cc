@@ -127,10 +127,13 @@ void MomentSpace<dim>::find_contact()
           face.friction = contact.size();
           add_moments(face, ContactMoment<dim>::Kind::friction, dofs);
         }
-        if (boundary.is_unilateral())
+        if (boundary.has_pressure())
         {
           face.pressure = contact.size();
-          add_moments(face, ContactMoment<dim>::Kind::pressure, dofs);
+          add_moments(face,
+                      boundary.is_unilateral() ? ContactMoment<dim>::Kind::pressure
+                                               : ContactMoment<dim>::Kind::reaction,
+                      dofs);
         }
         if (!face.has_friction() && !face.has_pressure())
           continue;
@@ -156,7 +159,11 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
     moment.area = table.weights[k] * face.cell->face(face.face)->measure();
     if (moment.is_friction())
     {
-      moment.bound = condition(face.cell, face.face).friction.limit(moment.x, 0.);
+      const FrictionLaw<dim> &law = condition(face.cell, face.face).friction;
+      moment.limit = law.at(moment.x);
+      moment.bound = moment.limit.limit(0.);
+      if (law.knows_pressure()) // pressures follow all frictions of a face
+        moment.partner = contact.size() + tables.n_moments();
       for (unsigned int s = 0; s < dim - 1; ++s)
         moment.unknowns[s] = unknown(tangents<dim>(face.face)[s]);
     }
@@ -311,6 +318,17 @@ void MomentSpace<dim>::set_moment(DistributedVector &v, const unsigned int k,
 }
 
 template <int dim>
+void MomentSpace<dim>::count_slip_from(const DistributedVector &u)
+{
+  past = u;
+  past->update_ghost_values();
+  const DistributedVector v = moments(u);
+  for (unsigned int k = 0; k < contact.size(); ++k)
+    if (contact[k].is_friction())
+      contact[k].gap = moment(v, k);
+}
+
+template <int dim>
 CellField<dim> MomentSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
@@ -357,7 +375,7 @@ MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
       continue;
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
-      result[dim * face + c] = c == face / 2 ? boundary.is_unilateral()
+      result[dim * face + c] = c == face / 2 ? boundary.has_pressure()
                                              : boundary.has_contact() && bool(boundary.friction);
   }
   return result;

@@ -126,16 +126,21 @@ Record contact_record(const StepReport<dim> &step)
 template <int dim>
 Record coulomb_record(const StepReport<dim> &step)
 {
-  const CoulombReport *const report =
-      step.reduced && step.scene.has_coulomb_friction() ? &step.reduced->coulomb : nullptr;
-  return {
-      {"coulomb_newton", report ? text(report->newton_steps) : ""},
-      {"coulomb_fixed_point", report ? text(report->fixed_point_steps) : ""},
-      {"coulomb_contraction", report && report->contraction != 0 ? known(report->contraction) : ""},
-      {"coulomb_method", report ? report->method : ""},
-      {"estimate_tension", text(step.norms.tension)},
-      {"estimate_excess", text(step.norms.excess)},
-      {"coulomb_difference", report && report->difference ? known(*report->difference) : ""}};
+  const bool is_coulomb = step.scene.has_coulomb_friction();
+  const CoulombReport *const report = step.reduced && is_coulomb ? &step.reduced->coulomb : nullptr;
+  const NewtonReport *const primal = step.primal && is_coulomb ? &step.primal->newton : nullptr;
+  const double contraction = report ? report->contraction : primal ? primal->contraction : 0.;
+  return {{"coulomb_newton", report ? text(report->newton_steps) : ""},
+          {"coulomb_fixed_point", report   ? text(report->fixed_point_steps)
+                                  : primal ? text(primal->tresca_problems)
+                                           : ""},
+          {"coulomb_contraction", contraction != 0 ? known(contraction) : ""},
+          {"coulomb_method", report   ? report->method
+                             : primal ? "fixed point"
+                                      : ""},
+          {"estimate_tension", text(step.norms.tension)},
+          {"estimate_excess", text(step.norms.excess)},
+          {"coulomb_difference", report && report->difference ? known(*report->difference) : ""}};
 }
 
 /** The guaranteed bound. */
@@ -147,10 +152,11 @@ Record bound_record(const StepReport<dim> &step)
   // J(u) lies between the two; J(u_N) itself need not, where u_N penetrates the foundation.
   const auto end = [&](const int sign, double ErrorBound::*const distance)
   { return step.bound ? text(step.energies.energy + sign * (*step.bound).*distance) : ""; };
+  const double high = step.energy_high; // where there is no bound
   return {{"error_bound", bound(&ErrorBound::total)},
           {"error_bound_relative", known(step.relative_bound)},
           {"energy_low", end(-1, &ErrorBound::energy_below)},
-          {"energy_high", end(1, &ErrorBound::energy_above)},
+          {"energy_high", step.bound ? end(1, &ErrorBound::energy_above) : known(high)},
           {"bound_stress", bound(&ErrorBound::stress)},
           {"bound_slip", bound(&ErrorBound::slip)},
           {"bound_oscillation", bound(&ErrorBound::oscillation)},

@@ -18,8 +18,9 @@ template <int dim>
 AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
                                               const PrimalSystem<dim> &system,
                                               MomentMatrix<dim> &matrix,
+                                              const std::vector<double> &weights,
                                               const std::vector<ContactVector<dim>> &start)
-    : space(space), system(system), matrix(matrix), lambda(start)
+    : space(space), system(system), matrix(matrix), weights(weights), lambda(start)
 {
   growth = space.scene.materials[0].modulus() / space.scene.geometry.diameter();
   for (unsigned int k = 0; k < lambda.size(); ++k)
@@ -38,7 +39,7 @@ ContactVector<dim> AugmentedLagrangian<dim>::argument(const DistributedVector &v
                                                       const unsigned int k) const
 {
   const ContactMoment<dim> &moment = space.contact[k];
-  return lambda[k] + stiffness(k) / moment.weight * (space.moment(v, k) - moment.gap);
+  return lambda[k] + stiffness(k) / weights[k] * (space.moment(v, k) - moment.gap);
 }
 
 template <int dim>
@@ -48,7 +49,7 @@ DistributedVector AugmentedLagrangian<dim>::gradient(const DistributedVector &v)
   matrix.multiply(result, v);
   result -= system.f;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.contact[k].weight; G > 0)
+    if (const double G = weights[k]; G > 0)
       space.add_moment(result, k, G * space.contact[k].projected(argument(v, k)));
   return result;
 }
@@ -59,7 +60,7 @@ double AugmentedLagrangian<dim>::change(const DistributedVector &v) const
 {
   double sum = 0;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.contact[k].weight; G > 0)
+    if (const double G = weights[k]; G > 0)
       sum += (G * (space.contact[k].projected(argument(v, k)) - lambda[k])).norm_square();
   return std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
 }
@@ -70,7 +71,7 @@ double AugmentedLagrangian<dim>::contact_forces() const
 {
   double sum = 0;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    sum += (space.contact[k].weight * lambda[k]).norm_square();
+    sum += (weights[k] * lambda[k]).norm_square();
   return std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
 }
 
@@ -80,12 +81,12 @@ std::vector<MomentState<dim>> AugmentedLagrangian<dim>::states(const Distributed
   std::vector<MomentState<dim>> result(lambda.size());
   for (unsigned int k = 0; k < lambda.size(); ++k)
   {
-    if (!(space.contact[k].weight > 0))
+    if (!(weights[k] > 0))
       continue;
     const ContactVector<dim> z = argument(v, k);
     if (!space.contact[k].is_friction())
     {
-      if (z[0] > 0)
+      if (space.contact[k].holds(z))
         result[k].stiffness = stiffness(k) * unit_symmetric_tensor<dim - 1>();
       continue;
     }
@@ -108,7 +109,7 @@ double AugmentedLagrangian<dim>::work_of_contact(const DistributedVector &v,
 {
   double sum = 0;
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (const double G = space.contact[k].weight; G > 0)
+    if (const double G = weights[k]; G > 0)
     {
       const ContactVector<dim> m = space.moment(step, k);
       sum += G * space.contact[k].projected(argument(v, k) + length * stiffness(k) / G * m) * m;
@@ -157,7 +158,7 @@ unsigned int AugmentedLagrangian<dim>::update(DistributedVector &v)
     b = gradient(v);
   }
   for (unsigned int k = 0; k < lambda.size(); ++k)
-    if (space.contact[k].weight > 0)
+    if (weights[k] > 0)
       lambda[k] = space.contact[k].projected(argument(v, k));
   growth *= 10;
   return n_steps;

@@ -116,7 +116,8 @@ ContactTraction<dim> MomentField<dim>::multiplier(const FieldFace<dim> &face,
   if (own && own->has_friction())
   {
     const double sign = dim == 2 && (face.face_no == 0 || face.face_no == 3) ? -1. : 1.;
-    result.friction = sign * space.contact[own->friction + k].bound * (*lambda)[own->friction + k];
+    result.friction =
+        sign * space.contact[own->friction + k].bound_by(*lambda) * (*lambda)[own->friction + k];
   }
   if (own && own->has_pressure())
     result.pressure = (*lambda)[own->pressure + k][0];
@@ -141,14 +142,25 @@ ContactTraction<dim> MomentField<dim>::traction(const FieldFace<dim> &face,
 template <int dim>
 double MomentField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &reference) const
 {
-  const Expression<dim> &g = face.condition->friction.bound;
-  return g ? g->value(face.map.point(reference)) : 0.;
+  const FrictionLaw<dim> &law = face.condition->friction;
+  return law.limit(face.map.point(reference),
+                   law.knows_pressure() ? traction(face, reference).pressure : 0.);
 }
 
 template <int dim>
-Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &, const Point<dim> &) const
+Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &face, const Point<dim> &x) const
 {
-  return {};
+  if (!space.past)
+    return {};
+  const CellField<dim> field = space.field(face.cell, *space.past);
+  const Tensor<1, dim> size = MomentSpace<dim>::extent(face.cell);
+  Point<dim> reference;
+  for (unsigned int d = 0; d < dim; ++d)
+    reference[d] = (x[d] - face.cell->vertex(0)[d]) / size[d];
+  Tensor<1, dim> u;
+  for (unsigned int i = 0; i < field.size(); ++i) // the first component of shape i has its value
+    u += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
+  return face.frame(reference).tangential(u);
 }
 
 template <int dim>
@@ -158,9 +170,13 @@ std::vector<double> MomentField<dim>::friction_cuts(const FieldFace<dim> &face) 
   if (!moment_faces[face.number] || !moment_faces[face.number]->has_friction())
     return {};
   if constexpr (dim == 2)
-    return make_friction_rule([&](const double s)
-                              { return bound(face, point_on_face<2>(face.face_no, Point<1>(s))); },
-                              this->tables.gauss(p + 1), 2 * p - 2)
+    return make_friction_rule(
+               [&](const double s)
+               {
+                 return face.condition->friction.bound_at(
+                     face.map.point(point_on_face<2>(face.face_no, Point<1>(s))));
+               },
+               this->tables.gauss(p + 1), 2 * p - 2)
         .cuts;
   else
     return {0., 1.};
@@ -177,10 +193,10 @@ std::vector<MultiplierPoint<dim>> MomentField<dim>::multiplier_points(const Fiel
   for (unsigned int k = 0; k < table.points.size(); ++k)
   {
     const ContactTraction<dim> traction = multiplier(face, k);
-    result.push_back({table.points[k], table.weights[k] * area,
-                      own && own->has_friction() ? space.contact[own->friction + k].bound : 0.,
-                      traction,
-                      face.condition->is_unilateral() && traction.pressure <= negligible});
+    result.push_back(
+        {table.points[k], table.weights[k] * area,
+         own && own->has_friction() ? space.contact[own->friction + k].bound_by(*lambda) : 0.,
+         traction, face.condition->is_unilateral() && traction.pressure <= negligible});
   }
   return result;
 }
@@ -207,7 +223,8 @@ double MomentField<dim>::contact_work() const
   const DistributedVector v = space.moments(*u);
   double sum = 0;
   for (unsigned int k = 0; k < space.contact.size(); ++k)
-    sum += space.contact[k].weight * (*lambda)[k] * (space.moment(v, k) - space.contact[k].gap);
+    sum += space.contact[k].area * space.contact[k].bound_by(*lambda) * (*lambda)[k] *
+           (space.moment(v, k) - space.contact[k].gap);
   return Utilities::MPI::sum(sum, this->communicator());
 }
 

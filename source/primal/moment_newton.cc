@@ -40,6 +40,8 @@ NewtonReport &NewtonReport::operator+=(const NewtonReport &next)
 {
   const NewtonReport before = std::exchange(*this, next);
   steps += before.steps;
+  tresca_problems += before.tresca_problems;
+  contraction = std::max(contraction, before.contraction);
   cg_steps += before.cg_steps;
   setups += before.setups;
   line_searches += before.line_searches;
@@ -54,15 +56,26 @@ MomentNewton<dim>::MomentNewton(const MomentSpace<dim> &space, const PrimalSyste
     : space(space), system(system), matrix(matrix), c(space.contact.size()),
       z(space.contact.size()), r(space.owned_vector())
 {
+  std::vector<double> own;
+  for (const ContactMoment<dim> &moment : space.contact)
+    own.push_back(moment.weight);
+  take_weights(own);
+}
+
+template <int dim>
+void MomentNewton<dim>::take_weights(const std::vector<double> &new_weights)
+{
+  weights = new_weights;
+  fallback.reset(); // which has other ones
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k)) // a tenth of the stiffness that a moment meets; its size hardly matters
-      c[k] = 0.1 * stiffness(k) / space.contact[k].weight;
+      c[k] = 0.1 * stiffness(k) / weights[k];
 }
 
 template <int dim>
 bool MomentNewton<dim>::acts(const unsigned int k) const
 {
-  return space.contact[k].weight > 0;
+  return weights[k] > 0;
 }
 
 /** What a moment meets in A, the mean of its directions. */
@@ -98,9 +111,10 @@ double MomentNewton<dim>::gap(const DistributedVector &v, const unsigned int k) 
   const ContactMoment<dim> &moment = space.contact[k];
   const ContactVector<dim> m = distance(v, k);
   if (moment.is_friction())
-    return moment.weight * (m.norm() - admissible(k) * m);
-  return moment.weight * admissible(k)[0] * std::abs(m[0]) +
-         0.5 * stiffness(k) * std::pow(std::max(0., m[0]), 2);
+    return weights[k] * (m.norm() - admissible(k) * m);
+  const double depth =
+      moment.kind == ContactMoment<dim>::Kind::reaction ? m[0] : std::max(0., m[0]);
+  return weights[k] * std::abs(admissible(k)[0] * m[0]) + 0.5 * stiffness(k) * depth * depth;
 }
 
 /** r without the forces of the contact. */
@@ -129,7 +143,7 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const Distribut
     if (!acts(k))
       continue;
     const ContactMoment<dim> &moment = space.contact[k];
-    const double G = moment.weight;
+    const double G = weights[k];
     const ContactVector<dim> force = space.moment(r, k);
     if (keep_lambda)
       on_contact += (force - G * lambda[k]).norm_square();
@@ -159,7 +173,7 @@ std::vector<MomentState<dim>> MomentNewton<dim>::states(const bool all_held) con
       continue;
     const double size = z[k].norm();
     const ContactVector<dim> n = z[k] / size;
-    const double H = moment.weight * c[k] / std::max(size - 1, 1e-9);
+    const double H = weights[k] * c[k] / std::max(size - 1, 1e-9);
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s && dim == 3; ++t) // in the plane no direction is left
         result[k].stiffness[s][t] = H * ((s == t ? 1. : 0.) - n[s] * n[t]);
@@ -177,13 +191,19 @@ void MomentNewton<dim>::hold(DistributedVector &v,
       space.set_moment(v, k, space.contact[k].gap);
 }
 
-/** With P(z) = z/|z| where a disc slips, and 0 where contact is open; what is held has no equation. */
+/**
+ * With P(z) = z/|z| where a disc slips, whose stiffness acts from u_0 on, and 0 where contact is open; what is held has no
+ * equation.
+ */
 template <int dim>
-DistributedVector MomentNewton<dim>::right_hand_side() const
+DistributedVector
+MomentNewton<dim>::right_hand_side(const std::vector<MomentState<dim>> &states) const
 {
   DistributedVector b = system.f;
   for (unsigned int k = 0; k < c.size(); ++k)
-    space.add_moment(b, k, -space.contact[k].weight * space.contact[k].projected(z[k]));
+    space.add_moment(b, k,
+                     states[k].stiffness * space.contact[k].gap -
+                         weights[k] * space.contact[k].projected(z[k]));
   return b;
 }
 
@@ -193,7 +213,7 @@ bool MomentNewton<dim>::penetrates(const DistributedVector &v, const double forc
 {
   double deepest = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (!space.contact[k].is_friction())
+    if (space.contact[k].kind == ContactMoment<dim>::Kind::pressure)
       deepest = std::max(deepest, stiffness(k) * distance(v, k)[0]);
   return Utilities::MPI::max(deepest, space.communicator()) > 1e-10 * force;
 }
@@ -205,7 +225,7 @@ double MomentNewton<dim>::friction(const DistributedVector &v, const Distributed
   double sum = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
     if (const ContactMoment<dim> &moment = space.contact[k]; moment.is_friction())
-      sum += moment.weight * (space.moment(v, k) + length * space.moment(step, k)).norm();
+      sum += weights[k] * (distance(v, k) + length * space.moment(step, k)).norm();
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
@@ -246,7 +266,7 @@ double MomentNewton<dim>::error(const double gap)
   DistributedVector rest = r, correction = r;
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k))
-      space.add_moment(rest, k, -space.contact[k].weight * admissible(k));
+      space.add_moment(rest, k, -weights[k] * admissible(k));
   matrix.precondition(correction, rest);
   for (unsigned int k = 0; k < c.size(); ++k) // what was held until now is none of its unknowns
     if (acts(k) && space.moment(correction, k).norm() == 0)
@@ -289,7 +309,7 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::augment(DistributedVecto
                                                                 NewtonReport &report)
 {
   if (!fallback)
-    fallback = std::make_unique<AugmentedLagrangian<dim>>(space, system, matrix, lambda);
+    fallback = std::make_unique<AugmentedLagrangian<dim>>(space, system, matrix, weights, lambda);
   report.augmented_steps += fallback->update(v);
   return residual(v, false);
 }
@@ -305,7 +325,7 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
   lambda.resize(c.size());
   for (unsigned int k = 0; warm && k < c.size(); ++k)
     if (const ContactMoment<dim> &moment = space.contact[k];
-        acts(k) && (moment.is_friction() ? lambda[k].norm() < 1 - 1e-3 : lambda[k][0] > 0))
+        acts(k) && (moment.is_friction() ? lambda[k].norm() < 1 - 1e-3 : moment.holds(lambda[k])))
       space.set_moment(v, k, moment.gap);
   const unsigned int cg_before = matrix.n_steps, setups_before = matrix.n_setups;
   NewtonReport report;
@@ -329,7 +349,7 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
     matrix.linearise(moment_states);
     const DistributedVector old = v;
     hold(v, moment_states);
-    matrix.solve(v, right_hand_side(), linear_tolerance(settings, now, report.steps));
+    matrix.solve(v, right_hand_side(moment_states), linear_tolerance(settings, now, report.steps));
     if (report.steps > 0 && shorten(v, old, now.load))
       ++report.line_searches;
     previous = now.norm;
@@ -344,6 +364,18 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
   for (unsigned int k = 0; k < c.size();
        ++k) // feasible: |lambda| = 1 where a disc slips, 0 where contact is open
     start[k] = acts(k) ? space.contact[k].projected(z[k]) : ContactVector<dim>();
+  return report;
+}
+
+template <int dim>
+NewtonReport MomentNewton<dim>::measure(const DistributedVector &v,
+                                        const std::vector<ContactVector<dim>> &where,
+                                        const NewtonSettings &settings)
+{
+  NewtonReport report;
+  lambda = where;
+  is_exact(settings, residual(v, true), report);
+  count(states(false), report);
   return report;
 }
 

@@ -24,8 +24,9 @@ Tensor<1, dim> force_at(const MomentSpace<dim> &space, const MomentFace<dim> &fa
 {
   Tensor<1, dim> result;
   for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
-    result[tangents<dim>(face.face)[s]] =
-        space.contact[face.friction + k].weight * lambda[face.friction + k][s];
+    result[tangents<dim>(face.face)[s]] = space.contact[face.friction + k].area *
+                                          space.contact[face.friction + k].bound_by(lambda) *
+                                          lambda[face.friction + k][s];
   if (face.has_pressure())
   {
     const ContactMoment<dim> &pressure = space.contact[face.pressure + k];

@@ -97,6 +97,16 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
          step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n";
 }
 
+/** Where J(u_N) bounds the least energy from above alone. */
+template <int dim>
+std::string upper_end_in_words(const StepReport<dim> &step)
+{
+  if (step.bound || std::isnan(step.energy_high))
+    return {};
+  return "\nenergy: the least J(u) is at most " + text(step.energy_high) +
+         ", that of u_N; its lower end is open, for there is no bound of the error\n";
+}
+
 /** How well forces balance, and what Newton's method has to do with it. */
 template <int dim>
 std::string balance_in_words(const StepReport<dim> &step)
@@ -141,7 +151,7 @@ void Ending::hear(const StepReport<dim> &step)
                  " of the solution";
   if (!step.stopped_by.empty())
     words = contact_in_words(step.scene, step.contact, step.equilibrium, step.unbounded) +
-            results_in_words(step) + balance_in_words(step) +
+            results_in_words(step) + balance_in_words(step) + upper_end_in_words(step) +
             missing_bound_in_words(step, last_bound) + work_in_words(step.load);
 }
 

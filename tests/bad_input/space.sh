@@ -77,14 +77,18 @@ for method in pu hpa1 hpa2 hpa3; do
   invalid "Method = $method" "space does not offer" "hap2" -- "Adaptivity/Method=$method"
 done
 invalid "Start degree = 1" "2 to 8" -- "Adaptivity/Start degree=1"
-invalid "Coulomb" "Friction bound" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3"
-invalid "limited Coulomb friction" "give Friction bound" -- "Boundary bottom/Friction bound=1" \
-  "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Friction law=limited"
+invalid "Friction coefficient" "stands beside Friction bound" -- "Boundary bottom/Friction coefficient=0.3"
+invalid "Friction coefficient" "mu_f >= 0" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3 - z"
+invalid "Friction coefficient" "pressure" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Contact=tangential"
+invalid "rigid-body motion" "held by contact alone" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Boundary right/Displacement=0; free; 0"
+check 2 "has not converged" "problems of Tresca" "lower Friction coefficient" -- "$hpvi" --output "$scratch/o" prm/slab.prm --set "Boundary bottom/Friction bound=" \
+  --set "Boundary bottom/Friction coefficient=50" --set "Boundary left/Traction=1.5*(5 - y); -7; 0.5" --set "Boundary bottom/Contact=unilateral" --set "Solver/Primal tolerance=1e-11"
 invalid "Normal contact = nodes" "not offered by space" "multiplier" -- "Boundary bottom/Contact=unilateral" "Solver/Normal contact=nodes"
 invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
 invalid "Condition number" "does not form" -- "Solver/Condition number=true"
 invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
-invalid "Steps = 3" "load history" -- "Loading/Steps=3"
+invalid "Reference solution" "not offered" -- "Loading/Steps=3" "Output/Reference solution=true"
+invalid "with t = 1 is not finite" "Displacement" -- "Loading/Steps=2" "Boundary right/Displacement=1/(t - 1); 0; 0"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
 check 1 "prm/slab.prm: Dimension = 3" "--picture draws bodies in the plane alone" "--validate" -- \
   "$hpvi" --picture --output "$scratch/picture" prm/slab.prm

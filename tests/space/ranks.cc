@@ -2,6 +2,7 @@
 // The same run on one process and on all that mpirun has started: in ctest on 1, 2 and 3.
 #include "runs.h"
 
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
 
 #include <set>
@@ -65,6 +66,49 @@ TEST(Ranks, UnilateralContact)
                                                     {"Adaptivity/Maximum steps", "4"}});
   scene.solver.primal_tolerance = 1e-11;
   expect_same_run(scene);
+}
+
+TEST(Ranks, FrictionThatFollowsThePressure)
+{
+  for (const char *const contact : {"unilateral", "bilateral"})
+    expect_same_run(slab({{"Boundary bottom/Contact", contact},
+                          {"Boundary bottom/Friction bound", ""},
+                          {"Boundary bottom/Friction coefficient", "0.6"},
+                          {"Geometry/Subdivisions", "2, 2, 1"},
+                          {"Adaptivity/Maximum steps", "2"}}));
+}
+
+/** Slip of the past and work go with the cells from process to process. */
+TEST(Ranks, LoadHistory)
+{
+  const Scene<3> scene = read_scene<3>(
+      "prm/slab.prm", {{"Boundary bottom/Contact", "unilateral"},
+                       {"Boundary bottom/Friction bound", ""},
+                       {"Boundary bottom/Friction coefficient", "0.6"},
+                       {"Boundary left/Traction", "1.5*(5 - y)*sin(pi*t); -0.75; 0.5"},
+                       {"Solver/Primal tolerance", "1e-11"},
+                       {"Geometry/Subdivisions", "2, 2, 1"},
+                       {"Adaptivity/Maximum steps", "2"},
+                       {"Loading/Adapt", "every step"},
+                       {"Loading/Steps", "2"}});
+  const auto evolution = [&](MPI_Comm communicator)
+  {
+    std::vector<double> numbers;
+    LoadHistory<3>(scene, communicator)
+        .run(
+            [&](const StepReport<3> &step)
+            {
+              EXPECT_EQ(step.primal->newton.augmented_steps, 0u); // where slip turns, too
+              for (const double number : {step.energies.lagrangian, step.load.work,
+                                          step.load.dissipated, step.load.unbalanced})
+                numbers.push_back(number);
+            });
+    return numbers;
+  };
+  const auto alone = evolution(MPI_COMM_SELF), together = evolution(MPI_COMM_WORLD);
+  ASSERT_EQ(alone.size(), together.size());
+  for (unsigned int k = 0; k < alone.size(); ++k)
+    EXPECT_NEAR(alone[k], together[k], 1e-9 * std::abs(alone[0])) << k;
 }
 
 TEST(Ranks, MultigridOrFactorisation)

@@ -130,7 +130,7 @@ TEST(Warnings, ShippedScenesWhoseStrainsAreNotSmallAreListed)
     const std::string name = file.path().stem().string();
     if (file.path().extension() != ".prm") // a directory of meshes
       continue;
-    if (name == "dome" || name == "slab") // in space
+    if (name == "dome" || name == "fretting-dome" || name == "slab") // in space
       continue;
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "2"}});
     std::vector<std::string> last;

@@ -59,6 +59,8 @@ struct PrimalPart
   const MomentSpace<dim> &space;
   const DistributedVector &u; ///< nodal values, with those of neighbours
   NewtonReport newton;
+  /** What the body has done since the load step before, or since it was at rest. Collective. */
+  std::function<Work()> work_done;
 };
 
 /** The guaranteed bound of a step, or why there is none. */
@@ -68,6 +70,8 @@ struct BoundOfStep
   std::string missing;             ///< why there is none
   /** ErrorBound::imbalance, also where that is why; NaN: not computed. */
   double imbalance = std::numeric_limits<double>::quiet_NaN();
+  /** Where the least J(u) is bounded from above alone, by this; NaN: it is not. */
+  double energy_high = std::numeric_limits<double>::quiet_NaN();
 };
 
 /** u_N and the multiplier as numbers that do not depend on how many processes found them. */

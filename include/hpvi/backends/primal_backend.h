@@ -4,6 +4,8 @@
 
 #include <hpvi/backends/backend.h>
 #include <hpvi/moments/primal_system.h>
+#include <hpvi/primal/friction_iteration.h>
+#include <hpvi/primal/past_state.h>
 
 namespace hpvi
 {
@@ -50,25 +52,28 @@ private:
                 std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh);
 
   void number();
-  void iterate(MomentNewton<dim> &newton, MomentMatrix<dim> &matrix, DistributedVector &v,
+  void iterate(FrictionIteration<dim> &friction, MomentMatrix<dim> &matrix, DistributedVector &v,
                const NewtonSettings &settings);
   NewtonSettings first_settings() const;
   bool is_exact(NewtonSettings &settings) const;
+  PastState<dim> end_state() const;
   void take();
 
   const std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh;
   const BoxTables<dim> tables;
   const ShapeTables<dim> shape_tables; ///< for its field
-  std::unique_ptr<const MomentSpace<dim>> space;
+  std::unique_ptr<MomentSpace<dim>> space;
   std::unique_ptr<PrimalSystem<dim>> system;          ///< of it; null before solve()
   DistributedVector u;                                ///< on the current mesh, from the one before
   std::vector<ContactVector<dim>> lambda;             ///< likewise
   bool has_start = false;                             ///< are there both?
+  std::optional<PastState<dim>> past;                 ///< the end of the load step before, likewise
   std::unique_ptr<const Field<dim>> values_at_points; ///< of both
   ErrorEstimate estimated;                            ///< likewise
   double error =
       0; ///< estimated of the current step, or of the last one, in the energy norm; 0: none
-  NewtonReport report; ///< of the current step
+  std::optional<Energies> known_energies; ///< of the current step
+  NewtonReport report;                    ///< likewise
 };
 } // namespace hpvi
 

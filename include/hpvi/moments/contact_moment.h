@@ -2,6 +2,8 @@
 #ifndef hpvi_contact_moment_h
 #define hpvi_contact_moment_h
 
+#include <hpvi/scene/friction_limit.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
 
@@ -21,10 +23,12 @@ using ContactVector = dealii::Tensor<1, dim - 1>;
  * What acts at one Gauss point of a contact face against the moment m of the displacement, by a multiplier
  * in a convex set whose force is `G lambda`:
  *
- *     friction   G |m|                   |lambda| <= 1, a disc     G = g(x_k) int psi_k
+ *     friction   G |m - u_0|             |lambda| <= 1, a disc     G = g(x_k) int psi_k
  *     pressure   m <= u_0, else infinity  lambda >= 0 [stress]      G = int psi_k
+ *     reaction   m = u_0, else infinity   lambda of any sign        likewise
  *
- * The gap u_0 is a moment as well.
+ * The gap u_0 is a moment as well, of friction that of the load step before. Where the law of friction knows the pressure, `g(x_k)` is its limit for that of the
+ * #partner, and a reaction is the pressure of bilateral contact.
  */
 template <int dim>
 struct ContactMoment
@@ -32,21 +36,37 @@ struct ContactMoment
   enum class Kind
   {
     friction,
-    pressure
+    pressure,
+    reaction
   };
 
   Kind kind;
   dealii::Point<dim> x;
-  double area;                                ///< int psi_k [length^(dim-1)]
-  double bound = 1;                           ///< g(x) [stress] of friction
-  double weight = 0;                          ///< G [force], of a pressure [area]
-  ContactVector<dim> gap;                     ///< u_0 where a pressure acts, else 0 [length]
-  double sign = 1;                            ///< of the outer normal along its axis, of a pressure
+  double area;            ///< int psi_k [length^(dim-1)]
+  double bound = 1;       ///< g(x) [stress] of friction; with a #partner without pressure
+  double weight = 0;      ///< G [force], of a pressure [area]
+  ContactVector<dim> gap; ///< u_0, of friction the past slip [length]
+  double sign = 1;        ///< of the outer normal along its axis, of a pressure
   std::array<unsigned int, dim - 1> unknowns; ///< of its moments among those of this process
+
+  FrictionLimit limit; ///< of friction
+  /** Of friction whose law knows the pressure: that of the same point, in MomentSpace::contact; else invalid. */
+  unsigned int partner = dealii::numbers::invalid_unsigned_int;
 
   bool is_friction() const
   {
     return kind == Kind::friction;
+  }
+
+  bool has_partner() const
+  {
+    return partner != dealii::numbers::invalid_unsigned_int;
+  }
+
+  /** What a unit of lambda is [stress], where all multipliers are @p lambda; of a pressure 1. */
+  double bound_by(const std::vector<ContactVector<dim>> &lambda) const
+  {
+    return has_partner() ? limit.limit(lambda[partner][0]) : bound;
   }
 
   unsigned int n_unknowns() const

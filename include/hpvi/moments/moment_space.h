@@ -13,6 +13,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace hpvi
 /**
  * The displacements of one degree on a distributed mesh of boxes, in the basis in which contact is
  * diagonal: moments stand for the inner nodal values of tangential components on faces with friction, and of
- * the normal one on faces of unilateral contact (see BoxTables). Moments belong to one cell, never hang and
+ * the normal one where contact has a pressure (see BoxTables). Moments belong to one cell, never hang and
  * are never prescribed.
  *
  * A field has two vectors: v in the basis of moments, constrained unknowns zero; u of nodal values,
@@ -68,6 +69,9 @@ public:
   /** A face of this process; null: it has no moments. */
   const MomentFace<dim> *moment_face(const Cell &cell, unsigned int face) const;
 
+  /** Friction counts the moments of @p u, with those of neighbours, for no slip: that of the load step before. */
+  void count_slip_from(const DistributedVector &u);
+
   const Scene<dim> &scene;
   const BoxTables<dim> &tables;
   dealii::DoFHandler<dim> dof_handler;
@@ -75,6 +79,7 @@ public:
   dealii::AffineConstraints<double> constraints;
   std::vector<MomentFace<dim>> faces;      ///< of this process, as the next
   std::vector<ContactMoment<dim>> contact; ///< what acts at its Gauss points
+  std::optional<DistributedVector> past;   ///< of count_slip_from()
   dealii::types::global_dof_index n_free;  ///< of all processes, as all that follows
   dealii::types::global_dof_index n_discs;
   dealii::types::global_dof_index n_pressures;

@@ -25,9 +25,10 @@ template <int dim>
 class AugmentedLagrangian
 {
 public:
-  /** Starts with @p lambda. */
+  /** Starts with @p lambda; @p weights, G_k, live as long as this. */
   AugmentedLagrangian(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-                      MomentMatrix<dim> &matrix, const std::vector<ContactVector<dim>> &lambda);
+                      MomentMatrix<dim> &matrix, const std::vector<double> &weights,
+                      const std::vector<ContactVector<dim>> &lambda);
 
   /** One minimisation from @p v and one update of lambda; returns the steps. Collective. Throws NumericalFailure. */
   unsigned int update(DistributedVector &v);
@@ -47,6 +48,7 @@ private:
   const MomentSpace<dim> &space;
   const PrimalSystem<dim> &system;
   MomentMatrix<dim> &matrix;
+  const std::vector<double> &weights;
   std::vector<ContactVector<dim>> lambda;
   double growth; ///< of c_k [stress/length]
 };

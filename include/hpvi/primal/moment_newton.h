@@ -19,6 +19,8 @@ struct NewtonReport
   unsigned int line_searches = 0;   ///< steps that had to be shortened
   unsigned int augmented_steps = 0; ///< of the augmented Lagrangian
   bool is_cut_off = false;          ///< Newton's method was, and that took its place
+  unsigned int tresca_problems = 0; ///< of a law that knows the pressure, see FrictionIteration
+  double contraction = 0;           ///< of these, as far as seen
   unsigned int n_slipping = 0;      ///< discs where contact is closed, of all processes
   unsigned int n_pressing = 0;      ///< moments on which a pressure acts, likewise
   double residual = 0;              ///< relative to the load vector
@@ -46,12 +48,13 @@ struct NewtonSettings
  *
  *     (A + sum_k H_k) v = f - sum_k G_k n_k,    H_k = G_k c_k/(|z_k| - 1) (I - n_k n_k'),
  *
- * symmetric and positive. A step between two admissible fields that raises the energy is shortened to its minimum along
+ * symmetric and positive; under a past slip H_k u_0 joins the right-hand side. A step between two admissible fields that raises the energy is shortened to its minimum along
  * the step; where one of them penetrates the foundation energies do not compare.
  * Hueber, Stadler and Wohlmuth (2008) have the same function of lambda and u with multipliers as unknowns;
  * here they are gone, because moments make the matrix of contact diagonal.
  *
- * Where that takes too many steps, and where many discs have no start, AugmentedLagrangian takes over.
+ * Where that takes too many steps, and where many discs have no start, AugmentedLagrangian takes over. What is
+ * said of m_k under friction holds of `m_k - u_0`, u_0 the past slip.
  */
 template <int dim>
 class MomentNewton
@@ -72,6 +75,13 @@ public:
       DistributedVector &v, std::vector<ContactVector<dim>> &lambda, const NewtonSettings &settings,
       const std::function<void(const NewtonReport &)> &heard = [](const NewtonReport &) {});
 
+  /** From here on G_k, of each moment; at first those of the space. */
+  void take_weights(const std::vector<double> &weights);
+
+  /** Where v and @p lambda are, in the words of solve(): its residual and its error. Collective. */
+  NewtonReport measure(const DistributedVector &v, const std::vector<ContactVector<dim>> &lambda,
+                       const NewtonSettings &settings);
+
 private:
   struct Residual
   {
@@ -90,7 +100,7 @@ private:
   std::vector<MomentState<dim>> states(bool all_held) const;
   void hold(DistributedVector &v, const std::vector<MomentState<dim>> &states) const;
   bool penetrates(const DistributedVector &v, double force) const;
-  DistributedVector right_hand_side() const;
+  DistributedVector right_hand_side(const std::vector<MomentState<dim>> &states) const;
   double friction(const DistributedVector &v, const DistributedVector &step, double length) const;
   bool shorten(DistributedVector &v, const DistributedVector &old, double load) const;
   double error(double gap);
@@ -103,7 +113,8 @@ private:
   const MomentSpace<dim> &space;
   const PrimalSystem<dim> &system;
   MomentMatrix<dim> &matrix;
-  std::vector<double> c; ///< of each moment [1/length; of a pressure stress/length]
+  std::vector<double> weights; ///< G of each moment
+  std::vector<double> c;       ///< of each moment [1/length; of a pressure stress/length]
   std::vector<ContactVector<dim>> lambda, z;
   double previous = 0;                                ///< norm of the residual before the last step
   DistributedVector r;                                ///< f - A v of the last residual()

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_load_work_h
+#define hpvi_load_work_h
+
+#include <hpvi/moments/moment_space.h>
+
+namespace hpvi
+{
+/**
+ * `L(u)` [stress length^dim] of the loads of @p scene, on the body of @p space, by @p n_points Gauss points a
+ * direction on each cell and face; the path itself takes p + 1. Collective.
+ */
+template <int dim>
+double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const DistributedVector &u,
+                 unsigned int n_points);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_upper_energy_h
+#define hpvi_upper_energy_h
+
+#include <hpvi/evaluation/energies.h>
+#include <hpvi/moments/moment_space.h>
+
+namespace hpvi
+{
+/**
+ * An upper end of the least J: `J(u_N)` where u_N is admissible, with the loads integrated by twice as many points and
+ * raised by what both rules differ by. NaN where a law minimises no energy, where u_N may penetrate a foundation,
+ * where it misses prescribed displacements between their nodes, or where loads differ by more than 1e-3 of their work. @p energies and
+ * @p work = L(u_N) are those of the path. Collective.
+ */
+template <int dim>
+double upper_energy(const MomentSpace<dim> &space, const DistributedVector &u,
+                    const Energies &energies, double work);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/processes.h>
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/load_quadrature.h>
+#include <hpvi/body/shape_tables.h>
+#include <hpvi/primal/load_work.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <vector>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Of the unit cell, then of its faces. */
+template <int dim>
+std::vector<ShapeTable<dim>> tables_of(const unsigned int degree, const unsigned int n_points)
+{
+  const QGauss<dim> cell(n_points);
+  const QGauss<dim - 1> face(n_points);
+  std::vector<ShapeTable<dim>> result{
+      tabulate<dim>(degree, cell.get_points(), cell.get_weights(), false)};
+  for (const unsigned int f : GeometryInfo<dim>::face_indices())
+  {
+    std::vector<Point<dim>> points;
+    for (const Point<dim - 1> &point : face.get_points())
+      points.push_back(point_on_face<dim>(f, point));
+    result.push_back(tabulate<dim>(degree, points, face.get_weights(), false));
+  }
+  return result;
+}
+
+/** Of a load per unit of @p measure, that of a cell or face on which @p table has its points. */
+template <int dim>
+double work_on(const typename MomentSpace<dim>::Cell &cell, const Load<dim> &load,
+               const ShapeTable<dim> &table, const double measure, const CellField<dim> &field)
+{
+  double sum = 0;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    Tensor<1, dim> u;
+    for (unsigned int i = 0; i < field.size(); ++i)
+      u += table.values(q, i) * field[i];
+    sum += table.weights[q] *
+           (load_at<dim>(load, MomentSpace<dim>::point_of(cell, table.points[q])) * u);
+  }
+  return measure * sum;
+}
+} // namespace
+
+template <int dim>
+double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const DistributedVector &u,
+                 const unsigned int n_points)
+{
+  const std::vector<ShapeTable<dim>> tables = tables_of<dim>(space.tables.degree, n_points);
+  return sum_together(
+      space.communicator(),
+      [&]()
+      {
+        double sum = 0;
+        for (const auto &cell : space.dof_handler.active_cell_iterators())
+        {
+          if (!cell->is_locally_owned() || !(scene.has_body_force() || cell->at_boundary()))
+            continue;
+          const CellField<dim> field = space.field(cell, u);
+          if (scene.has_body_force())
+            sum += work_on<dim>(cell, scene.body_force_in(cell), tables[0], cell->measure(), field);
+          for (const unsigned int f : cell->face_indices())
+            if (cell->at_boundary(f))
+              if (const BoundaryCondition<dim> &condition =
+                      scene.boundaries[cell->face(f)->boundary_id()];
+                  condition.has_traction())
+                sum += work_on<dim>(cell, condition.traction, tables[1 + f],
+                                    cell->face(f)->measure(), field);
+        }
+        return sum;
+      });
+}
+
+template double load_work(const Scene<2> &, const MomentSpace<2> &, const DistributedVector &,
+                          unsigned int);
+template double load_work(const Scene<3> &, const MomentSpace<3> &, const DistributedVector &,
+                          unsigned int);
+} // namespace hpvi

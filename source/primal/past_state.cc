@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/processes.h>
+#include <hpvi/primal/load_work.h>
+#include <hpvi/primal/past_state.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace hpvi
+{
+using namespace dealii;
+
+template <int dim>
+PastState<dim> end_state(const MomentSpace<dim> &space, const DistributedVector &u,
+                         const std::vector<ContactVector<dim>> &lambda,
+                         const NodalForces<dim> &forces)
+{
+  PastState<dim> result{std::make_shared<const Scene<dim>>(space.scene), u, {}, {}};
+  result.u.update_ghost_values(); // copies have none
+  for (unsigned int k = 0; k < space.contact.size(); ++k)
+    result.traction.push_back(space.contact[k].bound_by(lambda) * lambda[k]);
+  for (const auto &reaction : forces.reactions)
+    if (space.scene.boundaries[reaction.boundary].has_displacement())
+      result.supports.push_back(reaction);
+  return result;
+}
+
+namespace
+{
+/** Of the reactions of one state on the increments of prescribed displacements; @p last is null at rest. */
+template <int dim>
+double work_of_supports(const PastState<dim> &state, const Scene<dim> *const last,
+                        const Scene<dim> &next)
+{
+  const auto value = [](const Expression<dim> &expression, const Point<dim> &x)
+  { return expression ? expression->value(x) : 0.; };
+  double sum = 0;
+  for (const auto &reaction : state.supports)
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const unsigned int id = reaction.boundary;
+      const double before = last ? value(last->boundaries[id].displacement[c], reaction.x) : 0.;
+      sum += reaction.force[c] * (value(next.boundaries[id].displacement[c], reaction.x) - before);
+    }
+  return sum;
+}
+
+/** By how much the gaps of pressures grow, by moment. */
+template <int dim>
+std::vector<double> growth_of_gaps(const PastState<dim> *const last, const MomentSpace<dim> &space)
+{
+  std::vector<double> result(space.contact.size(), 0.);
+  if (space.n_pressures == 0)
+    return result;
+  std::vector<ContactMoment<dim>> before;
+  if (last)
+    before = MomentSpace<dim>(*last->scene,
+                              dynamic_cast<const typename MomentSpace<dim>::Mesh &>(
+                                  space.dof_handler.get_triangulation()),
+                              space.tables)
+                 .contact;
+  for (unsigned int k = 0; k < result.size(); ++k)
+    if (!space.contact[k].is_friction())
+      result[k] =
+          last ? space.contact[k].gap[0] - before[k].gap[0] : std::min(space.contact[k].gap[0], 0.);
+  return result;
+}
+
+/** What acts in one state while the body moves by du. */
+struct Acting
+{
+  double outside = 0, friction = 0, pressure = 0, elsewhere = 0;
+};
+
+/** @p sums: own parts of the work of supports, of friction, of pressures on m(du), and on the growth of gaps. */
+Acting acting(const double loads, const double inside, const std::vector<double> &sums)
+{
+  return {loads + sums[0] - sums[3], sums[1], sums[2] - sums[3],
+          inside + sums[1] + sums[2] - loads - sums[0]};
+}
+} // namespace
+
+template <int dim>
+Work work(const PastState<dim> *const last, const PastState<dim> &next,
+          const MomentSpace<dim> &space, const PrimalSystem<dim> &system)
+{
+  DistributedVector du = next.u;
+  if (last)
+  {
+    DistributedVector own = space.owned_vector(), before = space.owned_vector();
+    own.copy_locally_owned_data_from(next.u);
+    before.copy_locally_owned_data_from(last->u);
+    own -= before;
+    du = space.ghosted_vector();
+    du.copy_locally_owned_data_from(own);
+  }
+  du.update_ghost_values(); // copies have none
+  const DistributedVector moments = space.moments(du);
+  const std::vector<double> growth = growth_of_gaps(last, space);
+  const auto in_state = [&](const PastState<dim> &state)
+  {
+    std::vector<double> sums(4, 0.), all(4);
+    together(space.communicator(),
+             [&]() {
+               sums[0] =
+                   work_of_supports<dim>(state, last ? last->scene.get() : nullptr, *next.scene);
+             });
+    for (unsigned int k = 0; k < space.contact.size(); ++k)
+    {
+      const ContactVector<dim> force = space.contact[k].area * state.traction[k];
+      sums[space.contact[k].is_friction() ? 1 : 2] += force * space.moment(moments, k);
+      sums[3] += force[0] * growth[k];
+    }
+    Utilities::MPI::sum(sums, space.communicator(), all);
+    const auto internal = system.nodal_forces(state.u).internal;
+    DistributedVector own = space.owned_vector(), own_du = space.owned_vector();
+    own.copy_locally_owned_data_from(internal);
+    own_du.copy_locally_owned_data_from(du);
+    return acting(load_work(*state.scene, space, du, space.tables.degree + 1), own * own_du, all);
+  };
+  const Acting before = last ? in_state(*last) : Acting(), after = in_state(next);
+  return {0.5 * (before.outside + after.outside), after.friction,
+          0.5 * (before.friction - after.friction + before.pressure + after.pressure),
+          -0.5 * before.elsewhere};
+}
+
+template PastState<2> end_state(const MomentSpace<2> &, const DistributedVector &,
+                                const std::vector<ContactVector<2>> &, const NodalForces<2> &);
+template PastState<3> end_state(const MomentSpace<3> &, const DistributedVector &,
+                                const std::vector<ContactVector<3>> &, const NodalForces<3> &);
+template Work work(const PastState<2> *, const PastState<2> &, const MomentSpace<2> &,
+                   const PrimalSystem<2> &);
+template Work work(const PastState<3> *, const PastState<3> &, const MomentSpace<3> &,
+                   const PrimalSystem<3> &);
+} // namespace hpvi
