@@ -13,6 +13,7 @@
 #include <hpvi/primal/nodal_forces.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/primal/upper_energy.h>
+#include <hpvi/reader/scene_entries.h>
 
 #include <algorithm>
 #include <cmath>
@@ -173,7 +174,8 @@ template <int dim>
 void PrimalBackend<dim>::solve()
 {
   Timer timer;
-  MomentMatrix<dim> matrix(*space, *system);
+  MomentMatrix<dim> matrix(*space, *system, given_way.value_or(linear_method(*space)));
+  times.qp += timer.wall_time();
   MomentNewton<dim> newton(*space, *system, matrix);
   FrictionIteration<dim> friction(*space, newton);
   DistributedVector v = has_start ? space->moments(u) : space->owned_vector();
@@ -188,6 +190,8 @@ void PrimalBackend<dim>::solve()
     u = space->displacement(v);
     take();
   } while (!is_exact(settings));
+  if (matrix.fell_back) // on other meshes of this run it would as well
+    given_way = matrix.method;
   times.factor += matrix.setup_seconds;
   times.qp -= matrix.setup_seconds;
 }
@@ -290,10 +294,10 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
     result.push_back({WarningKind::cut_off, double(report.steps),
                       "Newton's method did not find stick and slip in " + to_string(report.steps) +
                           " steps, and the augmented Lagrangian took its place"});
-  if (report.fell_back)
+  const std::string linear = linear_names[static_cast<unsigned int>(report.linear)];
+  if (given_way)
     result.push_back({WarningKind::multigrid, 0.,
-                      "multigrid broke down, and a sparse factorisation took its place; "
-                      "Solver/Linear = direct begins with it"});
+                      "multigrid broke down, and Solver/Linear = " + linear + " took its place"});
   return result;
 }
 

@@ -177,6 +177,11 @@ void check_primal_path(const Scene<dim> &scene)
   if (adaptivity.start_degree < 2 || adaptivity.start_degree > 8)
     reject(scene, "Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
            std::to_string(adaptivity.start_degree));
+  if (dim == 3 && scene.solver.linear == LinearMethod::multigrid && adaptivity.start_degree > 4)
+    reject(scene, "Solver", "Linear",
+           "is for degrees 2 to 4, and Start degree is " + std::to_string(adaptivity.start_degree) +
+               "; give automatic, amg or direct",
+           "multigrid");
   for (const Material &material : scene.materials)
     if (material.orthotropy)
       reject(scene, section_of_material(material.name), "Elasticity",

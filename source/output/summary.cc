@@ -67,6 +67,7 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   last_row = row;
   times += step.times;
   stopped_by = step.stopped_by;
+  linear = step.primal ? linear_names[static_cast<unsigned int>(step.primal->newton.linear)] : "";
   warnings = texts(step.warnings);
   if constexpr (dim == 2)
     if (step.reduced)
@@ -124,6 +125,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
                  {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
+  if (!linear.empty())
+    entries.emplace_back("linear", json_string(linear));
   return json_file(entries);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/moments/rigid_motions.h>
 #include <hpvi/primal/moment_matrix.h>
 
 #include <deal.II/base/timer.h>
@@ -18,9 +19,6 @@ namespace
 {
 constexpr double held_factor = 1e4;
 constexpr unsigned int maximum_steps = 300, multigrid_steps = 100;
-
-template <int dim>
-constexpr unsigned int n_motions = dim *(dim + 1) / 2;
 
 /** Smoothed aggregation, Chebyshev smoothers of degree two, a direct solver where few unknowns are left. */
 template <int dim>
@@ -43,27 +41,10 @@ Teuchos::ParameterList multigrid_parameters(std::vector<double> &motions)
   return parameters;
 }
 
-/** The value at @p x of a translation or, about @p centre, a rotation. */
-template <int dim>
-Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm)
-{
-  Tensor<1, dim> result;
-  if (motion < dim)
-    result[motion] = 1;
-  else
-  {
-    const unsigned int a = motion == dim ? 0 : (motion == dim + 1 ? 1 : 2), b = (a + 1) % dim;
-    result[a] = -arm[b];
-    result[b] = arm[a];
-  }
-  return result;
-}
 } // namespace
 
-namespace
-{
 template <int dim>
-LinearMethod choose(const MomentSpace<dim> &space)
+LinearMethod linear_method(const MomentSpace<dim> &space)
 {
   if constexpr (dim == 3)
     if (const LinearMethod wanted = space.scene.solver.linear; wanted != LinearMethod::automatic)
@@ -73,11 +54,17 @@ LinearMethod choose(const MomentSpace<dim> &space)
   else
     return LinearMethod::direct;
 }
-} // namespace
 
 template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
-    : method(choose(space)), space(space), system(system), blocks(space.contact.size()),
+    : MomentMatrix(space, system, linear_method(space))
+{
+}
+
+template <int dim>
+MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system,
+                                const LinearMethod method)
+    : method(method), space(space), system(system), blocks(space.contact.size()),
       inserted(space.contact.size()), states(space.contact.size())
 {
   begin();
@@ -111,7 +98,7 @@ void MomentMatrix<dim>::assemble()
         if (const auto &moment = space.contact[k]; moment.is_friction() || s == t)
           blocks[k][s][t] = A->el(space.owned.nth_index_in_set(moment.unknowns[s]),
                                   space.owned.nth_index_in_set(moment.unknowns[t]));
-  motions = rigid_motions();
+  motions = hpvi::rigid_motions(space);
 }
 
 template <int dim>
@@ -156,48 +143,6 @@ void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const Distribu
   for (unsigned int k = 0; k < states.size(); ++k)
     space.add_moment(y, k, (states[k].stiffness - inserted[k]) * space.moment(x, k));
   mask(y);
-}
-
-/** At nodes the motion there, at moments that at their Gauss point: one motion after the other. */
-template <int dim>
-std::vector<double> MomentMatrix<dim>::rigid_motions() const
-{
-  const unsigned int n = space.owned.n_elements();
-  const FESystem<dim> &fe = space.tables.fe;
-  const Point<dim> centre = space.scene.geometry.centre();
-  const double length = space.scene.geometry.radius();
-  std::vector<double> result(n * n_motions<dim>, 0.);
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-  for (const auto &cell : space.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      cell->get_dof_indices(dofs);
-      const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
-      for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
-        if (space.owned.is_element(dofs[i]) && !space.constraints.is_constrained(dofs[i]))
-        {
-          Tensor<1, dim> arm = cell->vertex(0) - centre;
-          for (unsigned int d = 0; d < dim; ++d)
-            arm[d] += fe.unit_support_point(i)[d] * size[d];
-          for (unsigned int m = 0; m < n_motions<dim>; ++m)
-            result[m * n + space.owned.index_within_set(dofs[i])] =
-                rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
-        }
-    }
-  for (const MomentFace<dim> &face : space.faces)
-    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
-      for (unsigned int m = 0; m < n_motions<dim>; ++m)
-      {
-        const auto set = [&](const ContactMoment<dim> &moment, const unsigned int s,
-                             const unsigned int axis) {
-          result[m * n + moment.unknowns[s]] = rigid_motion(m, (moment.x - centre) / length)[axis];
-        };
-        for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
-          set(space.contact[face.friction + k], s, tangents<dim>(face.face)[s]);
-        if (face.has_pressure())
-          set(space.contact[face.pressure + k], 0, face.face / 2);
-      }
-  return result;
 }
 
 template <int dim>
@@ -415,6 +360,8 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
   }
 }
 
+template LinearMethod linear_method(const MomentSpace<2> &);
+template LinearMethod linear_method(const MomentSpace<3> &);
 template class MomentMatrix<2>;
 template class MomentMatrix<3>;
 } // namespace hpvi

@@ -360,6 +360,7 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
   report.cg_steps = matrix.n_steps - cg_before;
   report.setups = matrix.n_setups - setups_before;
   report.fell_back = matrix.fell_back;
+  report.linear = matrix.method;
   start.resize(c.size());
   for (unsigned int k = 0; k < c.size();
        ++k) // feasible: |lambda| = 1 where a disc slips, 0 where contact is open

@@ -77,6 +77,7 @@ for method in pu hpa1 hpa2 hpa3; do
   invalid "Method = $method" "space does not offer" "hap2" -- "Adaptivity/Method=$method"
 done
 invalid "Start degree = 1" "2 to 8" -- "Adaptivity/Start degree=1"
+invalid "Linear = multigrid" "degrees 2 to 4" "amg" -- "Solver/Linear=multigrid" "Adaptivity/Start degree=5"
 invalid "Friction coefficient" "stands beside Friction bound" -- "Boundary bottom/Friction coefficient=0.3"
 invalid "Friction coefficient" "mu_f >= 0" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3 - z"
 invalid "Friction coefficient" "pressure" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Contact=tangential"

@@ -86,7 +86,7 @@ Vector<double> minimiser(const MomentSpace<3> &space, const LAPACKFullMatrix<dou
  */
 double dual_minimum(const MomentSpace<3> &space)
 {
-  const PrimalSystem<3> system(space);
+  PrimalSystem<3> system(space);
   SolverControl control;
   TrilinosWrappers::SolverDirect factor(control);
   factor.initialize(system.matrix());

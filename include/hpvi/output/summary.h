@@ -20,6 +20,7 @@ struct Summary
   std::string status = "running"; ///< later "done", "failed", "interrupted"
   std::string message;            ///< why it failed or was interrupted
   std::string stopped_by;         ///< the limit that ended the run
+  std::string linear;             ///< what solved the linear systems of the primal path
   unsigned int processes = 1;
   unsigned int steps = 0; ///< finished ones
   Record last_row;        ///< of the last of them in convergence.csv

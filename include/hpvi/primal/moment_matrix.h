@@ -16,6 +16,10 @@
 
 namespace hpvi
 {
+/** What the scene names; `automatic`: multigrid where it is on offer, else amg; in the plane direct. */
+template <int dim>
+LinearMethod linear_method(const MomentSpace<dim> &space);
+
 /**
  * All that Newton's method asks of the matrix: products with A, its blocks at the moments of contact, and
  * solutions of `(A + H) v = b` in the unknowns that are not held, by conjugate gradients. In space they have one of three
@@ -35,6 +39,9 @@ public:
 
   /** Takes changes of the entries of @p system.matrix() at moments of contact for its own. Collective. */
   MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system);
+
+  /** With @p method, because the first choice has broken down on another mesh. */
+  MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system, LinearMethod method);
 
   /** y = A x */
   void multiply(DistributedVector &y, const DistributedVector &x) const;
@@ -72,7 +79,6 @@ private:
   void factor_alone();
   void factor_together();
   bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance);
-  std::vector<double> rigid_motions() const;
   void set_block(unsigned int k, const Block &block);
   void multiply_linearised(DistributedVector &y, const DistributedVector &x) const;
 

@@ -13,12 +13,13 @@ namespace hpvi
 struct NewtonReport
 {
   unsigned int steps = 0;
-  unsigned int cg_steps = 0;        ///< of conjugate gradients in all of them
-  unsigned int setups = 0;          ///< of multigrid
-  bool fell_back = false;           ///< multigrid broke down, and a factorisation took its place
-  unsigned int line_searches = 0;   ///< steps that had to be shortened
-  unsigned int augmented_steps = 0; ///< of the augmented Lagrangian
-  bool is_cut_off = false;          ///< Newton's method was, and that took its place
+  unsigned int cg_steps = 0; ///< of conjugate gradients in all of them
+  unsigned int setups = 0;   ///< of multigrid
+  bool fell_back = false; ///< a method for linear systems broke down, and the next took its place
+  LinearMethod linear = LinearMethod::automatic; ///< that was used last
+  unsigned int line_searches = 0;                ///< steps that had to be shortened
+  unsigned int augmented_steps = 0;              ///< of the augmented Lagrangian
+  bool is_cut_off = false;                       ///< Newton's method was, and that took its place
   unsigned int tresca_problems = 0; ///< of a law that knows the pressure, see FrictionIteration
   double contraction = 0;           ///< of these, as far as seen
   unsigned int n_slipping = 0;      ///< discs where contact is closed, of all processes

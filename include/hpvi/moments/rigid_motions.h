@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_rigid_motions_h
+#define hpvi_rigid_motions_h
+
+#include <hpvi/moments/moment_space.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/** Of a body: translations and rotations. */
+template <int dim>
+constexpr unsigned int n_motions = dim *(dim + 1) / 2;
+
+/** Of the unknowns of this process, one motion after the other: at nodes the motion there, at moments that at their Gauss point. */
+template <int dim>
+std::vector<double> rigid_motions(const MomentSpace<dim> &space);
+} // namespace hpvi
+
+#endif

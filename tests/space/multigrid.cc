@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Multigrid without a matrix beside the assembled matrix and factorisations.
+#include "runs.h"
+
+#include <hpvi/multigrid/multigrid.h>
+#include <hpvi/primal/moment_newton.h>
+
+#include <deal.II/grid/grid_generator.h>
+
+#include <random>
+
+namespace
+{
+using namespace space;
+
+Scene<3> dome()
+{
+  Scene<3> scene = read_scene<3>("prm/dome.prm", {{"Adaptivity/Maximum unknowns", "4000"}});
+  scene.solver.primal_tolerance = 1e-11;
+  return scene;
+}
+
+Scene<3> two_materials()
+{
+  return slab({{"Material hard/Where", "y - 2"},
+               {"Material hard/Young's modulus", "1500"},
+               {"Adaptivity/Maximum unknowns", "4000"}});
+}
+
+/** Steps of a run by @p method, which must not break down. */
+std::vector<Step> steps_by(Scene<3> scene, const LinearMethod method)
+{
+  scene.solver.linear = method;
+  return steps_of<3>(scene,
+                     [&](const StepReport<3> &step)
+                     {
+                       EXPECT_FALSE(step.primal->newton.fell_back);
+                       EXPECT_EQ(step.primal->newton.linear, method);
+                     });
+}
+
+void expect_same_steps(const Scene<3> &scene)
+{
+  const std::vector<Step> ours = steps_by(scene, LinearMethod::multigrid),
+                          theirs = steps_by(scene, LinearMethod::direct);
+  ASSERT_EQ(ours.size(), theirs.size());
+  ASSERT_GT(ours.size(), 1);
+  for (unsigned int k = 0; k < ours.size(); ++k)
+  {
+    EXPECT_EQ(ours[k].n_cells, theirs[k].n_cells);
+    EXPECT_EQ(ours[k].n_slipping, theirs[k].n_slipping);
+    EXPECT_EQ(ours[k].n_pressing, theirs[k].n_pressing);
+    EXPECT_NEAR(ours[k].lagrangian, theirs[k].lagrangian, 1e-9 * std::abs(theirs[k].lagrangian));
+  }
+}
+
+TEST(Multigrid, FindsWhatAFactorisationFinds)
+{
+  for (const char *const degree : {"2", "3", "4"})
+    expect_same_steps(slab({{"Geometry/Subdivisions", "2, 2, 1"},
+                            {"Adaptivity/Start degree", degree},
+                            {"Adaptivity/Maximum unknowns", "3000"}}));
+}
+
+TEST(Multigrid, KnowsPressuresAndMaterials)
+{
+  expect_same_steps(dome());
+  expect_same_steps(two_materials());
+}
+
+/** Calls @p look with the space of the last mesh, which has hanging nodes. */
+void on_last_mesh(const Scene<3> &scene, const std::function<void(const MomentSpace<3> &)> &look)
+{
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                if (!step.stopped_by.empty())
+                  look(step.primal->space);
+              });
+}
+
+template <typename Vector>
+void randomise(Vector &v, std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+    v.local_element(i) = uniform(random);
+}
+
+TEST(Multigrid, HasProductsAndBlocksOfTheMatrix)
+{
+  std::mt19937 random;
+  for (const Scene<3> &scene : {dome(), two_materials()})
+    on_last_mesh(scene,
+                 [&](const MomentSpace<3> &space)
+                 {
+                   EXPECT_TRUE(space.dof_handler.get_triangulation().has_hanging_nodes());
+                   PrimalSystem<3> system(space);
+                   MomentMatrix<3> assembled(space, system, LinearMethod::amg);
+                   MomentMatrix<3> free(space, system, LinearMethod::multigrid);
+                   DistributedVector x = space.owned_vector(), y = x, z = x;
+                   randomise(x, random);
+                   space.constraints.set_zero(x);
+                   assembled.multiply(y, x);
+                   free.multiply(z, x);
+                   z -= y;
+                   space.constraints.set_zero(z);
+                   EXPECT_LT(z.l2_norm(), 1e-12 * y.l2_norm());
+                   for (unsigned int k = 0; k < space.contact.size(); ++k)
+                     EXPECT_LT((assembled.block(k) - free.block(k)).norm(),
+                               1e-12 * assembled.block(k).norm());
+                 });
+}
+
+/** A V-cycle is symmetric, to the digits of single precision, with states of all kinds. */
+TEST(Multigrid, PreconditionsBySymmetricOperators)
+{
+  std::mt19937 random;
+  on_last_mesh(dome(),
+               [&](const MomentSpace<3> &space)
+               {
+                 Multigrid multigrid(space);
+                 std::vector<MomentState<3>> states(space.contact.size());
+                 for (MomentState<3> &state : states)
+                   if (random() % 2)
+                     state.is_held = true;
+                   else if (random() % 2)
+                     state.stiffness = 10. * unit_symmetric_tensor<2>();
+                 multigrid.linearise(states);
+                 DistributedVector x = space.owned_vector(), y = x, Px = x, Py = x, r = x;
+                 randomise(x, random);
+                 randomise(y, random);
+                 multigrid.finest.mask(x);
+                 multigrid.finest.mask(y);
+                 multigrid.precondition(Px, x);
+                 multigrid.precondition(Py, y);
+                 EXPECT_NEAR(Px * y, Py * x, 1e-5 * std::sqrt((Px * x) * (Py * y)));
+                 EXPECT_GT(Px * x, 0);
+                 // and near to the inverse
+                 multigrid.multiply_linearised(r, Px);
+                 r -= x;
+                 multigrid.precondition(Py, r);
+                 EXPECT_LT(Py * r, 0.1 * (Px * x));
+               });
+}
+
+/** Steps of conjugate gradients do not grow with the mesh. */
+TEST(Multigrid, TakesAFewStepsOnAnyMesh)
+{
+  Scene<3> scene = read_scene<3>("prm/slab.prm", {{"Adaptivity/Maximum unknowns", "20000"}});
+  scene.solver.linear = LinearMethod::multigrid;
+  scene.solver.primal_tolerance = 1e-6;
+  unsigned int n = 0;
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                EXPECT_LT(step.primal->newton.cg_steps, 30);
+                n = step.primal->newton.cg_steps;
+              });
+  EXPECT_GT(n, 5);
+}
+
+TEST(Multigrid, LeavesCoarseMeshesOfManyCellsToTheOther)
+{
+  Scene<3> scene = slab({{"Geometry/Subdivisions", "24, 24, 2"}});
+  const BoxTables<3> tables(2);
+  MomentSpace<3>::Mesh mesh(MPI_COMM_SELF);
+  GridGenerator::subdivided_hyper_rectangle(mesh, {24, 24, 2}, Point<3>(), Point<3>(4, 4, 2), true);
+  EXPECT_EQ(linear_method(MomentSpace<3>(scene, mesh, tables)), LinearMethod::amg);
+  const BoxTables<3> high(5);
+  MomentSpace<3>::Mesh small(MPI_COMM_SELF);
+  GridGenerator::subdivided_hyper_rectangle(small, {1, 1, 1}, Point<3>(), Point<3>(4, 4, 2), true);
+  EXPECT_EQ(linear_method(MomentSpace<3>(scene, small, high)), LinearMethod::amg);
+  EXPECT_EQ(linear_method(MomentSpace<3>(scene, small, tables)), LinearMethod::multigrid);
+}
+} // namespace
