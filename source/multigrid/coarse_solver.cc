@@ -3,9 +3,11 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <algorithm>
-#include <map>
 
 namespace hpvi
 {
@@ -13,57 +15,58 @@ using namespace dealii;
 
 namespace
 {
-using Entries = std::map<std::pair<unsigned int, unsigned int>, double>; ///< by column and row
+/** Column, row and value. */
+using Entries = std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>>;
 
-/** Of the cells of this process. */
+/** Of the upper triangle, from the cells of this process. */
 Entries own_entries(const MomentSpace<3> &space)
 {
+  DynamicSparsityPattern dynamic(space.dof_handler.n_dofs());
+  DoFTools::make_sparsity_pattern(space.dof_handler, dynamic, space.constraints, false);
+  SparsityPattern pattern;
+  pattern.copy_from(dynamic);
+  SparseMatrix<double> matrix(pattern);
   const BoxStiffness<3> stiffness(space);
-  Entries result;
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      const FullMatrix<double> &K = stiffness(cell, space.moment_components(cell));
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        for (unsigned int j = 0; j < dofs.size(); ++j)
-          if (dofs[i] == dofs[j] ||
-              (dofs[i] < dofs[j] && K(i, j) != 0 && !space.constraints.is_constrained(dofs[i]) &&
-               !space.constraints.is_constrained(dofs[j])))
-            result[{dofs[j], dofs[i]}] += space.constraints.is_constrained(dofs[i]) ? 1. : K(i, j);
+      space.constraints.distribute_local_to_global(stiffness(cell, space.moment_components(cell)),
+                                                   dofs, matrix);
     }
-  // A disc couples its directions even where A does not.
-  for (const auto &moment : space.contact)
-  {
-    const auto a = space.owned.nth_index_in_set(moment.unknowns[0]),
-               b = space.owned.nth_index_in_set(moment.unknowns[1]);
-    result[{std::max(a, b), std::min(a, b)}] += 0;
-  }
+  Entries result;
+  for (const auto &entry : matrix) // those of cells of other processes are not there
+    if (entry.row() <= entry.column())
+      result.push_back({{entry.column(), entry.row()}, entry.value()});
   return result;
 }
 } // namespace
 
-// The coarsest mesh has no hanging nodes: what is constrained is prescribed.
+// The coarsest mesh has no hanging nodes: what is constrained is prescribed. All entries of a cell are kept, zeros too: a
+// disc couples its directions even where A does not.
 CoarseSolver::CoarseSolver(const MultigridLevel<float> &level) : level(level)
 {
   Entries all;
-  std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>> mine;
-  for (const auto &entry : own_entries(level.space))
-    mine.push_back(entry);
-  for (const auto &part : Utilities::MPI::all_gather(level.space.communicator(), mine))
-    for (const auto &[place, value] : part)
-      all[place] += value;
-  A.resize(all.size());
-  std::size_t n = 0;
-  for (const auto &[place, value] : all)
+  for (const Entries &part :
+       Utilities::MPI::all_gather(level.space.communicator(), own_entries(level.space)))
+    all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  A.reserve(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e)
   {
-    for (; A.n() < place.first; A.column_start.push_back(n))
-      ;
-    A.row[n] = place.second;
-    A.value[n++] = value;
+    const auto &[place, value] = all[e];
+    if (e > 0 && place == all[e - 1].first)
+    {
+      A.value.back() += value;
+      continue;
+    }
+    while (A.n() < place.first)
+      A.column_start.push_back(A.row.size());
+    A.row.push_back(place.second);
+    A.value.push_back(value);
   }
-  A.column_start.push_back(n);
+  A.column_start.push_back(A.row.size());
 }
 
 std::size_t CoarseSolver::entry(const unsigned int row, const unsigned int column) const

@@ -29,14 +29,13 @@ std::vector<Dof> bases_of(const MomentSpace<3> &space, const AnyCell &cell)
   return result;
 }
 
-/** Where a cell lies along the curve by which p4est shares cells among processes: its tree, then child by child. */
+/** Where a cell lies along the curve by which p4est shares cells among processes: its tree, by which deal.II calls it, then child by child. */
 using Place = std::pair<unsigned int, std::vector<std::uint8_t>>;
 
-Place place_of(const MomentSpace<3>::Mesh &mesh, const CellId &id)
+Place place_of(const CellId &id)
 {
   const auto children = id.get_child_indices();
-  return {mesh.get_coarse_cell_to_p4est_tree_permutation()[id.get_coarse_cell_id()],
-          {children.begin(), children.end()}};
+  return {id.get_coarse_cell_id(), {children.begin(), children.end()}};
 }
 
 /** Processes that have cells, by the place of their first one. */
@@ -45,7 +44,7 @@ std::map<Place, unsigned int> owners_of(const MomentSpace<3>::Mesh &mesh)
   std::vector<Place> first;
   for (const auto &cell : mesh.active_cell_iterators())
     if (cell->is_locally_owned())
-      if (const Place place = place_of(mesh, cell->id()); first.empty() || place < first.front())
+      if (const Place place = place_of(cell->id()); first.empty() || place < first.front())
         first.assign(1, place);
   std::map<Place, unsigned int> result;
   const auto all = Utilities::MPI::all_gather(mesh.get_communicator(), first);
@@ -121,8 +120,8 @@ LevelTransfer::LevelTransfer(const MultigridLevel<float> &coarse, const Multigri
     const std::map<Place, unsigned int> owners = owners_of(coarse_mesh);
     for (const auto &cell : fine_mesh.active_cell_iterators())
       if (cell->is_locally_owned() && !cell_at(coarse_mesh, cell->id())->is_locally_owned())
-        assembly.messages[std::prev(owners.upper_bound(place_of(coarse_mesh, cell->id())))->second]
-            .push_back({cell->id().to_binary<3>(), bases_of(fine.space, cell)});
+        assembly.messages[std::prev(owners.upper_bound(place_of(cell->id())))->second].push_back(
+            {cell->id().to_binary<3>(), bases_of(fine.space, cell)});
   }
   for (const auto &[rank, received] :
        Utilities::MPI::some_to_some(fine.space.communicator(), assembly.messages))
@@ -131,6 +130,7 @@ LevelTransfer::LevelTransfer(const MultigridLevel<float> &coarse, const Multigri
       const CellId id(message.first);
       const AnyCell above = cell_at(coarse_mesh, id);
       const auto children = id.get_child_indices();
+      AssertThrow(above->is_active() && above->is_locally_owned(), ExcInternalError());
       const bool is_same = static_cast<unsigned int>(above->level()) == children.size();
       add_piece(assembly, Cell(*above, &coarse.space.dof_handler),
                 is_same ? same_cell : children[children.size() - 1], message.second);
@@ -253,6 +253,7 @@ void LevelTransfer::share_rows()
       if (!fine.space.owned.is_element(dof))
         indices.push_back(dof);
   std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   others.add_indices(indices.begin(), indices.end());
   buffer.reinit(fine.space.owned, others, fine.space.communicator());
   const auto &partitioner = *buffer.get_partitioner();

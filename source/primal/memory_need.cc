@@ -2,6 +2,7 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/primal/memory_need.h>
+#include <hpvi/primal/moment_matrix.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,10 +12,15 @@ using namespace dealii;
 
 namespace
 {
-/** Of a process: matrix, its pattern, the levels of multigrid; measured to a quarter. */
+/**
+ * Of a process: matrix, its pattern, the levels of algebraic multigrid; or without a matrix vectors, unknowns and constraints of
+ * all levels. Measured to a quarter.
+ */
 template <int dim>
 double expected_bytes(const MomentSpace<dim> &space)
 {
+  if (linear_method(space) == LinearMethod::multigrid)
+    return 700. * space.owned.n_elements();
   const double n_cells = space.dof_handler.get_triangulation().n_global_active_cells() *
                          (double(space.owned.n_elements()) / space.dof_handler.n_dofs()),
                n = space.tables.fe.dofs_per_cell;
@@ -24,8 +30,9 @@ double expected_bytes(const MomentSpace<dim> &space)
 template <int dim>
 std::string matrix_name(const MomentSpace<dim> &space)
 {
-  return "the matrix and its multigrid for " + std::to_string(space.dof_handler.n_dofs()) +
-         " unknowns";
+  return (linear_method(space) == LinearMethod::multigrid ? "the levels of multigrid for "
+                                                          : "the matrix and its multigrid for ") +
+         std::to_string(space.dof_handler.n_dofs()) + " unknowns";
 }
 } // namespace
 

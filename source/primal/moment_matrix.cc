@@ -84,7 +84,8 @@ void MomentMatrix<dim>::begin()
       return;
     }
   multigrid.reset();
-  assemble();
+  if (!A) // else its entries at moments are no longer those of the body alone
+    assemble();
   setup_seconds += timer.wall_time();
 }
 

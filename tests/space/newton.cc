@@ -147,7 +147,7 @@ TEST(Newton, SetsMultigridUpWhereMoreThanAFiftiethHasChanged)
               {
                 ASSERT_EQ(step.primal->space.n_discs, 100u);
                 PrimalSystem<3> system(step.primal->space);
-                MomentMatrix<3> matrix(step.primal->space, system);
+                MomentMatrix<3> matrix(step.primal->space, system, LinearMethod::amg);
                 std::vector<MomentState<3>> states(step.primal->space.contact.size());
                 const auto setups = [&](const unsigned int begin, const unsigned int end)
                 {
