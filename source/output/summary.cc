@@ -106,6 +106,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
                  {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
                  {"units", units_json(scene.length_unit, scene.stress_unit)},
                  {"normal_contact", known(normal_contact)},
+                 {"linear", known(linear)},
                  {"processes", text(processes)},
                  {"loads", loads_json(loads)},
                  {"steps", text(steps)},
@@ -125,8 +126,6 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
                  {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
-  if (!linear.empty())
-    entries.emplace_back("linear", json_string(linear));
   return json_file(entries);
 }
 

@@ -222,19 +222,19 @@ class Summaries(RunTest):
         self.members = self.summary()
 
     def test_done(self):
-        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound", "no_intervals")
+        self.check_members("done", "message", "normal_contact", "linear", "loading", "no_error_bound", "no_intervals")
         self.run_scene("Loading/Steps=2", "Error/Bound=false", "Adaptivity/Maximum steps=1",
                        scene=self.bar())
-        self.check_members("done", "message", "normal_contact", "error_bound", "last_error_bound")
+        self.check_members("done", "message", "normal_contact", "linear", "error_bound", "last_error_bound")
 
     def test_a_displacement_of_zero(self):
         for _ in range(2):  # the second run knows the files of the first
             self.run_scene("Adaptivity/Start degree=1", "Adaptivity/Maximum steps=1",
                            scene=self.still("1; 0"))
-            self.check_members("done", "message", "normal_contact", "loading", "error_bound", "last_error_bound")
+            self.check_members("done", "message", "normal_contact", "linear", "loading", "error_bound", "last_error_bound")
             self.assertIsNone(self.summary()["final"]["estimate_relative"])
         self.run_scene(scene=self.still("0; 0"))
-        self.check_members("done", "message", "normal_contact", "loading", "no_error_bound")
+        self.check_members("done", "message", "normal_contact", "linear", "loading", "no_error_bound")
 
     def test_a_missing_bound_is_explained(self):
         """Far from its support a beam hardly strains: what it does is lost in cells that are small."""
@@ -260,13 +260,13 @@ class Summaries(RunTest):
 
     def test_failed(self):
         self.run_scene(status=2, preexec_fn=size_limit(6000))
-        self.check_members("failed", "stopped_by", "normal_contact", "loads", "final", "loading",
+        self.check_members("failed", "stopped_by", "normal_contact", "linear", "loads", "final", "loading",
                            "error_bound", "no_error_bound", "last_error_bound", "forces", "balance",
                            "contact", "von_mises", "largest_displacement", "no_intervals")
 
     def test_running_and_interrupted(self):
         run = self.stopped("Adaptivity/Maximum steps=99", rows=2)
-        early = ("normal_contact", "loading", "error_bound", "no_error_bound", "forces", "balance", "contact",
+        early = ("normal_contact", "linear", "loading", "error_bound", "no_error_bound", "forces", "balance", "contact",
                  "von_mises", "largest_displacement", "no_intervals")
         self.check_members("running", "stopped_by", "message", *early)
         run.send_signal(signal.SIGTERM)

@@ -79,7 +79,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for directory, n in ((one, 1), (two, 2)):
         summary = json.loads((directory / "summary.json").read_text())
         members = list(summary)
-        assert summary["status"] == "done" and summary["processes"] == n
+        assert summary["status"] == "done" and summary["processes"] == n and summary["linear"] == "multigrid"
         listed = sorted(name for entry in summary["files"] for name in expanded(entry))
         assert listed == sorted(p.name for p in directory.iterdir()), listed
         # The loads are int 1.5 (5 - y), -0.75, 0.5 over 4 x 2; supports and contact carry them, moments too.
@@ -173,6 +173,7 @@ with tempfile.TemporaryDirectory() as scratch:
         summary = json.loads((scratch / "plane/summary.json").read_text())
         assert list(summary) == members, list(summary)
         assert (summary["final"]["newton_steps"] is not None) == primal, (n, extra)
+        assert summary["linear"] == ("direct" if primal else None)
         if primal:
             assert summary["error_bound"] is None and "primal" in summary["no_error_bound"]
         assert summary["normal_contact"] == ("multiplier" if "Boundary bottom/Contact=unilateral" in extra else None)

@@ -241,6 +241,24 @@ TEST(Ranks, AnErrorInAnyStageIsOneOnAll)
   }
 }
 
+/** Levels are the same wherever their cells are: trees of p4est that are no coarse cells in order, refined often. */
+TEST(Ranks, MultigridTakesTheSameSteps)
+{
+  Scene<3> scene =
+      slab({{"Geometry/Subdivisions", "4, 3, 2"}, {"Adaptivity/Maximum unknowns", "20000"}});
+  scene.solver.primal_tolerance = 1e-6;
+  scene.solver.linear = LinearMethod::multigrid;
+  std::vector<unsigned int> alone, together;
+  const auto count = [](std::vector<unsigned int> &steps) {
+    return [&steps](const StepReport<3> &step) { steps.push_back(step.primal->newton.cg_steps); };
+  };
+  steps_of<3>(scene, count(alone));
+  steps_of<3>(scene, count(together), MPI_COMM_WORLD);
+  ASSERT_EQ(alone.size(), together.size());
+  for (unsigned int k = 0; k < alone.size(); ++k)
+    EXPECT_NEAR(alone[k], together[k], 1) << k;
+}
+
 TEST(Ranks, MoreThanCells)
 {
   const unsigned int n = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
