@@ -74,7 +74,7 @@ private:
       0; ///< estimated of the current step, or of the last one, in the energy norm; 0: none
   std::optional<Energies> known_energies; ///< of the current step
   NewtonReport report;                    ///< likewise
-  std::optional<LinearMethod> given_way; ///< what took the place of one that broke down
+  std::optional<LinearMethod> given_way;  ///< what took the place of one that broke down
 };
 } // namespace hpvi
 
