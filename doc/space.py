@@ -161,7 +161,7 @@ def million():
 def draw_million():
     points = [(row["dofs_free"], row["newton_cg"]) for row in read("million.csv")]
     chart("million.png", "free displacement unknowns of a mesh [-]", "conjugate-gradient steps on it [-]",
-          {"doc/space/slab-million.prm on 2 processes": (points, 3, (-10, 6))}, log_y=False)
+          {"doc/space/slab-million.prm on 2 processes": (points, 5, (-10, 0))}, log_y=False)
 
 
 def speedup():
