@@ -70,16 +70,6 @@ public:
     return cells.get_constrained_dofs();
   }
 
-  double bytes() const override
-  {
-    return cells.memory_consumption();
-  }
-
-  unsigned int width() const override
-  {
-    return Wide::size();
-  }
-
 private:
   using Cells = MatrixFree<3, Number>;
   using Wide = VectorizedArray<Number>;

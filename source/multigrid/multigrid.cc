@@ -54,23 +54,20 @@ void Multigrid::prepare(Level &level)
   settings.degree = smoothing_degree;
   settings.smoothing_range = smoothing_range;
   settings.preconditioner = std::make_shared<BlockJacobi<float>>(*level.matrix);
-  settings.eig_cg_n_iterations = level.largest_eigenvalue > 0 ? 0 : 12;
-  settings.max_eigenvalue = level.largest_eigenvalue;
+  settings.eig_cg_n_iterations = 12;
   level.smoother = std::make_unique<Smoother>();
   level.smoother->initialize(*level.matrix, settings);
-  if (level.largest_eigenvalue == 0)
-    level.largest_eigenvalue =
-        level.smoother->estimate_eigenvalues(level.b).max_eigenvalue_estimate * 1.2;
+  level.smoother->estimate_eigenvalues(level.b);
 }
 
 void Multigrid::linearise(const std::vector<MomentState<3>> &states)
 {
-  const_cast<MultigridLevel<double> &>(finest).linearise(states);
+  finest.linearise(states);
   for (unsigned int l = levels.size(); l-- > 0;)
   {
     levels[l].matrix->linearise(l + 1 == levels.size() ? states
                                                        : levels[l + 1].from_below->coarse_states());
-    if (l > 0 && levels[l].largest_eigenvalue == 0)
+    if (l > 0 && !levels[l].smoother)
       prepare(levels[l]);
   }
   coarse->factor();
@@ -116,18 +113,5 @@ void Multigrid::cycle(const unsigned int l) const
   level.from_below->prolongate(level.r, below.x);
   level.x += level.r;
   level.smoother->step(level.x, level.b);
-}
-
-double Multigrid::bytes() const
-{
-  double sum = finest.bytes();
-  for (const Level &level : levels)
-    sum += level.matrix->bytes();
-  return sum;
-}
-
-unsigned int Multigrid::n_levels() const
-{
-  return levels.size();
 }
 } // namespace hpvi

@@ -179,12 +179,6 @@ void MultigridLevel<Number>::precondition(Vector &z, const Vector &r) const
   mask(z);
 }
 
-template <typename Number>
-double MultigridLevel<Number>::bytes() const
-{
-  return cells->bytes() + 2 * sizeof(Number) * inverse_diagonal.locally_owned_size();
-}
-
 template class MultigridLevel<double>;
 template class MultigridLevel<float>;
 } // namespace hpvi

@@ -38,9 +38,6 @@ public:
 
   /** Those of this process and beside it that depend on others or on nothing, in the numbering of a vector's local elements. */
   virtual const std::vector<unsigned int> &constrained() const = 0;
-
-  virtual double bytes() const = 0;       ///< of memory
-  virtual unsigned int width() const = 0; ///< numbers in a vector of the processor
 };
 
 /** Degrees for which there is one. */

@@ -30,9 +30,7 @@ public:
   void linearise(const std::vector<MomentState<3>> &states);                        ///< collective
   void precondition(DistributedVector &z, const DistributedVector &r) const;        ///< one V-cycle
 
-  const MultigridLevel<double> finest; ///< A, to which conjugate gradients are exact
-  double bytes() const;                ///< of all levels, of this process
-  unsigned int n_levels() const;
+  MultigridLevel<double> finest; ///< A, to which conjugate gradients are exact
 
 private:
   using Vector = MultigridLevel<float>::Vector;
@@ -45,7 +43,6 @@ private:
     std::unique_ptr<MultigridLevel<float>> matrix;
     std::unique_ptr<LevelTransfer> from_below; ///< null on the coarsest mesh
     std::unique_ptr<Smoother> smoother;
-    double largest_eigenvalue = 0;
     mutable Vector x, b, r;
   };
 

@@ -51,11 +51,6 @@ public:
   {
     MomentTransform<Number>::resolve(space, inverse_diagonal, dof, take);
   }
-  unsigned int width() const
-  {
-    return cells->width();
-  }
-  double bytes() const;
 
 private:
   void find_diagonal();
