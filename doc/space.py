@@ -24,7 +24,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=20000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust"])
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
 OUTPUT, FIGURES = pathlib.Path(options.output), pathlib.Path(options.figures)
@@ -220,6 +220,33 @@ def draw_coulomb():
            for name, offset in (("dome", (-4, -10)), ("slab", (-12, -2)), ("block", (-6, 8)))}, log_y=False)
 
 
+def robust():
+    """Steps of conjugate gradients per linear system on the largest mesh, where something makes systems hard: what multigrid
+    and the assembled path take, each asked for; what took over, where they gave up."""
+    hard = {"Material hard/Where": "y - 1", "Material hard/Poisson's ratio": 0.4}
+    cases = [("Poisson's ratio", nu, {"Material/Poisson's ratio": nu}) for nu in (0.3, 0.4, 0.45, 0.48, 0.49, 0.495, 0.499)]
+    cases += [("cells a:1:1", a, {"Geometry/Upper corner": f"{4 * a}, 4, 2"}) for a in (1, 2, 3, 5, 10)]
+    cases += [("cells a:1:a", a, {"Geometry/Upper corner": f"{4 * a}, 4, {2 * a}"}) for a in (2, 3, 5, 10)]
+    cases += [("jump of E", j, {**hard, "Material hard/Young's modulus": 15 * j}) for j in (1e-4, 1e-2, 1e2, 1e4)]
+    cases += [("jump of g", j, {"Boundary bottom/Friction bound": f"z < 1 ? 4.5 : {4.5 * j}"}) for j in (1e-4, 1e-2, 1e2, 1e4)]
+    table = []
+    for family, value, entries in cases:
+        line = [family, value]
+        for method in ("multigrid", "amg"):
+            name = f"robust-{family}-{value}-{method}".replace(" ", "-").replace(":", "")
+            entry = {"Adaptivity/Maximum unknowns": 40000, "Solver/Linear": method, **entries}
+            try:
+                last = run(name, **entry)[-1]
+                taken = json.loads((OUTPUT / name / "summary.json").read_text())["linear"]
+                line += [round(last["newton_cg"] / last["newton_steps"], 1) if taken == method else f"gave way to {taken}",
+                         int(last["newton_steps"]), round(last["run_cpu"], 2)]
+            except subprocess.CalledProcessError:
+                line += ["failed", "", ""]
+        table.append(line)
+        print(*line)
+    write("robust.csv", ["method", "value", *(f"{kind}_{what}" for kind in ("multigrid", "amg") for what in ("cg_per_step", "newton_steps", "cpu_seconds"))], table)
+
+
 def draw_crossover():
     rows = read("crossover.csv")
     chart("crossover.png", "multipliers of friction [-]", "CPU time of a run [s]",
@@ -232,6 +259,6 @@ if options.draw:
     draw_million()
     draw_crossover()
     draw_coulomb()
-for part in (million, accuracy, crossover, speedup, coulomb):
+for part in (million, accuracy, crossover, speedup, coulomb, robust):
     if not options.draw and part.__name__ not in options.without:
         part()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
+#include <hpvi/moments/consistent_constraints.h>
 #include <hpvi/moments/moment_space.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -51,8 +52,7 @@ MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
 {
   number();
   together(communicator(), [this]() { constrain(); });
-  constraints.make_consistent_in_parallel(owned, relevant, communicator());
-  constraints.close();
+  make_consistent(constraints, owned, relevant, communicator());
   together(communicator(), [this]() { find_contact(); });
   types::global_dof_index constrained = 0;
   for (const auto i : owned)
