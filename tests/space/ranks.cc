@@ -4,6 +4,9 @@
 
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/moments/consistent_constraints.h>
+
+#include <deal.II/dofs/dof_tools.h>
 
 #include <set>
 
@@ -257,6 +260,38 @@ TEST(Ranks, MultigridTakesTheSameSteps)
   ASSERT_EQ(alone.size(), together.size());
   for (unsigned int k = 0; k < alone.size(); ++k)
     EXPECT_NEAR(alone[k], together[k], 1) << k;
+}
+
+/** Of each unknown that a process sees; entries of both are sorted by close(). */
+TEST(Ranks, HangingNodesAreConstrainedAsByDealII)
+{
+  const auto compare = [](const StepReport<3> &step)
+  {
+    const MomentSpace<3> &space = step.primal->space;
+    AffineConstraints<double> ours(space.relevant), theirs(space.relevant);
+    for (AffineConstraints<double> *const constraints : {&ours, &theirs})
+      DoFTools::make_hanging_node_constraints(space.dof_handler, *constraints);
+    make_consistent(ours, space.owned, space.relevant, space.communicator());
+    theirs.make_consistent_in_parallel(space.owned, space.relevant, space.communicator());
+    theirs.close();
+    unsigned int n_hanging = 0;
+    for (const auto i : space.relevant)
+    {
+      ASSERT_EQ(ours.is_constrained(i), theirs.is_constrained(i));
+      if (!ours.is_constrained(i))
+        continue;
+      ++n_hanging;
+      const auto &a = *ours.get_constraint_entries(i), &b = *theirs.get_constraint_entries(i);
+      ASSERT_EQ(a.size(), b.size());
+      for (unsigned int k = 0; k < a.size(); ++k)
+      {
+        EXPECT_EQ(a[k].first, b[k].first);
+        EXPECT_NEAR(a[k].second, b[k].second, 1e-14);
+      }
+    }
+    EXPECT_TRUE(step.number == 1 || Utilities::MPI::sum(n_hanging, MPI_COMM_WORLD) > 0);
+  };
+  steps_of<3>(slab({{"Adaptivity/Maximum steps", "4"}}), compare, MPI_COMM_WORLD);
 }
 
 TEST(Ranks, MoreThanCells)
