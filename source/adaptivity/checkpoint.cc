@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/checkpoint.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/version.h>
 
 #include <charconv>
 #include <sstream>
@@ -147,7 +148,10 @@ bool decides(const std::string &section, const std::string &entry)
 template <int dim>
 std::vector<std::string> RunState<dim>::entries_of(const std::string &scene_prm)
 {
-  return hpvi::entries_of(scene_prm, decides);
+  std::vector<std::string> result = hpvi::entries_of(scene_prm, decides);
+  if (!result.empty()) // digits belong to the program
+    result.insert(result.begin(), "hpvi = " + version());
+  return result;
 }
 
 template <int dim>

@@ -59,6 +59,13 @@ struct LoadHistory<dim>::Evolution
 
   Evolution(const Scene<dim> &scene, MPI_Comm communicator);
 
+  /** Of a scene without history. */
+  Evolution(const Scene<dim> &scene, const RunState<dim> &state, MPI_Comm communicator)
+      : scene(scene), communicator(communicator),
+        solver(std::make_unique<AdaptiveSolver<dim>>(scene, state, communicator))
+  {
+  }
+
   void begin(unsigned int number);
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
@@ -220,7 +227,25 @@ LoadHistory<dim>::LoadHistory(const Scene<dim> &scene, MPI_Comm communicator)
 }
 
 template <int dim>
+LoadHistory<dim>::LoadHistory(const Scene<dim> &scene, const RunState<dim> &state,
+                              MPI_Comm communicator)
+{
+  if (scene.has_load_history())
+    RunState<dim>::format().reject(
+        state.name, "the scene has a load history, Loading/Steps, which does not go on");
+  evolution = std::make_unique<Evolution>(scene, state, communicator);
+}
+
+template <int dim>
 LoadHistory<dim>::~LoadHistory() = default;
+
+template <int dim>
+std::optional<RunState<dim>> LoadHistory<dim>::state() const
+{
+  if (evolution->scene.has_load_history())
+    return std::nullopt;
+  return evolution->solver->state();
+}
 
 template <int dim>
 void LoadHistory<dim>::prepare(const std::function<void(const Progress &)> &about_to)

@@ -12,6 +12,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
 #include <sstream>
 
 namespace hpvi
@@ -64,6 +68,13 @@ void write_together(MPI_Comm communicator, const std::function<void()> &work)
 
 template <int dim>
 Output<dim>::Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator)
+    : Output(scene, path, 0, communicator)
+{
+}
+
+template <int dim>
+Output<dim>::Output(const Scene<dim> &scene, const std::string &path, const unsigned int n_steps,
+                    MPI_Comm communicator)
     : scene(scene), path(path), communicator(communicator), is_first(rank_of(communicator) == 0),
       n_processes(hpvi::n_processes(communicator))
 {
@@ -71,22 +82,26 @@ Output<dim>::Output(const Scene<dim> &scene, const std::string &path, MPI_Comm c
                  [&]()
                  {
                    if (is_first)
-                     open(path);
+                     open(path, n_steps);
                  });
 }
 
 template <int dim>
-void Output<dim>::open(const std::string &path)
+void Output<dim>::open(const std::string &path, const unsigned int n_steps)
 {
   directory = std::make_unique<ResultDirectory>(
       path, names_written(scene, n_processes),
-      std::vector<std::string>{scene.parameters ? scene.parameters->file_name() : "",
+      std::vector<std::string>{scene.parameters && n_steps == 0 ? scene.parameters->file_name()
+                                                                : "",
                                scene.reference_solution});
   summary.processes = n_processes;
   try
   {
+    if (n_steps > 0)
+      take_up(n_steps);
     write_summary(); // names the files of earlier runs as long as there are any
-    directory->remove_earlier();
+    if (n_steps == 0)
+      directory->remove_earlier();
     if (scene.parameters)
     {
       announce({"scene.prm"});
@@ -99,6 +114,48 @@ void Output<dim>::open(const std::string &path)
     throw;
   }
   is_usable = true;
+}
+
+namespace
+{
+std::string content_of(const std::filesystem::path &file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+} // namespace
+
+/** What is there of steps that the state does not know will be there again. */
+template <int dim>
+void Output<dim>::take_up(const unsigned int n_steps)
+{
+  const std::filesystem::path home(path);
+  summary.scene_file = directory->other_scene("");
+  try
+  {
+    summary.take_up(tables.take_up(n_steps, content_of(home / "convergence.csv"),
+                                   content_of(home / "degrees.csv"),
+                                   content_of(home / "forces.csv")));
+  }
+  catch (const InputError &error)
+  {
+    directory->reject(error.what());
+  }
+  const std::vector<std::string> of_step = directory->remove_after(n_steps);
+  if (scene.output.steps == OutputSteps::last)
+    superseded = of_step;
+  update("convergence.csv", tables.convergence());
+  update("degrees.csv", tables.degrees());
+  update("forces.csv", tables.forces());
+  const std::string collection = content_of(home / "solution.pvd");
+  const std::regex entry("timestep=\"([0-9]+)\" part=\"0\" file=\"([^\"]+)\"");
+  for (std::sregex_iterator found(collection.begin(), collection.end(), entry), end; found != end;
+       ++found)
+    if (const unsigned long step = std::stoul((*found)[1]); step <= n_steps)
+      add_to_pvd(pvd, step, (*found)[2]);
+  pvd.same = 0;
+  if (!pvd.text.empty())
+    update("solution.pvd", pvd);
 }
 
 template <int dim>
@@ -251,7 +308,8 @@ void Output<dim>::write_reference(const StepReport<dim> &step)
 
 /** Last: the tables name no step whose files are missing. */
 template <int dim>
-void Output<dim>::write_tables(const StepReport<dim> &step)
+void Output<dim>::write_tables(const StepReport<dim> &step,
+                               const std::optional<RunState<dim>> &state)
 {
   const bool is_last = !step.stopped_by.empty();
   tables.add(step);
@@ -264,6 +322,12 @@ void Output<dim>::write_tables(const StepReport<dim> &step)
     update("loading.csv", tables.loading());
   }
   summary.add(step, tables.last_row());
+  if (state)
+  {
+    std::ostringstream content;
+    state->write(content);
+    write("state.dat", content.str());
+  }
   for (const std::string &name : superseded)
     directory->remove(name);
   superseded =
@@ -272,7 +336,7 @@ void Output<dim>::write_tables(const StepReport<dim> &step)
 }
 
 template <int dim>
-void Output<dim>::write_step(const StepReport<dim> &step)
+void Output<dim>::write_step(const StepReport<dim> &step, const std::optional<RunState<dim>> &state)
 {
   pictures.clear();
   if (scene.output.vtu && n_processes > 1)
@@ -285,9 +349,11 @@ void Output<dim>::write_step(const StepReport<dim> &step)
                    if (!is_first)
                      return;
                    announce({"convergence.csv", "degrees.csv", "forces.csv"});
+                   if (state)
+                     announce({"state.dat"});
                    write_pictures(step);
                    add_to_collection(step);
-                   write_tables(step);
+                   write_tables(step, state);
                  });
 }
 

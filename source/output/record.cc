@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 namespace hpvi
 {
@@ -27,6 +28,35 @@ std::string csv(const std::vector<Record> &records)
   for (const Record &record : records)
     add_line(table, record, &Record::value_type::second);
   return table;
+}
+
+std::vector<Record> records(const std::string &csv)
+{
+  const auto fields = [](const std::string &line)
+  {
+    std::vector<std::string> result(1);
+    for (const char c : line)
+      if (c == ',')
+        result.emplace_back();
+      else
+        result.back() += c;
+    return result;
+  };
+  std::vector<Record> result;
+  std::istringstream in(csv.substr(0, csv.rfind('\n') + 1));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> names = fields(line);
+  while (std::getline(in, line))
+  {
+    const std::vector<std::string> values = fields(line);
+    if (values.size() != names.size())
+      return result;
+    result.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k)
+      result.back().emplace_back(names[k], values[k]);
+  }
+  return result;
 }
 
 void add_row(GrowingText &table, const Record &row)

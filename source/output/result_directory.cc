@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <utility>
 
 namespace hpvi
 {
@@ -308,6 +309,23 @@ void ResultDirectory::remove_earlier()
       reject("its " + name + " of an earlier run cannot be removed: " + error.message());
     own.remove(name);
   }
+}
+
+std::vector<std::string> ResultDirectory::remove_after(const unsigned int step)
+{
+  static const std::regex pattern(".*-([0-9]{2,9})\\.[0-9a-z.]+");
+  std::vector<std::string> of_step;
+  for (const std::string &name : std::exchange(stale, {}))
+  {
+    std::smatch match;
+    const unsigned long number = std::regex_match(name, match, pattern) ? std::stoul(match[1]) : 0;
+    if (number > step || name == "reference.dat")
+      stale.insert(name);
+    else if (number == step)
+      of_step.push_back(name);
+  }
+  remove_earlier();
+  return of_step;
 }
 
 void ResultDirectory::remove(const std::string &name)

@@ -9,9 +9,14 @@
 #include <hpvi/output/tables.h>
 #include <hpvi/reader/scene_entries.h>
 
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+
 namespace hpvi
 {
 using namespace dealii;
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -55,7 +60,42 @@ std::string bound_json(const StepReport<dim> &step)
          json_number(energy - step.bound->energy_below) + ", " +
          json_number(energy + step.bound->energy_above) + "]\n  }";
 }
+
+/** The same by the row of its step; relative to a displacement of zero it is null. */
+std::string bound_json(const Record &row)
+{
+  const auto field = [&](const std::string &column)
+  {
+    for (const auto &[name, value] : row)
+      if (name == column)
+        return value.empty() ? "null" : value;
+    return std::string("null");
+  };
+  return "{\n    \"step\": " + field("step") +
+         ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + field("error_bound") +
+         ",\n    \"relative\": " + field("error_bound_relative") +
+         ",\n    \"imbalance\": " + field("bound_imbalance") + ",\n    \"energy\": [" +
+         field("energy_low") + ", " + field("energy_high") + "]\n  }";
+}
 } // namespace
+
+void Summary::take_up(const std::vector<Record> &rows)
+{
+  const std::array<double *, 9> stages{{&times.setup, &times.assemble, &times.factor, &times.qp,
+                                        &times.recover, &times.estimate, &times.bound,
+                                        &times.decide, &times.refine}};
+  for (const Record &row : rows)
+    for (const auto &[column, value] : row)
+    {
+      if (column == "error_bound" && !value.empty())
+        last_error_bound = bound_json(row);
+      for (std::size_t k = 0; k < stages.size(); ++k)
+        if (column == std::string("seconds_") + times.named()[k].first)
+          *stages[k] += std::strtod(value.c_str(), nullptr);
+    }
+  steps = rows.size();
+  last_row = rows.back();
+}
 
 template <int dim>
 void Summary::add(const StepReport<dim> &step, const Record &row)
@@ -95,35 +135,39 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       scene.has_unilateral_contact()
           ? normal_contact_names[static_cast<unsigned int>(scene.normal_contact())]
           : "";
-  Record entries{{"status", json_string(status)},
-                 {"stopped_by", known(stopped_by)},
-                 {"message", known(message)},
-                 {"scene", json_string(scene.name)},
-                 {"scene_file", known(scene.parameters ? scene.parameters->file_name() : "")},
-                 {"title", json_string(scene.title)},
-                 {"program", json_string("hpvi " + version())},
-                 {"build", json_string(build_type())},
-                 {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
-                 {"units", units_json(scene.length_unit, scene.stress_unit)},
-                 {"normal_contact", known(normal_contact)},
-                 {"linear", known(linear)},
-                 {"processes", text(processes)},
-                 {"loads", loads_json(loads)},
-                 {"steps", text(steps)},
-                 {"final", steps == 0 ? "null" : json_object(last_row)},
-                 {"loading", loading_json(load, scene.loading.steps)},
-                 {"error_bound", ending.error_bound},
-                 {"no_error_bound", ending.no_error_bound},
-                 {"last_error_bound", last_error_bound},
-                 {"forces", ending.forces},
-                 {"balance", ending.balance},
-                 {"contact", ending.contact},
-                 {"von_mises", ending.von_mises},
-                 {"largest_displacement", ending.largest_displacement},
-                 {"no_intervals", ending.no_intervals},
-                 {"seconds", json_object(stage_record(times))},
-                 {"warnings", json_lines(warnings)},
-                 {"files", json_lines(files)}};
+  const bool began_elsewhere = !scene_file.empty();
+  Record entries{
+      {"status", json_string(status)},
+      {"stopped_by", known(stopped_by)},
+      {"message", known(message)},
+      {"scene", json_string(began_elsewhere ? fs::path(scene_file).stem().string() : scene.name)},
+      {"scene_file", known(began_elsewhere    ? scene_file
+                           : scene.parameters ? scene.parameters->file_name()
+                                              : "")},
+      {"title", json_string(scene.title)},
+      {"program", json_string("hpvi " + version())},
+      {"build", json_string(build_type())},
+      {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
+      {"units", units_json(scene.length_unit, scene.stress_unit)},
+      {"normal_contact", known(normal_contact)},
+      {"linear", known(linear)},
+      {"processes", text(processes)},
+      {"loads", loads_json(loads)},
+      {"steps", text(steps)},
+      {"final", steps == 0 ? "null" : json_object(last_row)},
+      {"loading", loading_json(load, scene.loading.steps)},
+      {"error_bound", ending.error_bound},
+      {"no_error_bound", ending.no_error_bound},
+      {"last_error_bound", last_error_bound},
+      {"forces", ending.forces},
+      {"balance", ending.balance},
+      {"contact", ending.contact},
+      {"von_mises", ending.von_mises},
+      {"largest_displacement", ending.largest_displacement},
+      {"no_intervals", ending.no_intervals},
+      {"seconds", json_object(stage_record(times))},
+      {"warnings", json_lines(warnings)},
+      {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
   return json_file(entries);

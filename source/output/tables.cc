@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/input_error.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
 #include <hpvi/output/forces_table.h>
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/tables.h>
@@ -8,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -264,6 +267,53 @@ void Tables<dim>::add(const StepReport<dim> &step)
   add_degrees();
   if (step.load.number > 0 && !step.stopped_by.empty())
     add_row(load_steps, loading_record(step));
+}
+
+namespace
+{
+unsigned int whole_number(const std::string &field)
+{
+  unsigned int result = 0;
+  const char *const end = field.data() + field.size();
+  if (field.empty() || std::from_chars(field.data(), end, result).ptr != end)
+    throw InputError("a table has " + printable(field) + " in the place of a whole number");
+  return result;
+}
+
+/** N of the column "pN", or 0. */
+unsigned int degree_of(const std::string &column)
+{
+  return column.size() > 1 && column[0] == 'p' ? whole_number(column.substr(1)) : 0;
+}
+} // namespace
+
+template <int dim>
+std::vector<Record> Tables<dim>::take_up(const unsigned int n_steps, const std::string &convergence,
+                                         const std::string &degrees, const std::string &forces)
+{
+  std::vector<Record> of_steps = records(convergence), of_degrees = records(degrees);
+  if (of_steps.size() < n_steps || of_degrees.size() < n_steps)
+    throw InputError("convergence.csv or degrees.csv has fewer rows than the run has steps");
+  of_steps.resize(n_steps);
+  of_degrees.resize(n_steps);
+  add_rows(rows, of_steps);
+  row = of_steps.back();
+  for (const Record &forces_of_step : records(forces))
+    if (whole_number(forces_of_step.front().second) <= n_steps)
+      add_row(force_rows, forces_of_step);
+  for (const Record &record : of_degrees)
+  {
+    elements.emplace_back();
+    for (const auto &[column, number] : record)
+      if (const unsigned int p = degree_of(column); p > 0 && number != "0")
+      {
+        elements.back().resize(p + 1);
+        elements.back()[p] = whole_number(number);
+      }
+    add_degrees();
+  }
+  rows.same = force_rows.same = degree_rows.same = 0;
+  return of_steps;
 }
 
 /** The row of the last step; with a column more, all rows. */

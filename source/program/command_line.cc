@@ -5,6 +5,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <filesystem>
 #include <sstream>
 
 namespace hpvi
@@ -22,6 +23,9 @@ po::options_description visible_options()
   add("set", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "override one entry of the scene, as in --set \"Material/Poisson's ratio=0.3\"; may be "
       "repeated");
+  add("resume", po::value<std::string>()->value_name("DIR"),
+      "go on with the run whose results are in DIR after its last finished step; --set may change "
+      "limits of Adaptivity alone; not of load histories");
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
   add("validate", "check the scene, say in words what it says, and write nothing");
@@ -60,6 +64,34 @@ std::pair<std::string, std::string> split_override(const std::string &text)
                      ": has no '='; write --set \"Section/Entry=value\" with quotes around it");
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
+/** Tolerance and the largest number of steps, unknowns and seconds. */
+bool is_limit(const std::string &entry)
+{
+  const std::string name = single_spaced(entry);
+  return name == "Adaptivity/Maximum steps" || name == "Adaptivity/Maximum unknowns" ||
+         name == "Adaptivity/Maximum seconds" || name == "Adaptivity/Tolerance" ||
+         name == "Adaptivity/Tolerance on";
+}
+
+void take_resume(const std::string &directory, CommandLine &line)
+{
+  const std::string begin = "hpvi: --resume " + printable(directory, 400) + ": ";
+  if (!line.scene_file.empty() || !line.output_directory.empty())
+    throw InputError(begin + "goes on with the scene that is there, and writes there; remove " +
+                     (line.scene_file.empty() ? "--output" : printable(line.scene_file, 400)));
+  if (line.validate || line.picture || line.inf_sup || line.print_parameters)
+    throw InputError(begin + "goes on with a run; remove the other command");
+  for (const auto &[entry, value] : line.overrides)
+    if (!is_limit(entry))
+      throw InputError(begin + "--set " + printable(entry) +
+                       " would make another run of it; limits alone may change: Maximum steps, "
+                       "Maximum unknowns, Maximum seconds and Tolerance of Adaptivity");
+  if (!std::filesystem::is_regular_file(std::filesystem::path(directory) / "scene.prm"))
+    throw InputError(begin + "has no scene.prm of a run; name the directory of its results");
+  line.resume = true;
+  line.output_directory = directory;
+  line.scene_file = directory + "/scene.prm";
+}
 } // namespace
 
 CommandLine parse(const int argc, const char *const argv[])
@@ -88,6 +120,9 @@ CommandLine parse(const int argc, const char *const argv[])
   result.print_parameters = values.count("print-parameters");
   result.help = values.count("help");
   result.version = values.count("version");
+
+  if (values.count("resume"))
+    take_resume(values["resume"].as<std::string>(), result);
 
   for (const auto &[option, is_named] : {std::make_pair("--inf-sup", result.inf_sup),
                                          {"--validate", result.validate},

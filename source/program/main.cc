@@ -118,7 +118,10 @@ void obey_scene(const CommandLine &command_line, const std::function<void()> &st
   {
     if (takes_primal_path(scene, n_started_processes()))
       start_mpi();
-    run(scene, directory);
+    if (command_line.resume)
+      resume(scene, directory);
+    else
+      run(scene, directory);
   }
 }
 

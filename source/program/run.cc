@@ -16,8 +16,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <sstream>
 
 namespace hpvi
@@ -186,12 +189,14 @@ void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &
 
 template <int dim>
 void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::string &directory,
-                const std::string &loads)
+                const std::string &loads, const unsigned int n_steps)
 {
   const unsigned int n = n_started_processes();
   std::cout << version_line() << (n > 1 ? ", " + std::to_string(n) + " processes" : "") << '\n'
             << legible(scene.title) << '\n'
-            << replacement_in_words(output.replaced_scene(), directory) << '\n'
+            << (n_steps == 0 ? replacement_in_words(output.replaced_scene(), directory)
+                             : "goes on after step " + std::to_string(n_steps) + "\n")
+            << '\n'
             << loads;
   for (const std::string &remark : scene.remarks)
     std::cout << remark << '\n';
@@ -212,11 +217,12 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
             << ending.reason << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
-} // namespace
-
+/** @p state: where it goes on. */
 template <int dim>
-void run(const Scene<dim> &scene, const std::string &directory)
+void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
+              const std::string &directory)
 {
+  const unsigned int n_steps = state ? state->history.size() : 0;
   note_interruptions();
   ProgressLine progress;
   const auto announce = [&](const Progress &stage)
@@ -225,23 +231,24 @@ void run(const Scene<dim> &scene, const std::string &directory)
     progress.show(stage);
   };
   const bool is_primal = takes_primal_path(scene, n_started_processes());
-  LoadHistory<dim> solver(scene, MPI_COMM_WORLD);
+  const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
+                            : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
   const std::string loads = resultant_in_words(scene, is_primal);
-  prepare(solver, announce);
+  prepare(*solver, announce);
   progress.erase();
-  Output<dim> output(scene, directory, MPI_COMM_WORLD);
+  Output<dim> output(scene, directory, n_steps, MPI_COMM_WORLD);
   Ending ending;
-  print_head(scene, output, directory, loads);
+  print_head(scene, output, directory, loads, n_steps);
   print_table_head(scene, is_primal);
   try
   {
-    solver.run(
+    solver->run(
         [&](const StepReport<dim> &step)
         {
           progress.erase();
           print_row(step);
           ending.hear(step);
-          output.write_step(step);
+          output.write_step(step, solver->state());
         },
         announce);
   }
@@ -261,6 +268,34 @@ void run(const Scene<dim> &scene, const std::string &directory)
   print_end(scene, ending, directory);
 }
 
+} // namespace
+
+template <int dim>
+void run(const Scene<dim> &scene, const std::string &directory)
+{
+  run_from<dim>(std::nullopt, scene, directory);
+}
+
+template <int dim>
+void resume(const Scene<dim> &scene, const std::string &directory)
+{
+  std::optional<RunState<dim>> state;
+  agree(
+      [&]()
+      {
+        const std::string file = directory + "/state.dat";
+        std::ifstream in(file, std::ios::binary);
+        if (!in)
+          throw InputError("hpvi: --resume " + printable(directory, 400) +
+                           ": has no state.dat, for no step was finished there, or the scene has a "
+                           "load history; begin the run anew");
+        state = RunState<dim>::read(in, file);
+      });
+  run_from(state, scene, directory);
+}
+
+template void resume(const Scene<2> &, const std::string &);
+template void resume(const Scene<3> &, const std::string &);
 template void run(const Scene<2> &, const std::string &);
 template void run(const Scene<3> &, const std::string &);
 } // namespace hpvi

@@ -28,7 +28,7 @@ class OutputDirectory(RunTest):
         self.assertEqual(self.check_whole(), 2)
         self.run_scene(SHORT, *QUIET)
         self.assertEqual(self.names(), ["convergence.csv", "degrees.csv", "forces.csv", "scene.prm",
-                                        "summary.json"])
+                                        "state.dat", "summary.json"])
 
     def test_foreign_files_stay(self):
         self.out.mkdir()
@@ -146,7 +146,7 @@ class OutputDirectory(RunTest):
         self.run_scene(LONG, "Output/Mesh picture=false")
         self.assertEqual(self.summary()["files"],
                          ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "forces.csv", "scene.prm",
-                          "solution-{01..04}.vtu", "solution.pvd", "summary.json"])
+                          "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
 
     def test_the_last_step_alone(self):
         last = "Output/Steps=last"

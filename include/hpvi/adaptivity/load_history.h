@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace hpvi
 {
@@ -24,7 +25,15 @@ class LoadHistory
 public:
   /** Throws InputError where the scene or that of a load step does not pass Scene::check(). */
   explicit LoadHistory(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
+
+  /** Goes on as AdaptiveSolver does. Throws InputError where the scene has a history of loads. */
+  LoadHistory(const Scene<dim> &scene, const RunState<dim> &state,
+              MPI_Comm communicator = MPI_COMM_SELF);
+
   ~LoadHistory();
+
+  /** AdaptiveSolver::state(); none of a history of loads. */
+  std::optional<RunState<dim>> state() const;
 
   /** AdaptiveSolver::prepare(), of the first load step. */
   void prepare(const std::function<void(const Progress &)> &about_to = [](const Progress &) {});

@@ -2,12 +2,14 @@
 #ifndef hpvi_output_h
 #define hpvi_output_h
 
+#include <hpvi/adaptivity/checkpoint.h>
 #include <hpvi/adaptivity/step_report.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -47,6 +49,7 @@ public:
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
  * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
+ * | `state.dat` | all that it takes to go on after the last finished step: RunState; not of a load history |
  * | `reference.dat` | the last displacement, to measure other runs against |
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
  *
@@ -69,8 +72,16 @@ public:
    */
   Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator = MPI_COMM_SELF);
 
-  /** Write the files of one finished step and bring the tables up to date. Throws OutputFailure. */
-  void write_step(const StepReport<dim> &step);
+  /**
+   * The same for a run that goes on after @p n_steps steps there: their files stay as they are, and those of later ones
+   * are removed.
+   */
+  Output(const Scene<dim> &scene, const std::string &path, unsigned int n_steps,
+         MPI_Comm communicator);
+
+  /** Write the files of one finished step, @p state as `state.dat`, and bring the tables up to date. Throws OutputFailure. */
+  void write_step(const StepReport<dim> &step,
+                  const std::optional<RunState<dim>> &state = std::nullopt);
 
   /** Write that the run is done. Throws OutputFailure. */
   void finish();
@@ -88,7 +99,8 @@ public:
   std::string replaced_scene() const;
 
 private:
-  void open(const std::string &path);
+  void open(const std::string &path, unsigned int n_steps);
+  void take_up(unsigned int n_steps);
   void announce(const std::vector<std::string> &names);
   void write(const std::string &name, const std::string &content) const;
   void update(const std::string &name, const GrowingText &content);
@@ -98,7 +110,7 @@ private:
   void write_pictures(const StepReport<dim> &step);
   void add_to_collection(const StepReport<dim> &step);
   void write_reference(const StepReport<dim> &step);
-  void write_tables(const StepReport<dim> &step);
+  void write_tables(const StepReport<dim> &step, const std::optional<RunState<dim>> &state);
 
   const Scene<dim> &scene;
   const std::string path;

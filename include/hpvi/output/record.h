@@ -17,6 +17,9 @@ using Record = std::vector<std::pair<std::string, std::string>>;
 /** Comma-separated, with the names of the last record as head. */
 std::string csv(const std::vector<Record> &records);
 
+/** The rows below the head of what csv() wrote; one that is not whole is none. */
+std::vector<Record> records(const std::string &csv);
+
 /** A file that grows with every step, and how many of its first bytes the last change has left. */
 struct GrowingText
 {

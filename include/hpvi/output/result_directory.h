@@ -19,7 +19,7 @@ namespace hpvi
 namespace results
 {
 inline const std::string
-    always = "scene\\.prm|convergence\\.csv|degrees\\.csv|forces\\.csv|summary\\.json",
+    always = "scene\\.prm|convergence\\.csv|degrees\\.csv|forces\\.csv|summary\\.json|state\\.dat",
     loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
@@ -91,6 +91,12 @@ public:
 
   /** Remove what earlier runs have left, but not what this one reads. Throws InputError. */
   void remove_earlier();
+
+  /**
+   * For a run that goes on after @p step: remove what was written for later ones; returns the names of the files with the
+   * number of the step. Throws InputError.
+   */
+  std::vector<std::string> remove_after(unsigned int step);
 
   /** Remove one of the program's own files; where that fails it stays one. */
   void remove(const std::string &name);

@@ -21,6 +21,7 @@ struct Summary
   std::string message;            ///< why it failed or was interrupted
   std::string stopped_by;         ///< the limit that ended the run
   std::string linear;             ///< what solved the linear systems of the primal path
+  std::string scene_file;         ///< of a run that goes on: the file with which it began
   unsigned int processes = 1;
   unsigned int steps = 0; ///< finished ones
   Record last_row;        ///< of the last of them in convergence.csv
@@ -41,6 +42,9 @@ struct Summary
                 no_intervals = "null"; ///< or why forces and probes have none
   };
   Ending ending;
+
+  /** Begin with steps of convergence.csv that are finished. */
+  void take_up(const std::vector<Record> &rows);
 
   /** Count a finished step, whose row is @p row. */
   template <int dim>

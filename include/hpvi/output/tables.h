@@ -21,6 +21,13 @@ class Tables
 public:
   void add(const StepReport<dim> &step);
 
+  /**
+   * Begins with the rows of the first @p n_steps steps of what files hold, as they stand there; returns those of convergence(). Throws
+   * InputError where they are not all there.
+   */
+  std::vector<Record> take_up(unsigned int n_steps, const std::string &convergence,
+                              const std::string &degrees, const std::string &forces);
+
   const Record &last_row() const; ///< of convergence()
   const GrowingText &convergence() const;
   const GrowingText &degrees() const;

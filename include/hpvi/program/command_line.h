@@ -15,6 +15,7 @@ struct CommandLine
   std::string output_directory; ///< empty: output/<scene>
   /** `--set "Section/Entry=value"` in the order given: path of the entry, value. */
   std::vector<std::pair<std::string, std::string>> overrides;
+  bool resume = false;   ///< go on in output_directory, whose scene.prm is the scene
   bool validate = false; ///< say what the scene says, write nothing
   bool picture = false;  ///< draw the scene, solve nothing
   bool inf_sup = false;  ///< measure the inf-sup constant, write nothing

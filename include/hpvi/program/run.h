@@ -14,6 +14,10 @@ namespace hpvi
  */
 template <int dim>
 void run(const Scene<dim> &scene, const std::string &directory);
+
+/** Goes on after the last step whose state @p directory has. */
+template <int dim>
+void resume(const Scene<dim> &scene, const std::string &directory);
 } // namespace hpvi
 
 #endif

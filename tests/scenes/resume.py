@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""resume.py HPVI [KILLS SEED]: a run that goes on, also after SIGKILL at any moment, leaves what the whole run leaves; what is no run
+of the program or of the scene is refused."""
+
+import csv
+import random
+import subprocess
+import sys
+import time
+import unittest
+
+KILLS, SEED = (int(sys.argv.pop(2)), int(sys.argv.pop(2))) if len(sys.argv) > 3 else (8, 1)
+
+from runs import ENVIRONMENT, PROGRAM, RunTest, command
+
+STEPS = "Adaptivity/Maximum steps=7"
+# No bound: which of some congruent patches is solved for all of them is not kept, and its last digits differ.
+RUN = (STEPS, "Error/Bound=false")
+# Besides summary.json, which has times; convergence.csv is compared without them.
+TIMES = ("seconds", "peak_memory")
+
+
+class Resume(RunTest):
+    def go_on(self, *settings, status=0, directory=None, options=()):
+        line = [PROGRAM, "--resume", directory or self.out, *options]
+        for setting in settings:
+            line += ["--set", setting]
+        done = subprocess.run(line, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 0 if status == 0 else 1, done.stderr)
+        return done.stderr.rstrip("\n") if status else done.stdout
+
+    def result(self):
+        """Every byte but times."""
+        result = self.contents()
+        for name in ("convergence.csv", "state.dat", "summary.json"):
+            result.pop(name)
+        rows = [{key: value for key, value in row.items() if not key.startswith(TIMES)}
+                for row in self.rows()]
+        summary = self.summary()
+        for name in ("seconds", "final"):
+            summary.pop(name)
+        return result, rows, summary
+
+    def whole(self, *settings):
+        self.run_scene(*settings)
+        result = self.result()
+        for path in self.out.iterdir():
+            path.unlink()
+        return result
+
+    def check_same(self, whole):
+        for ours, theirs in zip(self.result(), whole):
+            self.assertEqual(ours, theirs)
+
+    def test_more_steps(self):
+        for more in ((), ("Output/Steps=last",), ("Solver/Path=primal", "Adaptivity/Method=hap2")):
+            whole = self.whole(*RUN, *more)
+            self.run_scene("Adaptivity/Maximum steps=3", *RUN[1:], *more)
+            self.assertIn("\ngoes on after step 3\n", self.go_on(STEPS))
+            self.check_same(whole)
+
+    def test_killed_at_any_moment(self):
+        start = time.monotonic()
+        whole = self.whole(*RUN)
+        seconds = time.monotonic() - start
+        dice = random.Random(SEED)
+        resumed = 0
+        for _ in range(KILLS):
+            run = subprocess.Popen(command(self.scene, self.out, *RUN), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL, env=ENVIRONMENT)
+            time.sleep(dice.uniform(0.4, 1) * seconds)
+            run.kill()
+            run.wait()
+            if (self.out / "state.dat").exists() and "step" in self.next_step():
+                self.go_on()
+                self.check_same(whole)
+                resumed += 1
+            for path in self.out.iterdir() if self.out.exists() else ():
+                path.unlink()
+        print(f"{KILLS} kills, {resumed} of them with steps to go on with")
+        self.assertGreater(resumed, 0)
+
+    def next_step(self):
+        """'step' unless the state is that of the last one, after which nothing is left to do."""
+        steps = sum(1 for line in (self.out / "state.dat").read_text().split("\nsteps ")[1:2]
+                    for _ in range(int(line.split()[0])))
+        return "step" if steps < 7 else ""
+
+    def test_the_bound_to_its_last_digits(self):
+        self.run_scene(STEPS)
+        whole = self.rows()
+        self.run_scene("Adaptivity/Maximum steps=3")
+        self.go_on(STEPS)
+        for ours, theirs in zip(self.rows(), whole):
+            self.assertAlmostEqual(float(ours["error_bound"]) / float(theirs["error_bound"]), 1, delta=1e-9)
+            self.assertEqual(ours["energy"], theirs["energy"])
+
+    def test_what_is_refused(self):
+        short = ("Adaptivity/Maximum steps=2", "Error/Bound=false")
+        self.assertIn("has no scene.prm", self.go_on(status=1))
+        self.run_scene(*short)
+        before = self.contents()
+        self.assertIn("nothing to go on with after step 2: Adaptivity/Maximum steps", self.go_on(status=1))
+        self.assertIn("limits alone may change", self.go_on("Material/Young's modulus=2", status=1))
+        self.assertIn("remove --output", self.go_on(status=1, options=("--output", "other")))
+        self.assertIn("remove the other command", self.go_on(status=1, options=("--validate",)))
+        state, scene = self.out / "state.dat", self.out / "scene.prm"
+        text = state.read_text()
+        for other, words in ((text[:-20], "cut short or altered"), ("mine", "does not begin with"),
+                             (text.replace("format", "shape", 1), "does not begin with")):
+            state.write_text(other)
+            self.assertIn(words, self.go_on(STEPS, status=1))
+        state.write_text(text)
+        scene.write_text(scene.read_text().replace("set Poisson's ratio = 0.4", "set Poisson's ratio = 0.3", 1))
+        if scene.read_bytes() != before["scene.prm"]:
+            self.assertIn("another problem: Material/Poisson's ratio", self.go_on(STEPS, status=1))
+        scene.write_bytes(before["scene.prm"])
+        self.assertEqual(self.contents(), before)
+        state.unlink()
+        self.assertIn("has no state.dat", self.go_on(STEPS, status=1))
+
+
+if __name__ == "__main__":
+    unittest.main()
