@@ -6,6 +6,7 @@
 #include <hpvi/body/curved_edges.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -104,6 +105,9 @@ bool touches(const typename Triangulation<dim>::cell_iterator &cell, const Point
                        1e-8 * cell->diameter())
           return true;
     }
+  if constexpr (dim == 3)
+    if (const CellMap<3> map = map_of<3>(cell); !map.is_affine())
+      return contains(map.vertices(), point, 1e-8 * map.shortest_edge());
   return cell->bounding_box().point_inside(point, 1e-10) &&
          GeometryInfo<dim>::distance_to_unit_cell(
              cell->real_to_unit_cell_affine_approximation(point)) < 1e-8;
@@ -182,6 +186,25 @@ void make_cells(const CoarseMesh &mesh, Triangulation<2> &triangulation)
   triangulation.create_triangulation(mesh.vertices, cells, boundary);
   attach_curves(mesh, triangulation);
 }
+
+/** Likewise: the reader has put corners in the order that deal.II wants. */
+void make_cells(const HexahedralMesh &mesh, Triangulation<3> &triangulation)
+{
+  std::vector<CellData<3>> cells;
+  for (const auto &corners : mesh.hexahedra)
+  {
+    cells.emplace_back();
+    cells.back().vertices.assign(corners.begin(), corners.end());
+  }
+  SubCellData boundary;
+  for (const HexahedralMesh::Face &face : mesh.faces)
+  {
+    boundary.boundary_quads.emplace_back();
+    boundary.boundary_quads.back().vertices.assign(face.vertices.begin(), face.vertices.end());
+    boundary.boundary_quads.back().boundary_id = face.boundary;
+  }
+  triangulation.create_triangulation(mesh.corners, cells, boundary);
+}
 } // namespace
 
 template <int dim>
@@ -201,6 +224,9 @@ void make_mesh(const Scene<dim> &scene, Triangulation<dim> &triangulation)
   if constexpr (dim == 2)
     if (geometry.mesh)
       make_cells(*geometry.mesh, triangulation);
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+      make_cells(*hexahedra_of(geometry), triangulation);
   if (!geometry.mesh)
     make_grid(geometry, triangulation);
   // Boundary conditions are looked up by the ids of faces, which refinement hands on.

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/plate_motion.h>
 
 #include <algorithm>
@@ -134,6 +135,9 @@ std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &si
     if (side.is_flat())
       for (const Point<dim> &corner : side.pieces[k])
         result.emplace_back(corner, side.outward);
+    else if constexpr (dim == 3)
+      for (const Point<dim> &corner : side.pieces[k])
+        result.emplace_back(corner, normal_of(side.pieces[k]));
     else
       for (unsigned int i = 0; i <= 4; ++i)
         result.emplace_back(side.point(k, i / 4.), side.normal(k, i / 4.));

@@ -121,6 +121,9 @@ template <int dim>
 void check_first_step_on_mesh(const Scene<dim> &scene)
 {
   const double p = scene.adaptivity.start_degree;
+  if constexpr (dim == 3) // nodes inside of a cell are its own
+    reject_unknowns(scene, 3 * std::pow(p - 1, 3) * scene.geometry.n_cells(), "File",
+                    "take a coarser mesh or raise that limit");
   double n_outside = 0;
   for (const CoarseMesh::Edge &edge : scene.geometry.mesh->edges)
     n_outside += edge.boundary == CoarseMesh::inside ? 0 : 1;
@@ -224,7 +227,7 @@ void check_primal_path(const Scene<dim> &scene)
   if (scene.output.reference || !scene.reference_solution.empty())
     reject(scene, scene.output.reference ? "Output" : "Error", "Reference solution",
            "is not offered by " + why + "; remove it");
-  if (scene.geometry.shape != Shape::box)
+  if (scene.geometry.shape != Shape::box && !(dim == 3 && scene.geometry.has_mesh()))
     reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
            name_of_shape<dim>(scene.geometry.shape));
   if constexpr (dim == 2)

@@ -3,6 +3,7 @@
 #include <hpvi/checks/checks.h>
 #include <hpvi/checks/rejection.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -128,6 +129,14 @@ std::vector<std::vector<Point<dim>>> points_of_cells(const Geometry<dim> &geomet
         for (const Point<2> &s : unit)
           result.back().push_back(cell.point(s[0], s[1]));
       }
+      return result;
+    }
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+    {
+      const HexahedralMesh &mesh = *hexahedra_of(geometry);
+      for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
+        result.push_back(points_between<3, 3>(mesh.corners_of(c)));
       return result;
     }
   std::array<std::vector<double>, dim> lines;

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/checks/rejection.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -69,6 +70,17 @@ double shortest_edge(const CoarseMesh &mesh)
   return shortest;
 }
 
+double shortest_edge(const HexahedralMesh &mesh)
+{
+  double shortest = std::numeric_limits<double>::max();
+  for (const auto &cell : mesh.hexahedra)
+    for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_cell; ++l)
+      shortest = std::min(shortest,
+                          length(mesh.corners[cell[GeometryInfo<3>::line_to_cell_vertices(l, 1)]] -
+                                 mesh.corners[cell[GeometryInfo<3>::line_to_cell_vertices(l, 0)]]));
+  return shortest;
+}
+
 /** Lengths that can be squared, edges that are more than round-off, corners that are corners. */
 template <int dim>
 void check_lengths(const Scene<dim> &scene, const std::string &entry)
@@ -81,7 +93,9 @@ void check_lengths(const Scene<dim> &scene, const std::string &entry)
   for (unsigned int l = 0; l < GeometryInfo<dim>::lines_per_cell; ++l)
     shortest = std::min(shortest, length(corners[GeometryInfo<dim>::line_to_cell_vertices(l, 1)] -
                                          corners[GeometryInfo<dim>::line_to_cell_vertices(l, 0)]));
-  if (scene.geometry.mesh)
+  if constexpr (dim == 3)
+    shortest = scene.geometry.mesh ? shortest_edge(*hexahedra_of(scene.geometry)) : shortest;
+  else if (scene.geometry.mesh)
     shortest = shortest_edge(*scene.geometry.mesh);
   if (!(farthest <= largest_magnitude) || !(shortest >= smallest_magnitude))
     reject(scene, "Geometry", entry,
@@ -118,7 +132,7 @@ void check_geometry(const Scene<dim> &scene)
   const ShapeKind<dim> *const kind = find_shape<dim>(scene.geometry.shape);
   if (kind == nullptr)
     reject(scene, "Geometry", "Shape",
-           "is no box, and space has no other shape; take box_corners()");
+           "is offered in the plane alone; take box_corners() or a mesh of hexahedra");
   if (kind->flaw)
     if (const auto flaw = kind->flaw(scene.geometry.corners))
       reject(scene, "Geometry", flaw->entry, flaw->problem, flaw->value);

@@ -3,6 +3,8 @@
 #include <hpvi/checks/rejection.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/contact_axes.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/plate_motion.h>
 
 #include <cmath>
@@ -163,11 +165,28 @@ unsigned int body_of(const Scene<dim> &scene, const types::boundary_id boundary)
 }
 } // namespace
 
+/** u_n = 0 holds one component of a node: in space that of an axis. */
+void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
+{
+  for (const BoundaryCondition<3> &boundary : scene.boundaries)
+    for (const Side<3>::Piece &piece : sides[boundary.id].pieces)
+      if (scene.geometry.has_mesh() && boundary.holds_normal() &&
+          contact_axes(normal_of(piece)).is_turned())
+        reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
+               "holds u_n = 0 on the face at " + to_string(piece[0]) +
+                   ", whose normal is along no axis, which space does not offer; turn the body, "
+                   "or " +
+                   (boundary.symmetry ? "prescribe a displacement" : "set unilateral"),
+               boundary.symmetry ? "true" : "bilateral");
+}
+
 template <int dim>
 void check_supports(const Scene<dim> &scene)
 {
   const std::vector<Side<dim>> sides = sides_of(scene);
   const double tolerance = support_tolerance(scene);
+  if constexpr (dim == 3)
+    check_held_faces(scene, sides);
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)
     {
@@ -181,13 +200,16 @@ void check_supports(const Scene<dim> &scene)
           const BoundaryCondition<dim> &boundary = scene.boundaries[f];
           if (boundary.pair)
             continue; // what is opposite may move
-          for (const PointCondition<dim> &condition :
-               conditions_at(boundary, sides[f].normal(point),
-                             boundary.symmetry || boundary.contact == Contact::bilateral, point))
-            conditions.push_back(condition);
-          if (boundary.is_unilateral())
-            limits.push_back({boundary.held_direction(sides[f].normal(point)),
-                              boundary.gap_at(point), boundary.id});
+          for (const Tensor<1, dim> &normal : normals_at(sides[f], point))
+          {
+            for (const PointCondition<dim> &condition :
+                 conditions_at(boundary, normal,
+                               boundary.symmetry || boundary.contact == Contact::bilateral, point))
+              conditions.push_back(condition);
+            if (boundary.is_unilateral())
+              limits.push_back(
+                  {boundary.held_direction(normal), boundary.gap_at(point), boundary.id});
+          }
         }
         check_meeting(scene, point, conditions, limits, tolerance);
         if constexpr (dim == 2)

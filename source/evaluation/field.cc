@@ -2,6 +2,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/field.h>
+#include <hpvi/scene/contact_axes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_q1.h>
@@ -48,7 +49,6 @@ double FieldFace<dim>::area() const
   return map.face_area(face_no);
 }
 
-/** In space the tangents are those of the lines of coordinates: of boxes the axes to the last bit. */
 template <int dim>
 FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
 {
@@ -60,16 +60,9 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
     result.tangents = {{-cross_product_2d(result.normal)}};
   else
   {
-    const Tensor<2, dim> columns = transpose(map.jacobian(reference));
-    for (unsigned int d = 0, s = 0; d < dim; ++d)
-      if (d != face_no / 2)
-      {
-        const Tensor<1, dim> along =
-            map.is_affine() ? map.vertices()[1U << d] - map.vertices()[0] : columns[d];
-        result.tangents[s++] = along / along.norm();
-      }
-    const Tensor<1, dim> normal = cross_product_3d(result.tangents[0], result.tangents[1]);
-    result.normal = (normal * result.normal < 0 ? -1. : 1.) / normal.norm() * normal;
+    const ContactAxes<dim> axes = contact_axes(result.normal);
+    result.normal = axes.normal;
+    result.tangents = axes.tangents;
   }
   return result;
 }

@@ -19,6 +19,7 @@
 #include <hpvi/body/second_derivatives.h>
 #include <hpvi/evaluation/contact_residuals.h>
 #include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/evaluation/shared_points.h>
 #include <hpvi/evaluation/turned_divergence.h>
 
 #include <algorithm>
@@ -240,18 +241,25 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   if (cell->neighbor_is_coarser(face))
   {
     const auto [other_face, subface] = cell->neighbor_of_coarser_neighbor(face);
-    other_table = &tables.subface(degrees[other], other_face, subface, n_gauss);
+    other_table = &tables.subface(
+        degrees[other], other_face,
+        shared_subface(maps[index], face, maps[other], other_face, subface), n_gauss);
   }
   else
     other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
 
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
   const FacePoints points = face_points(cell, face, table);
+  const std::vector<unsigned int> places =
+      shared_points(maps[index], table, maps[other], *other_table);
+  std::vector<Tensor<1, dim>> normals(points.normals.size());
+  for (unsigned int q = 0; q < places.size(); ++q)
+    normals[places[q]] = points.normals[q];
   const auto own = tractions(cell, table, points.normals),
-             opposite = tractions(neighbor, *other_table, points.normals);
+             opposite = tractions(neighbor, *other_table, normals);
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
-    sum += points.weights[q] * (0.5 * (own[q] - opposite[q])).norm_square();
+    sum += points.weights[q] * (0.5 * (own[q] - opposite[places[q]])).norm_square();
   const double shared = 2 / (1 / softness[index] + 1 / softness[other]);
   for (const Cell &side : {cell, neighbor})
     if (const unsigned int own_index = side->active_cell_index(); side->is_locally_owned())

@@ -26,7 +26,7 @@ namespace
   const std::string name =
       kind.name == nullptr ? "elements of type " + std::to_string(first.type) : kind.name;
   const std::string remedy =
-      kind.dim == 3 ? "bodies in space are boxes so far: save a plane one"
+      kind.dim == 3 ? "a body in the plane has none: set Dimension = 3, or save a plane one"
       : kind.n_corners == 3
           ? "a body has quadrilaterals alone: set Mesh.RecombineAll = 1; "
             "Mesh.RecombinationAlgorithm "

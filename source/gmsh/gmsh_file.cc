@@ -17,7 +17,7 @@ ElementKind element_kind(const std::int64_t type)
       {2, {"triangles", 2, 0, 3}},
       {3, {"quadrilaterals", 2, 4, 4}},
       {4, {"tetrahedra", 3, 0, 4}},
-      {5, {"hexahedra", 3, 0, 8}},
+      {5, {"hexahedra", 3, 8, 8}},
       {6, {"prisms", 3, 0, 6}},
       {7, {"pyramids", 3, 0, 5}},
       {8, {"lines", 1, 3, 2}},
@@ -45,7 +45,9 @@ ElementKind element_kind(const std::int64_t type)
 std::string GmshFile::words(const Group &group) const
 {
   const auto found = names.find(group);
-  return (group.first == 1 ? "curve \"" : "surface \"") +
+  return (group.first == 1   ? "curve \""
+          : group.first == 2 ? "surface \""
+                             : "volume \"") +
          (found == names.end() ? std::to_string(group.second) : printable(found->second, 40)) + '"';
 }
 
@@ -124,8 +126,10 @@ private:
     for (std::int64_t k = 1; k <= n; ++k)
     {
       const std::int64_t other = std::abs(records.integer(groups + k)); // negative: turned round
-      if ((dim == 1 || dim == 2) && group != 0 && other != group)
-        text.complain(std::string(dim == 1 ? "the curve " : "the surface ") +
+      if (dim > 0 && group != 0 && other != group)
+        text.complain(std::string(dim == 1   ? "the curve "
+                                  : dim == 2 ? "the surface "
+                                             : "the volume ") +
                       std::to_string(records.integer(0)) + " of Gmsh is in two physical groups, " +
                       file.words({dim, group}) + " and " + file.words({dim, other}) +
                       "; take it out of one");

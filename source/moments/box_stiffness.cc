@@ -15,35 +15,145 @@ bool any(const std::vector<bool> &moment_components)
 }
 
 template <int dim>
+FullMatrix<double> basis_of_moments(const MomentSpace<dim> &space,
+                                    const typename MomentSpace<dim>::Cell &cell)
+{
+  const BoxTables<dim> &tables = space.tables;
+  if (!space.scene.geometry.has_mesh())
+    return space.tables.basis_of_moments(space.moment_components(cell));
+  FullMatrix<double> T = IdentityMatrix(tables.fe.dofs_per_cell);
+  const auto add = [&](const MomentFace<dim> &face)
+  {
+    const FaceMoments &moments = space.moments_on(face);
+    const unsigned int n = tables.n_moments();
+    const auto number = [&](const auto &shapes, const unsigned int i, const unsigned int c)
+    { return tables.numbers[shapes[face.face][i]][c]; };
+    FullMatrix<double> rim_to_inner(n, moments.W.n());
+    moments.M_inverse.mmult(rim_to_inner, moments.W);
+    for (const unsigned int c : face.components())
+      for (unsigned int r = 0; r < n; ++r)
+      {
+        const unsigned int row = number(tables.inner, r, c);
+        T(row, row) = 0;
+        for (unsigned int k = 0; k < n; ++k)
+          for (const unsigned int own : face.components())
+            T(row, number(tables.inner, k, own)) = moments.M_inverse(r, k) * face.direction(own)[c];
+        for (unsigned int j = 0; j < moments.W.n(); ++j)
+          T(row, number(tables.rim, j, c)) = -rim_to_inner(r, j);
+      }
+  };
+  for (const unsigned int face : cell->face_indices())
+    if (const MomentFace<dim> *const own = space.moment_face(cell, face))
+      add(*own);
+  return T;
+}
+
+namespace
+{
+/** T'KT */
+FullMatrix<double> in_basis(const FullMatrix<double> &K, const FullMatrix<double> &T)
+{
+  FullMatrix<double> KT(K.m(), K.m()), result(K.m(), K.m());
+  K.mmult(KT, T);
+  T.Tmmult(result, KT);
+  return result;
+}
+} // namespace
+
+template <int dim>
 BoxStiffness<dim>::BoxStiffness(const MomentSpace<dim> &space)
     : space(space), none(dim * GeometryInfo<dim>::faces_per_cell, false)
 {
 }
 
 template <int dim>
-const FullMatrix<double> &BoxStiffness<dim>::nodal(const Cell &cell) const
+HookesLaw<dim> BoxStiffness<dim>::law(const Cell &cell) const
 {
-  return operator()(cell, none);
+  return HookesLaw<dim>(space.scene.material_of(cell));
 }
 
 template <int dim>
-const FullMatrix<double> &
-BoxStiffness<dim>::operator()(const Cell &cell, const std::vector<bool> &moment_components) const
+const FullMatrix<double> &BoxStiffness<dim>::of_box(const Cell &cell,
+                                                    const std::vector<bool> &components) const
 {
   const auto [entry, is_new] =
-      matrices.try_emplace({size_class(cell), cell->material_id(), moment_components});
-  if (!is_new)
-    return entry->second;
-  const Matrix K = space.tables.stiffness(HookesLaw<dim>(space.scene.material_of(cell)),
-                                          MomentSpace<dim>::extent(cell));
-  if (!any(moment_components))
-    return entry->second = K;
-  const Matrix T = space.tables.basis_of_moments(moment_components);
-  Matrix KT(K.m(), K.m());
-  K.mmult(KT, T);
-  entry->second.reinit(K.m(), K.m());
-  T.Tmmult(entry->second, KT);
+      matrices.try_emplace({size_class(cell), cell->material_id(), components});
+  if (is_new)
+  {
+    entry->second = space.tables.stiffness(law(cell), MomentSpace<dim>::extent(cell));
+    if (any(components))
+      entry->second = in_basis(entry->second, basis_of_moments(space, cell));
+  }
   return entry->second;
+}
+
+/** Of an affine cell, made where it is not there and there is room. */
+template <int dim>
+const FullMatrix<double> *BoxStiffness<dim>::known(const CellMap<dim> &map,
+                                                   const types::material_id material) const
+{
+  constexpr std::size_t most = 64;
+  if (!map.is_affine())
+    return nullptr;
+  const Tensor<2, dim> edges = map.jacobian({});
+  for (const auto &one : parallelepipeds)
+    if (one->material == material && (one->edges - edges).norm() < 1e-12 * edges.norm())
+      return &one->K;
+  if (parallelepipeds.size() == most)
+    return nullptr;
+  parallelepipeds.push_back(std::make_unique<Parallelepiped>(Parallelepiped{
+      edges, material,
+      space.tables.stiffness(HookesLaw<dim>(space.scene.materials[material]), map)}));
+  return &parallelepipeds.back()->K;
+}
+
+template <int dim>
+const FullMatrix<double> &BoxStiffness<dim>::nodal(const Cell &cell) const
+{
+  if (!space.scene.geometry.has_mesh())
+    return of_box(cell, none);
+  const CellMap<dim> map = map_of<dim>(cell);
+  if (const Matrix *const K = known(map, cell->material_id()))
+    return *K;
+  return last = space.tables.stiffness(law(cell), map);
+}
+
+template <int dim>
+const FullMatrix<double> &BoxStiffness<dim>::operator()(const Cell &cell) const
+{
+  const std::vector<bool> components = space.moment_components(cell);
+  if (!space.scene.geometry.has_mesh())
+    return of_box(cell, components);
+  const Matrix &K = nodal(cell);
+  return any(components) ? last = in_basis(K, basis_of_moments(space, cell)) : K;
+}
+
+template <int dim>
+void BoxStiffness<dim>::multiply(const Cell &cell, Vector<double> &result,
+                                 const Vector<double> &u) const
+{
+  if (!space.scene.geometry.has_mesh())
+    return of_box(cell, none).vmult(result, u);
+  const CellMap<dim> map = map_of<dim>(cell);
+  if (const Matrix *const K = known(map, cell->material_id()))
+    return K->vmult(result, u);
+  const CellGradients<dim> of_cell(space.tables.cell, map);
+  const HookesLaw<dim> law = this->law(cell);
+  const auto &numbers = space.tables.numbers;
+  result = 0;
+  for (unsigned int q = 0; q < of_cell.volumes.size(); ++q)
+  {
+    Tensor<2, dim> gradient;
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < dim; ++a)
+          gradient[c][a] += of_cell.gradients[a](q, i) * u[numbers[i][c]];
+    const Tensor<2, dim> stress = of_cell.volumes[q] * Tensor<2, dim>(law.stress(gradient));
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < dim; ++a)
+          result[numbers[i][c]] += of_cell.gradients[a](q, i) * stress[c][a];
+  }
 }
 
 template <int dim>
@@ -69,6 +179,8 @@ unsigned int BoxStiffness<dim>::size_class(const Cell &cell) const
   return known - sizes.begin();
 }
 
+template FullMatrix<double> basis_of_moments(const MomentSpace<2> &, const MomentSpace<2>::Cell &);
+template FullMatrix<double> basis_of_moments(const MomentSpace<3> &, const MomentSpace<3>::Cell &);
 template class BoxStiffness<2>;
 template class BoxStiffness<3>;
 } // namespace hpvi

@@ -103,13 +103,13 @@ BoxTables<dim>::BoxTables(const unsigned int degree)
   {
     for (unsigned int i = 0; i + 1 < degree; ++i) // along the first axis
       gauss.push_back(moment_points.back().points[i][0]);
-    make_moments();
+    number_faces();
+    moments = make_moments(0, [](const Point<dim> &) { return 1.; });
   }
 }
 
-/** Products of moments along the axes: shape functions of a face are products of functions of one variable. */
 template <int dim>
-void BoxTables<dim>::make_moments()
+void BoxTables<dim>::number_faces()
 {
   const FE_Q<dim> element = scalar();
   const auto &nodes = element.get_unit_support_points();
@@ -138,26 +138,41 @@ void BoxTables<dim>::make_moments()
     std::sort(inner.back().begin(), inner.back().end(), before);
     std::sort(rim.back().begin(), rim.back().end(), before);
   }
-  const unsigned int face = 0, n = inner[face].size();
+}
+
+template <int dim>
+FaceMoments
+BoxTables<dim>::make_moments(const unsigned int face,
+                             const std::function<double(const Point<dim> &)> &measure) const
+{
+  const unsigned int n = inner[face].size();
   const BoxTable<dim> &table = faces[face];
-  const auto moment = [&](const unsigned int k, const unsigned int shape)
+  FaceMoments result;
+  for (unsigned int k = 0; k < n; ++k) // psi_k ds has the degree p - 1 in each direction
+    result.areas.push_back(moment_points[face].weights[k] * measure(moment_points[face].points[k]));
+  result.M.reinit(n, n);
+  result.W.reinit(n, rim[face].size());
+  for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    double integral = 0;
-    for (unsigned int q = 0; q < table.points.size(); ++q)
-      integral += table.weights[q] * psi(k, face, table.points[q]) * table.values(q, shape);
-    return integral / moment_points[face].weights[k];
-  };
-  M.reinit(n, n);
-  W.reinit(n, rim[face].size());
-  for (unsigned int k = 0; k < n; ++k)
-  {
-    for (unsigned int j = 0; j < n; ++j)
-      M(k, j) = moment(k, inner[face][j]);
-    for (unsigned int j = 0; j < rim[face].size(); ++j)
-      W(k, j) = moment(k, rim[face][j]);
+    const double ds = table.weights[q] * measure(table.points[q]);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const double weight = ds * psi(k, face, table.points[q]) / result.areas[k];
+      for (unsigned int j = 0; j < n; ++j)
+        result.M(k, j) += weight * table.values(q, inner[face][j]);
+      for (unsigned int j = 0; j < rim[face].size(); ++j)
+        result.W(k, j) += weight * table.values(q, rim[face][j]);
+    }
   }
-  M_inverse.reinit(n, n);
-  M_inverse.invert(M);
+  result.M_inverse.reinit(n, n);
+  result.M_inverse.invert(result.M);
+  return result;
+}
+
+template <int dim>
+FaceMoments BoxTables<dim>::moments_of(const CellMap<dim> &map, const unsigned int face) const
+{
+  return make_moments(face, [&](const Point<dim> &x) { return map.face_measure(face, x); });
 }
 
 template <int dim>
@@ -195,22 +210,69 @@ FullMatrix<double> BoxTables<dim>::stiffness(const HookesLaw<dim> &law,
 }
 
 template <int dim>
-FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &moments) const
+CellGradients<dim>::CellGradients(const BoxTable<dim> &table, const CellMap<dim> &map)
 {
-  FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), W.n());
-  M_inverse.mmult(rim_to_inner, W);
+  const unsigned int n_points = table.points.size(), n = table.values.n();
+  for (FullMatrix<double> &component : gradients)
+    component.reinit(n_points, n);
+  for (unsigned int q = 0; q < n_points; ++q)
+  {
+    const Tensor<2, dim> J = map.jacobian(table.points[q]), inverse = invert(J);
+    volumes.push_back(table.weights[q] * std::abs(determinant(J)));
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+        for (unsigned int i = 0; i < n; ++i)
+          gradients[a](q, i) += inverse[b][a] * table.gradients[b](q, i);
+  }
+}
+
+template <int dim>
+FullMatrix<double> BoxTables<dim>::stiffness(const HookesLaw<dim> &law,
+                                             const CellMap<dim> &map) const
+{
+  const CellGradients<dim> of_cell(cell, map);
+  std::array<std::array<FullMatrix<double>, dim>, dim> own;
+  for (unsigned int b = 0; b < dim; ++b)
+  {
+    FullMatrix<double> weighted = of_cell.gradients[b];
+    for (unsigned int q = 0; q < cell.points.size(); ++q)
+      for (unsigned int i = 0; i < n_shapes; ++i)
+        weighted(q, i) *= of_cell.volumes[q];
+    for (unsigned int a = 0; a < dim; ++a)
+    {
+      own[a][b].reinit(n_shapes, n_shapes);
+      of_cell.gradients[a].Tmmult(own[a][b], weighted);
+    }
+  }
+  FullMatrix<double> K(fe.dofs_per_cell, fe.dofs_per_cell);
+  for (unsigned int i = 0; i < n_shapes; ++i)
+    for (unsigned int j = 0; j < n_shapes; ++j)
+    {
+      const auto P = [&](const unsigned int a, const unsigned int b) { return own[a][b](i, j); };
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          K(numbers[i][c], numbers[j][d]) = law.stiffness(P, c, d);
+    }
+  return K;
+}
+
+template <int dim>
+FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &components) const
+{
+  FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), moments.W.n());
+  moments.M_inverse.mmult(rim_to_inner, moments.W);
   for (const unsigned int face : GeometryInfo<dim>::face_indices())
     for (unsigned int c = 0; c < dim; ++c)
     {
-      if (!moments[dim * face + c])
+      if (!components[dim * face + c])
         continue;
       const auto number = [&](const unsigned int shape) { return numbers[shape][c]; };
       for (unsigned int r = 0; r < n_moments(); ++r)
       {
         const unsigned int row = number(inner[face][r]);
         for (unsigned int k = 0; k < n_moments(); ++k)
-          T(row, number(inner[face][k])) = M_inverse(r, k);
-        for (unsigned int j = 0; j < W.n(); ++j)
+          T(row, number(inner[face][k])) = moments.M_inverse(r, k);
+        for (unsigned int j = 0; j < moments.W.n(); ++j)
           T(row, number(rim[face][j])) = -rim_to_inner(r, j);
       }
     }
@@ -233,6 +295,8 @@ Tensor<2, dim> gradient(const BoxTable<dim> &table, const unsigned int q,
   return result;
 }
 
+template struct CellGradients<2>;
+template struct CellGradients<3>;
 template class BoxTables<2>;
 template class BoxTables<3>;
 template Tensor<2, 2> gradient(const BoxTable<2> &, unsigned int, const CellField<2> &,

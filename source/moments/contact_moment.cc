@@ -5,6 +5,8 @@
 
 namespace hpvi
 {
+using namespace dealii;
+
 template <int dim>
 ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) const
 {
@@ -23,12 +25,35 @@ bool ContactMoment<dim>::holds(const ContactVector<dim> &z) const
 }
 
 template <int dim>
-std::vector<unsigned int> MomentFace<dim>::axes() const
+std::vector<unsigned int> MomentFace<dim>::components() const
 {
   std::vector<unsigned int> result;
   for (unsigned int c = 0; c < dim; ++c)
-    if (c == face / 2 ? has_pressure() : has_friction())
+    if (axes.is_turned() || (c == normal() ? has_pressure() : has_friction()))
       result.push_back(c);
+  return result;
+}
+
+template <int dim>
+unsigned int MomentFace<dim>::tangential(const unsigned int s) const
+{
+  return axes.is_turned() || s < axes.axis ? s : s + 1;
+}
+
+template <int dim>
+unsigned int MomentFace<dim>::normal() const
+{
+  return axes.is_turned() ? dim - 1 : axes.axis;
+}
+
+template <int dim>
+Tensor<1, dim> MomentFace<dim>::direction(const unsigned int component) const
+{
+  Tensor<1, dim> result;
+  if (axes.is_turned())
+    result = component == dim - 1 ? axes.normal : axes.tangents[component];
+  else
+    result[component] = 1;
   return result;
 }
 

@@ -2,11 +2,10 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/moments/consistent_constraints.h>
 #include <hpvi/moments/moment_space.h>
-#include <hpvi/scene/boundary_parts.h>
+#include <hpvi/moments/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,42 +15,14 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-/** The prescribed displacement of a boundary. */
-template <int dim>
-class PrescribedDisplacement : public Function<dim>
-{
-public:
-  explicit PrescribedDisplacement(const BoundaryCondition<dim> &boundary)
-      : Function<dim>(dim), boundary(boundary)
-  {
-  }
-
-  void vector_value(const Point<dim> &x, Vector<double> &values) const override
-  {
-    for (unsigned int c = 0; c < dim; ++c)
-      values[c] = value(x, c);
-  }
-
-  double value(const Point<dim> &x, const unsigned int component) const override
-  {
-    const Expression<dim> &expression = boundary.displacement[component];
-    return expression ? expression->value(x) : 0.;
-  }
-
-private:
-  const BoundaryCondition<dim> &boundary;
-};
-} // namespace
-
 template <int dim>
 MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
     : scene(scene), tables(tables), dof_handler(mesh)
 {
   number();
-  together(communicator(), [this]() { constrain(); });
+  together(communicator(),
+           [&]() { constrain_supports(scene, dof_handler, relevant, constraints); });
   make_consistent(constraints, owned, relevant, communicator());
   together(communicator(), [this]() { find_contact(); });
   types::global_dof_index constrained = 0;
@@ -91,24 +62,6 @@ void MomentSpace<dim>::number()
 }
 
 template <int dim>
-void MomentSpace<dim>::constrain()
-{
-  constraints.reinit(relevant);
-  DoFTools::make_hanging_node_constraints(dof_handler, constraints);
-  const std::vector<Side<dim>> sides = sides_of(scene);
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-  {
-    ComponentMask mask(dim, false);
-    for (unsigned int c = 0; c < dim; ++c)
-      mask.set(c, boundary.displacement[c] != nullptr ||
-                      (boundary.holds_normal() && c == sides[boundary.id].axis));
-    if (mask.n_selected_components() > 0)
-      VectorTools::interpolate_boundary_values(
-          dof_handler, boundary.id, PrescribedDisplacement<dim>(boundary), constraints, mask);
-  }
-}
-
-template <int dim>
 void MomentSpace<dim>::find_contact()
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
@@ -121,7 +74,9 @@ void MomentSpace<dim>::find_contact()
         if (!cell->at_boundary(number))
           continue;
         const BoundaryCondition<dim> &boundary = condition(cell, number);
-        MomentFace<dim> face{cell, number};
+        if (!boundary.has_pressure() && !(boundary.has_contact() && boundary.friction))
+          continue;
+        MomentFace<dim> face = face_of(cell, number);
         if (boundary.has_contact() && boundary.friction)
         {
           face.friction = contact.size();
@@ -135,12 +90,35 @@ void MomentSpace<dim>::find_contact()
                                                : ContactMoment<dim>::Kind::reaction,
                       dofs);
         }
-        if (!face.has_friction() && !face.has_pressure())
-          continue;
         face_numbers[{cell->active_cell_index(), number}] = faces.size();
         faces.push_back(face);
       }
     }
+}
+
+/** Faces of a mesh from a file have directions of their own, and measures. */
+template <int dim>
+MomentFace<dim> MomentSpace<dim>::face_of(const Cell &cell, const unsigned int number) const
+{
+  MomentFace<dim> face{cell, number, {}};
+  if (!scene.geometry.has_mesh())
+  {
+    Tensor<1, dim> normal;
+    normal[number / 2] = number % 2 == 0 ? -1. : 1.;
+    face.axes = contact_axes(normal);
+    return face;
+  }
+  const CellMap<dim> map = map_of<dim>(cell);
+  const auto corner = [&](const unsigned int v)
+  {
+    return GeometryInfo<dim>::unit_cell_vertex(GeometryInfo<dim>::face_to_cell_vertices(number, v));
+  };
+  face.axes = contact_axes(map.normal(number, corner(0)));
+  const double area = map.face_area(number);
+  for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face && !face.own; ++v)
+    if (std::abs(map.face_measure(number, corner(v)) - area) > 1e-12 * area)
+      face.own = std::make_shared<const FaceMoments>(tables.moments_of(map, number));
+  return face;
 }
 
 template <int dim>
@@ -149,14 +127,15 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
                                    const std::vector<types::global_dof_index> &dofs)
 {
   const BoxTable<dim> &table = tables.moment_points[face.face];
+  const CellMap<dim> map = map_of<dim>(face.cell);
   for (unsigned int k = 0; k < tables.n_moments(); ++k)
   {
     const auto unknown = [&](const unsigned int component)
     { return owned.index_within_set(dof(dofs, tables.inner[face.face][k], component)); };
     ContactMoment<dim> moment;
     moment.kind = kind;
-    moment.x = point_of(face.cell, table.points[k]);
-    moment.area = table.weights[k] * face.cell->face(face.face)->measure();
+    moment.x = map.point(table.points[k]);
+    moment.area = face.own ? face.own->areas[k] : table.weights[k] * map.face_area(face.face);
     if (moment.is_friction())
     {
       const FrictionLaw<dim> &law = condition(face.cell, face.face).friction;
@@ -165,13 +144,13 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
       if (law.knows_pressure()) // pressures follow all frictions of a face
         moment.partner = contact.size() + tables.n_moments();
       for (unsigned int s = 0; s < dim - 1; ++s)
-        moment.unknowns[s] = unknown(tangents<dim>(face.face)[s]);
+        moment.unknowns[s] = unknown(face.tangential(s));
     }
     else
     {
       moment.gap[0] = moment_of_gap(face, k);
-      moment.sign = face.face % 2 == 0 ? -1. : 1.;
-      moment.unknowns.fill(unknown(face.face / 2));
+      moment.sign = face.sign();
+      moment.unknowns.fill(unknown(face.normal()));
     }
     moment.weight = moment.bound * moment.area;
     contact.push_back(moment);
@@ -186,14 +165,11 @@ double MomentSpace<dim>::moment_of_gap(const MomentFace<dim> &face, const unsign
   if (!boundary.gap)
     return 0;
   const QGauss<dim - 1> rule(tables.degree + 2);
+  const CellMap<dim> map = map_of<dim>(face.cell);
   double integral = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
-    Point<dim> unit;
-    unit[face.face / 2] = face.face % 2;
-    for (unsigned int s = 0; s < dim - 1; ++s)
-      unit[tangents<dim>(face.face)[s]] = rule.point(q)[s];
-    const Point<dim> x = point_of(face.cell, unit);
+    const Point<dim> unit = point_on_face<dim>(face.face, rule.point(q)), x = map.point(unit);
     const double gap = boundary.gap->value(x);
     if (!std::isfinite(gap))
     {
@@ -202,9 +178,10 @@ double MomentSpace<dim>::moment_of_gap(const MomentFace<dim> &face, const unsign
            << "); give a gap that is finite everywhere";
       throw InputError(line.str());
     }
-    integral += rule.weight(q) * tables.psi(k, face.face, unit) * gap;
+    integral += rule.weight(q) * tables.psi(k, face.face, unit) * gap *
+                (face.own ? map.face_measure(face.face, unit) : 1.);
   }
-  return integral / tables.moment_points[face.face].weights[k];
+  return integral / (face.own ? face.own->areas[k] : tables.moment_points[face.face].weights[k]);
 }
 
 template <int dim>
@@ -247,18 +224,21 @@ DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) con
   for (const MomentFace<dim> &face : faces)
   {
     face.cell->get_dof_indices(dofs);
-    for (const unsigned int axis : face.axes())
+    const FaceMoments &moments = moments_on(face);
+    const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
+    for (const unsigned int c : face.components())
     {
-      const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
       for (unsigned int k = 0; k < n; ++k)
       {
-        rest[k] = u(dof(dofs, inner_shapes[k], axis));
+        rest[k] = face.axes.is_turned() ? 0. : u(dof(dofs, inner_shapes[k], c));
+        for (unsigned int own = 0; face.axes.is_turned() && own < dim; ++own)
+          rest[k] += face.direction(own)[c] * u(dof(dofs, inner_shapes[k], own));
         for (unsigned int j = 0; j < rim_shapes.size(); ++j)
-          rest[k] -= tables.W(k, j) * u(dof(dofs, rim_shapes[j], axis));
+          rest[k] -= moments.W(k, j) * u(dof(dofs, rim_shapes[j], c));
       }
-      tables.M_inverse.vmult(inner, rest);
+      moments.M_inverse.vmult(inner, rest);
       for (unsigned int k = 0; k < n; ++k)
-        complete(dof(dofs, inner_shapes[k], axis)) = inner[k];
+        complete(dof(dofs, inner_shapes[k], c)) = inner[k];
     }
   }
   u.zero_out_ghost_values();
@@ -272,20 +252,21 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   for (const MomentFace<dim> &face : faces)
   {
     const CellField<dim> field = this->field(face.cell, u);
+    const FaceMoments &moments = moments_on(face);
+    face.cell->get_dof_indices(dofs);
     for (unsigned int k = 0; k < tables.n_moments(); ++k)
     {
       Tensor<1, dim> m;
       for (unsigned int j = 0; j < tables.n_moments(); ++j)
-        m += tables.M(k, j) * field[tables.inner[face.face][j]];
-      for (unsigned int j = 0; j < tables.W.n(); ++j)
-        m += tables.W(k, j) * field[tables.rim[face.face][j]];
-      for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
-        v.local_element(contact[face.friction + k].unknowns[s]) = m[tangents<dim>(face.face)[s]];
-      if (face.has_pressure())
-        v.local_element(contact[face.pressure + k].unknowns[0]) = m[face.face / 2];
+        m += moments.M(k, j) * field[tables.inner[face.face][j]];
+      for (unsigned int j = 0; j < moments.W.n(); ++j)
+        m += moments.W(k, j) * field[tables.rim[face.face][j]];
+      for (const unsigned int c : face.components())
+        v(dof(dofs, tables.inner[face.face][k], c)) = m * face.direction(c);
     }
   }
   constraints.set_zero(v);
@@ -350,11 +331,7 @@ template <int dim>
 Point<dim> MomentSpace<dim>::point_of(const typename Triangulation<dim>::cell_iterator &cell,
                                       const Point<dim> &unit)
 {
-  Point<dim> x = cell->vertex(0);
-  const Tensor<1, dim> size = extent(cell);
-  for (unsigned int d = 0; d < dim; ++d)
-    x[d] += unit[d] * size[d];
-  return x;
+  return map_of<dim>(cell).point(unit);
 }
 
 template <int dim>

@@ -14,20 +14,21 @@ using namespace dealii;
 
 namespace
 {
-/** Adds the integrals of @p load against the shape functions of @p table, in cells of @p size. */
-template <int dim>
-void integrate(const Load<dim> &load, const BoxTable<dim> &table, const Point<dim> &corner,
-               const Tensor<1, dim> &size, const double measure, CellField<dim> &result)
+/** Adds the integrals of @p load against the shape functions of @p table, `measure(x)` being dx over that of the reference. */
+template <int dim, class Measure>
+void integrate(const Load<dim> &load, const BoxTable<dim> &table, const CellMap<dim> &map,
+               const Measure &measure, CellField<dim> &result)
 {
+  double ds = 0;
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    Point<dim> x = corner;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] += table.points[q][d] * size[d];
+    const Point<dim> x = map.point(table.points[q]);
+    if (q == 0 || !map.is_affine())
+      ds = measure(table.points[q]);
     for (unsigned int c = 0; c < dim; ++c)
       if (load[c])
       {
-        const double weighted = table.weights[q] * measure * load[c]->value(x);
+        const double weighted = table.weights[q] * ds * load[c]->value(x);
         for (unsigned int i = 0; i < result.size(); ++i)
           result[i][c] += weighted * table.values(q, i);
       }
@@ -69,13 +70,16 @@ void PrimalSystem<dim>::assemble_loads()
       for (unsigned int i = 0; i < loads.size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
           nodal[space.tables.numbers[i][c]] = loads[i][c];
-      const std::vector<bool> moment_components = space.moment_components(cell);
-      if (any(moment_components))
-        space.tables.basis_of_moments(moment_components).Tvmult(F, nodal);
+      if (any(space.moment_components(cell)))
+        basis_of_moments(space, cell).Tvmult(F, nodal);
       else
         F = nodal;
       cell->get_dof_indices(dofs);
-      space.constraints.distribute_local_to_global(F, dofs, f, stiffness(cell, moment_components));
+      const bool needs_matrix = std::any_of(
+          dofs.begin(), dofs.end(),
+          [this](const auto dof) { return space.constraints.is_inhomogeneously_constrained(dof); });
+      needs_matrix ? space.constraints.distribute_local_to_global(F, dofs, f, stiffness(cell))
+                   : space.constraints.distribute_local_to_global(F, dofs, f);
     }
 }
 
@@ -96,8 +100,7 @@ TrilinosWrappers::SparseMatrix &PrimalSystem<dim>::matrix()
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      space.constraints.distribute_local_to_global(stiffness(cell, space.moment_components(cell)),
-                                                   dofs, A);
+      space.constraints.distribute_local_to_global(stiffness(cell), dofs, A);
     }
   A.compress(VectorOperation::add);
   return A;
@@ -108,8 +111,12 @@ CellField<dim> PrimalSystem<dim>::body_load(const Cell &cell) const
 {
   CellField<dim> result(space.tables.n_shapes);
   if (space.scene.has_body_force())
-    integrate<dim>(space.scene.body_force_in(cell), space.tables.cell, cell->vertex(0),
-                   MomentSpace<dim>::extent(cell), cell->measure(), result);
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    integrate<dim>(
+        space.scene.body_force_in(cell), space.tables.cell, map,
+        [&](const Point<dim> &x) { return std::abs(determinant(map.jacobian(x))); }, result);
+  }
   return result;
 }
 
@@ -118,8 +125,12 @@ CellField<dim> PrimalSystem<dim>::side_load(const Cell &cell, const unsigned int
 {
   CellField<dim> result(space.tables.n_shapes);
   if (cell->at_boundary(face) && space.condition(cell, face).has_traction())
-    integrate<dim>(space.condition(cell, face).traction, space.tables.faces[face], cell->vertex(0),
-                   MomentSpace<dim>::extent(cell), cell->face(face)->measure(), result);
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    integrate<dim>(
+        space.condition(cell, face).traction, space.tables.faces[face], map,
+        [&](const Point<dim> &x) { return map.face_measure(face, x); }, result);
+  }
   return result;
 }
 
@@ -142,12 +153,13 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 {
   double sum = 0;
   const FESystem<dim> &fe = space.tables.fe;
-  Vector<double> local(fe.dofs_per_cell);
+  Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       cell->get_dof_values(u, local);
-      sum += stiffness.nodal(cell).matrix_norm_square(local);
+      stiffness.multiply(cell, internal, local);
+      sum += internal * local;
     }
   return Utilities::MPI::sum(sum, space.communicator());
 }
@@ -193,7 +205,7 @@ void PrimalSystem<dim>::add_nodal_forces(const DistributedVector &u, NodalForces
     {
       cell->get_dof_indices(dofs);
       cell->get_dof_values(u, local);
-      stiffness.nodal(cell).vmult(internal, local);
+      stiffness.multiply(cell, internal, local);
       const CellField<dim> loads = load(cell);
       for (unsigned int i = 0; i < dofs.size(); ++i)
       {

@@ -37,31 +37,31 @@ std::vector<double> rigid_motions(const MomentSpace<dim> &space)
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
+      const CellMap<dim> map = map_of<dim>(cell);
       for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
         if (space.owned.is_element(dofs[i]) && !space.constraints.is_constrained(dofs[i]))
         {
-          Tensor<1, dim> arm = cell->vertex(0) - centre;
-          for (unsigned int d = 0; d < dim; ++d)
-            arm[d] += fe.unit_support_point(i)[d] * size[d];
+          const Tensor<1, dim> arm = map.point(fe.unit_support_point(i)) - centre;
           for (unsigned int m = 0; m < n_motions<dim>; ++m)
             result[m * n + space.owned.index_within_set(dofs[i])] =
                 rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
         }
     }
   for (const MomentFace<dim> &face : space.faces)
+  {
+    face.cell->get_dof_indices(dofs);
+    const CellMap<dim> map = map_of<dim>(face.cell);
     for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
-      for (unsigned int m = 0; m < n_motions<dim>; ++m)
-      {
-        const auto set = [&](const ContactMoment<dim> &moment, const unsigned int s,
-                             const unsigned int axis) {
-          result[m * n + moment.unknowns[s]] = rigid_motion(m, (moment.x - centre) / length)[axis];
-        };
-        for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
-          set(space.contact[face.friction + k], s, tangents<dim>(face.face)[s]);
-        if (face.has_pressure())
-          set(space.contact[face.pressure + k], 0, face.face / 2);
-      }
+    {
+      const Tensor<1, dim> arm =
+          map.point(space.tables.moment_points[face.face].points[k]) - centre;
+      for (const unsigned int c : face.components())
+        for (unsigned int m = 0; m < n_motions<dim>; ++m)
+          result[m * n + space.owned.index_within_set(
+                             dofs[space.tables.numbers[space.tables.inner[face.face][k]][c]])] =
+              rigid_motion(m, arm / length) * face.direction(c);
+    }
+  }
   return result;
 }
 

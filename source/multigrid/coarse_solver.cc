@@ -32,8 +32,7 @@ Entries own_entries(const MomentSpace<3> &space)
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      space.constraints.distribute_local_to_global(stiffness(cell, space.moment_components(cell)),
-                                                   dofs, matrix);
+      space.constraints.distribute_local_to_global(stiffness(cell), dofs, matrix);
     }
   Entries result;
   for (const auto &entry : matrix) // those of cells of other processes are not there

@@ -232,9 +232,10 @@ void LevelTransfer::add_links(const Cell &cell, const unsigned int child,
       }
       const Dof base = bases[tables.inner[number][k]];
       if (face->has_friction())
-        links.push_back({face->friction + own, {{base + axes[0], base + axes[1]}}});
+        links.push_back(
+            {face->friction + own, {{base + face->tangential(0), base + face->tangential(1)}}});
       if (face->has_pressure())
-        links.push_back({face->pressure + own, {{base + number / 2, base + number / 2}}});
+        links.push_back({face->pressure + own, {{base + face->normal(), base + face->normal()}}});
     }
   }
 }

@@ -25,52 +25,93 @@ MomentTransform<Number>::MomentTransform(const MomentSpace<3> &space, const Vect
 {
   if (space.faces.empty())
     return;
-  const BoxTables<3> &tables = space.tables;
-  n = tables.n_moments();
-  FullMatrix<double> C(n, tables.W.n());
-  tables.M_inverse.mmult(C, tables.W);
-  for (unsigned int k = 0; k < n; ++k)
-    for (unsigned int j = 0; j < n; ++j)
-    {
-      M.push_back(tables.M(k, j));
-      M_inverse.push_back(tables.M_inverse(k, j));
-    }
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  n = space.tables.n_moments();
+  const auto add_matrices = [this](const FaceMoments &moments)
+  {
+    matrices.emplace_back();
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        matrices.back().M.push_back(moments.M(k, j));
+        matrices.back().M_inverse.push_back(moments.M_inverse(k, j));
+      }
+  };
+  add_matrices(space.tables.moments);
   for (const MomentFace<3> &face : space.faces)
   {
-    face.cell->get_dof_indices(dofs);
-    for (const unsigned int axis : face.axes())
+    if (face.own)
+      add_matrices(*face.own);
+    add(space, pattern, face, face.own ? matrices.size() - 1 : 0);
+  }
+}
+
+template <typename Number>
+void MomentTransform<Number>::add(const MomentSpace<3> &space, const Vector &pattern,
+                                  const MomentFace<3> &face, const unsigned int matrix)
+{
+  const BoxTables<3> &tables = space.tables;
+  const FaceMoments &moments = space.moments_on(face);
+  FullMatrix<double> C(n, moments.W.n());
+  moments.M_inverse.mmult(C, moments.W);
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  face.cell->get_dof_indices(dofs);
+  if (face.axes.is_turned())
+  {
+    turns.push_back({static_cast<unsigned int>(inner.size()), {}});
+    for (unsigned int own = 0; own < 3; ++own)
+      for (unsigned int c = 0; c < 3; ++c)
+        turns.back().directions[own][c] = face.direction(own)[c];
+  }
+  for (const unsigned int axis : face.components())
+  {
+    std::map<unsigned int, std::vector<double>> columns;
+    for (unsigned int j = 0; j < C.n(); ++j)
+      resolve(space, pattern, dofs[tables.numbers[tables.rim[face.face][j]][axis]],
+              [&](const unsigned int local, const double weight)
+              {
+                std::vector<double> &column = columns[local];
+                column.resize(n);
+                for (unsigned int k = 0; k < n; ++k)
+                  column[k] -= weight * C(k, j);
+              });
+    rows.push_back({static_cast<unsigned int>(inner.size()), static_cast<unsigned int>(rim.size()),
+                    static_cast<unsigned int>(columns.size()), matrix});
+    for (const unsigned int shape : tables.inner[face.face])
+      inner.push_back(
+          pattern.get_partitioner()->global_to_local(dofs[tables.numbers[shape][axis]]));
+    for (const auto &[local, column] : columns)
     {
-      std::map<unsigned int, std::vector<double>> columns;
-      for (unsigned int j = 0; j < C.n(); ++j)
-        resolve(space, pattern, dofs[tables.numbers[tables.rim[face.face][j]][axis]],
-                [&](const unsigned int local, const double weight)
-                {
-                  std::vector<double> &column = columns[local];
-                  column.resize(n);
-                  for (unsigned int k = 0; k < n; ++k)
-                    column[k] -= weight * C(k, j);
-                });
-      rows.push_back({static_cast<unsigned int>(inner.size()),
-                      static_cast<unsigned int>(rim.size()),
-                      static_cast<unsigned int>(columns.size())});
-      for (const unsigned int shape : tables.inner[face.face])
-        inner.push_back(
-            pattern.get_partitioner()->global_to_local(dofs[tables.numbers[shape][axis]]));
-      for (const auto &[local, column] : columns)
-      {
-        rim.push_back(local);
-        to_inner.insert(to_inner.end(), column.begin(), column.end());
-      }
+      rim.push_back(local);
+      to_inner.insert(to_inner.end(), column.begin(), column.end());
     }
   }
+}
+
+/** Components along the directions of faces to those along axes, or back. */
+template <typename Number>
+void MomentTransform<Number>::turn(Vector &v, const bool to_axes) const
+{
+  for (const Turn &turn : turns)
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      std::array<Number, 3> old, turned{};
+      for (unsigned int c = 0; c < 3; ++c)
+        old[c] = v.local_element(inner[turn.first_inner + c * n + k]);
+      for (unsigned int own = 0; own < 3; ++own)
+        for (unsigned int c = 0; c < 3; ++c)
+          turned[to_axes ? c : own] += turn.directions[own][c] * old[to_axes ? own : c];
+      for (unsigned int c = 0; c < 3; ++c)
+        v.local_element(inner[turn.first_inner + c * n + k]) = turned[c];
+    }
 }
 
 // With `C = -M^-1 W` over the rim T is `u_inner = M^-1 m + C u_rim`, its inverse `m = M (u_inner - C u_rim)`.
 template <typename Number>
 template <bool inverse>
-void MomentTransform<Number>::transform(Vector &v, std::vector<Number> *const kept) const
+void MomentTransform<Number>::transform(Vector &v) const
 {
+  if (!inverse)
+    turn(v, true);
   std::vector<Number> old(n), rest(n);
   for (const Row &row : rows)
   {
@@ -79,8 +120,8 @@ void MomentTransform<Number>::transform(Vector &v, std::vector<Number> *const ke
       old[k] = v.local_element(inner[row.first_inner + k]);
       rest[k] = 0;
     }
-    if (kept)
-      kept->insert(kept->end(), old.begin(), old.end());
+    const std::vector<Number> &M = matrices[row.matrix].M,
+                              &M_inverse = matrices[row.matrix].M_inverse;
     const Number *column = to_inner.data() + std::size_t(row.first_rim) * n;
     for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
     {
@@ -96,17 +137,23 @@ void MomentTransform<Number>::transform(Vector &v, std::vector<Number> *const ke
       v.local_element(inner[row.first_inner + k]) = sum;
     }
   }
+  if (inverse)
+    turn(v, false);
 }
 
 template <typename Number>
 template <bool inverse>
 void MomentTransform<Number>::transform_transposed(Vector &r) const
 {
+  if (inverse)
+    turn(r, true);
   std::vector<Number> old(n), on_rim(n);
   for (const Row &row : rows)
   {
     for (unsigned int k = 0; k < n; ++k)
       old[k] = r.local_element(inner[row.first_inner + k]);
+    const std::vector<Number> &M = matrices[row.matrix].M,
+                              &M_inverse = matrices[row.matrix].M_inverse;
     for (unsigned int k = 0; k < n; ++k)
     {
       Number sum = 0;
@@ -124,6 +171,8 @@ void MomentTransform<Number>::transform_transposed(Vector &r) const
       r.local_element(rim[row.first_rim + j]) += sum;
     }
   }
+  if (!inverse)
+    turn(r, false);
 }
 
 template <typename Number>
@@ -131,8 +180,12 @@ void MomentTransform<Number>::to_nodes(Vector &v, std::vector<Number> *const kep
 {
   v.update_ghost_values();
   if (kept)
+  {
     kept->clear();
-  transform<false>(v, kept);
+    for (const unsigned int i : inner)
+      kept->push_back(v.local_element(i));
+  }
+  transform<false>(v);
 }
 
 template <typename Number>
@@ -154,7 +207,7 @@ template <typename Number>
 void MomentTransform<Number>::to_moments(Vector &v) const
 {
   v.update_ghost_values();
-  transform<true>(v, nullptr);
+  transform<true>(v);
   v.zero_out_ghost_values();
 }
 

@@ -60,7 +60,7 @@ void MultigridLevel<Number>::find_diagonal()
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      const FullMatrix<double> &K = stiffness(cell, space.moment_components(cell));
+      const FullMatrix<double> &K = stiffness(cell);
       std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> shares;
       const bool is_free =
           std::none_of(dofs.begin(), dofs.end(),
@@ -98,16 +98,16 @@ void MultigridLevel<Number>::find_blocks(const BoxStiffness<3> &stiffness)
   blocks.resize(space.contact.size());
   for (const MomentFace<3> &face : space.faces)
   {
-    const FullMatrix<double> &K = stiffness(face.cell, space.moment_components(face.cell));
+    const FullMatrix<double> &K = stiffness(face.cell);
     const auto number = [&](const unsigned int k, const unsigned int axis)
     { return space.tables.numbers[space.tables.inner[face.face][k]][axis]; };
-    const auto axes = tangents<3>(face.face);
     for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
     {
       for (unsigned int s = 0; face.has_friction() && s < 2; ++s)
         for (unsigned int t = 0; t <= s; ++t)
-          blocks[face.friction + k][s][t] = K(number(k, axes[s]), number(k, axes[t]));
-      if (const unsigned int i = number(k, face.face / 2); face.has_pressure())
+          blocks[face.friction + k][s][t] =
+              K(number(k, face.tangential(s)), number(k, face.tangential(t)));
+      if (const unsigned int i = number(k, face.normal()); face.has_pressure())
         blocks[face.pressure + k] = K(i, i) * unit_symmetric_tensor<2>();
     }
   }

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -28,6 +30,20 @@ double area(const BlendedCell &cell)
   double result = 0;
   for (unsigned int q = 0; q < gauss.size(); ++q)
     result += gauss.weight(q) * cell.determinant(gauss.point(q)[0], gauss.point(q)[1]);
+  return result;
+}
+
+/** Of a cell with plane faces, which are bases of pyramids. */
+double volume_of(const Corners<3> &cell)
+{
+  double result = 0;
+  for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
+  {
+    Side<3>::Piece face;
+    for (unsigned int v = 0; v < face.size(); ++v)
+      face[v] = cell[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+    result += area_of(face) * std::abs(normal_of(face) * (centre_of(cell) - face[0])) / 3;
+  }
   return result;
 }
 
@@ -101,6 +117,35 @@ std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &l
                                     to_string(widest.at)};
   add_edges(mesh, length_unit, lines);
   add_surfaces(mesh, length_unit, lines);
+  return lines;
+}
+
+std::vector<std::string> mesh_words(const HexahedralMesh &mesh, const std::string &length_unit)
+{
+  const auto power = [&](const std::string &exponent)
+  { return unit_name(length_unit).empty() ? "" : length_unit + exponent; };
+  std::vector<std::string> lines = {"mesh: " + plural(mesh.hexahedra.size(), "cell", "cells") +
+                                    ", " + plural(mesh.corners.size(), "vertex", "vertices")};
+  std::vector<Total> boundaries(mesh.boundaries.size()), volumes(mesh.surfaces.size());
+  for (const HexahedralMesh::Face &face : mesh.faces)
+  {
+    ++boundaries[face.boundary].n;
+    boundaries[face.boundary].size += area_of(mesh.corners_of(face));
+  }
+  for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
+  {
+    Total &volume = volumes[mesh.cells[c].surface];
+    ++volume.n;
+    volume.size += volume_of(mesh.corners_of(c));
+  }
+  for (unsigned int b = 0; b < boundaries.size(); ++b)
+    lines.push_back((mesh.boundaries[b].empty() ? "boundary without a name, free"
+                                                : "boundary " + mesh.boundaries[b]) +
+                    ": " + plural(boundaries[b].n, "face", "faces") + ", area " +
+                    with_unit(boundaries[b].size, power("^2")));
+  for (unsigned int v = 0; v < volumes.size(); ++v)
+    lines.push_back("volume " + mesh.surfaces[v] + ": " + plural(volumes[v].n, "cell", "cells") +
+                    ", volume " + with_unit(volumes[v].size, power("^3")));
   return lines;
 }
 } // namespace hpvi

@@ -10,6 +10,7 @@
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/scene/elasticity.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -196,9 +197,15 @@ template <int dim>
 std::string mesh_in_words(const Scene<dim> &scene)
 {
   std::string lines;
-  if (scene.geometry.shape == Shape::file && scene.geometry.mesh)
-    for (const std::string &line : mesh_words(*scene.geometry.mesh, scene.length_unit))
-      lines += line + "\n";
+  if (scene.geometry.shape != Shape::file || !scene.geometry.mesh)
+    return {};
+  std::vector<std::string> words;
+  if constexpr (dim == 2)
+    words = mesh_words(*scene.geometry.mesh, scene.length_unit);
+  else
+    words = mesh_words(*hexahedra_of(scene.geometry), scene.length_unit);
+  for (const std::string &line : words)
+    lines += line + "\n";
   return lines;
 }
 
@@ -238,7 +245,9 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
       continue; // the first of two sides speaks for both
     const std::string words = joined(phrases_of(scene, boundary, points));
     if (words.empty())
-      free.push_back(boundary.name.empty() ? "edges without a name" : boundary.name);
+      free.push_back(boundary.name.empty()
+                         ? (dim == 2 ? "edges without a name" : "faces without a name")
+                         : boundary.name);
     else
       lines += boundary.name + ": " + words + "\n";
   }

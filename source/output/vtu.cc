@@ -304,7 +304,7 @@ CellData cell_data(const StepReport<dim> &step, const bool is_shared)
   for (const FieldFace<dim> &face : field.faces())
   {
     const unsigned int cell = face.cell->active_cell_index();
-    area[cell] += face.cell->face(face.face_no)->measure();
+    area[cell] += face.area();
     for (const PressurePoint<dim> &point : pressure_points(face, field))
       pressure[cell] += point.weight * point.pressure;
     for (const MultiplierPoint<dim> &point : field.multiplier_points(face, 0.))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/primal/load_check.h>
 
@@ -15,26 +16,31 @@ using namespace dealii;
 
 namespace
 {
-/** Calls @p take with each point of a face, or of a cell where @p axis is none, and its force. */
+constexpr unsigned int whole_cell = numbers::invalid_unsigned_int;
+
+/** Calls @p take with each point of a face, or of a cell where there is none, and its force. */
 template <int dim>
-void for_each_force(const Load<dim> &load, const BoundingBox<dim> &box, const unsigned int axis,
+void for_each_force(const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                     const unsigned int n_gauss, const std::array<unsigned int, dim> &n_parts,
                     const std::function<void(const Tensor<1, dim> &, const Point<dim> &)> &take)
 {
   std::array<Quadrature<1>, dim> rules;
   for (unsigned int d = 0; d < dim; ++d)
-    rules[d] = d == axis ? Quadrature<1>(Point<1>(0.))
-                         : Quadrature<1>(QIterated<1>(QGauss<1>(n_gauss), n_parts[d]));
+    rules[d] = d == face / 2 ? Quadrature<1>(Point<1>(face % 2))
+                             : Quadrature<1>(QIterated<1>(QGauss<1>(n_gauss), n_parts[d]));
   std::array<unsigned int, dim> q{};
   for (bool ends = false; !ends;)
   {
-    Point<dim> x;
+    Point<dim> reference;
     double weight = 1;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      x[d] = box.lower_bound(d) + box.side_length(d) * rules[d].point(q[d])[0];
-      weight *= d == axis ? 1. : box.side_length(d) * rules[d].weight(q[d]);
+      reference[d] = rules[d].point(q[d])[0];
+      weight *= d == face / 2 ? 1. : rules[d].weight(q[d]);
     }
+    weight *= face == whole_cell ? std::abs(determinant(map.jacobian(reference)))
+                                 : map.face_measure(face, reference);
+    const Point<dim> x = map.point(reference);
     Tensor<1, dim> force;
     for (unsigned int c = 0; c < dim; ++c)
       force[c] = load[c] ? weight * load[c]->value(x) : 0.;
@@ -44,6 +50,15 @@ void for_each_force(const Load<dim> &load, const BoundingBox<dim> &box, const un
       q[d++] = 0;
     ends = d == dim;
   }
+}
+
+template <int dim>
+Point<dim> middle_of(const CellMap<dim> &map, const unsigned int face)
+{
+  Point<dim> reference;
+  for (unsigned int d = 0; d < dim; ++d)
+    reference[d] = d == face / 2 ? face % 2 : 0.5;
+  return map.point(reference);
 }
 
 double moment(const Tensor<1, 2> &arm, const Tensor<1, 2> &force)
@@ -106,20 +121,20 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
   make_mesh(scene, mesh);
   const unsigned int n_gauss = scene.adaptivity.start_degree + 1;
   double largest = 0;
-  const auto look = [&](const Load<dim> &load, const BoundingBox<dim> &box, const unsigned int axis,
+  const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                         const std::string &name)
   {
     std::array<unsigned int, dim> once, often;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      const unsigned int samples = axis < dim ? 48 : 24; // along a side of the body
+      const unsigned int samples = face == whole_cell ? 24 : 48; // along a side of the body
       once[d] = 1;
       often[d] = std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d)));
     }
     Tensor<1, dim> coarse, fine;
-    for_each_force<dim>(load, box, axis, n_gauss, once,
+    for_each_force<dim>(load, map, face, n_gauss, once,
                         [&](const Tensor<1, dim> &force, const Point<dim> &) { coarse += force; });
-    for_each_force<dim>(load, box, axis, n_gauss, often,
+    for_each_force<dim>(load, map, face, n_gauss, often,
                         [&](const Tensor<1, dim> &force, const Point<dim> &x)
                         {
                           fine += force;
@@ -132,20 +147,19 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
       return;
     largest = (coarse - fine).norm();
     worst = name;
-    where = box.center();
+    where = middle_of(map, face);
     force = coarse;
     finer = fine;
   };
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
     if (scene.has_body_force())
-      look(scene.body_force_in(cell), cell->bounding_box(), dim, "Body force");
+      look(scene.body_force_in(cell), map_of<dim>(cell), whole_cell, "Body force");
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
         if (const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
             condition.has_traction())
-          look(condition.traction, cell->face(face)->bounding_box(), face / 2,
-               "Traction on " + condition.name);
+          look(condition.traction, map_of<dim>(cell), face, "Traction on " + condition.name);
   }
 }
 

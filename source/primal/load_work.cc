@@ -7,6 +7,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
 #include <vector>
 
 namespace hpvi
@@ -33,10 +34,10 @@ std::vector<ShapeTable<dim>> tables_of(const unsigned int degree, const unsigned
   return result;
 }
 
-/** Of a load per unit of @p measure, that of a cell or face on which @p table has its points. */
-template <int dim>
-double work_on(const typename MomentSpace<dim>::Cell &cell, const Load<dim> &load,
-               const ShapeTable<dim> &table, const double measure, const CellField<dim> &field)
+/** Of a load on a cell or face on which @p table has its points, `measure(x)` being dx over that of the reference. */
+template <int dim, class Measure>
+double work_on(const CellMap<dim> &map, const Load<dim> &load, const ShapeTable<dim> &table,
+               const Measure &measure, const CellField<dim> &field)
 {
   double sum = 0;
   for (unsigned int q = 0; q < table.points.size(); ++q)
@@ -44,10 +45,10 @@ double work_on(const typename MomentSpace<dim>::Cell &cell, const Load<dim> &loa
     Tensor<1, dim> u;
     for (unsigned int i = 0; i < field.size(); ++i)
       u += table.values(q, i) * field[i];
-    sum += table.weights[q] *
-           (load_at<dim>(load, MomentSpace<dim>::point_of(cell, table.points[q])) * u);
+    sum += table.weights[q] * measure(table.points[q]) *
+           (load_at<dim>(load, map.point(table.points[q])) * u);
   }
-  return measure * sum;
+  return sum;
 }
 } // namespace
 
@@ -66,15 +67,19 @@ double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const D
           if (!cell->is_locally_owned() || !(scene.has_body_force() || cell->at_boundary()))
             continue;
           const CellField<dim> field = space.field(cell, u);
+          const CellMap<dim> map = map_of<dim>(cell);
           if (scene.has_body_force())
-            sum += work_on<dim>(cell, scene.body_force_in(cell), tables[0], cell->measure(), field);
+            sum += work_on<dim>(
+                map, scene.body_force_in(cell), tables[0],
+                [&](const Point<dim> &x) { return std::abs(determinant(map.jacobian(x))); }, field);
           for (const unsigned int f : cell->face_indices())
             if (cell->at_boundary(f))
               if (const BoundaryCondition<dim> &condition =
                       scene.boundaries[cell->face(f)->boundary_id()];
                   condition.has_traction())
-                sum += work_on<dim>(cell, condition.traction, tables[1 + f],
-                                    cell->face(f)->measure(), field);
+                sum += work_on<dim>(
+                    map, condition.traction, tables[1 + f],
+                    [&](const Point<dim> &x) { return map.face_measure(f, x); }, field);
         }
         return sum;
       });

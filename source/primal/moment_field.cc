@@ -153,10 +153,12 @@ Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &face, const Po
   if (!space.past)
     return {};
   const CellField<dim> field = space.field(face.cell, *space.past);
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(face.cell);
-  Point<dim> reference;
-  for (unsigned int d = 0; d < dim; ++d)
-    reference[d] = (x[d] - face.cell->vertex(0)[d]) / size[d];
+  const std::optional<Point<dim>> found =
+      face.map.is_affine()
+          ? Point<dim>(invert(face.map.jacobian({})) * (x - face.map.vertices()[0]))
+          : reference_of<dim>(face.cell, x);
+  AssertThrow(found, ExcMessage("A point of a contact face lies outside of its cell."));
+  const Point<dim> &reference = *found;
   Tensor<1, dim> u;
   for (unsigned int i = 0; i < field.size(); ++i) // the first component of shape i has its value
     u += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
@@ -194,7 +196,7 @@ std::vector<MultiplierPoint<dim>> MomentField<dim>::multiplier_points(const Fiel
   {
     const ContactTraction<dim> traction = multiplier(face, k);
     result.push_back(
-        {table.points[k], table.weights[k] * area,
+        {table.points[k], own && own->own ? own->own->areas[k] : table.weights[k] * area,
          own && own->has_friction() ? space.contact[own->friction + k].bound_by(*lambda) : 0.,
          traction, face.condition->is_unilateral() && traction.pressure <= negligible});
   }

@@ -4,6 +4,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/load_quadrature.h>
+#include <hpvi/moments/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -24,14 +25,12 @@ Tensor<1, dim> force_at(const MomentSpace<dim> &space, const MomentFace<dim> &fa
 {
   Tensor<1, dim> result;
   for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
-    result[tangents<dim>(face.face)[s]] = space.contact[face.friction + k].area *
-                                          space.contact[face.friction + k].bound_by(lambda) *
-                                          lambda[face.friction + k][s];
+    result += space.contact[face.friction + k].area *
+              space.contact[face.friction + k].bound_by(lambda) * lambda[face.friction + k][s] *
+              face.axes.tangents[s];
   if (face.has_pressure())
-  {
-    const ContactMoment<dim> &pressure = space.contact[face.pressure + k];
-    result[face.face / 2] = pressure.sign * pressure.weight * lambda[face.pressure + k][0];
-  }
+    result +=
+        space.contact[face.pressure + k].weight * lambda[face.pressure + k][0] * face.axes.normal;
   return result;
 }
 
@@ -89,6 +88,7 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
   for (const MomentFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
+    const CellMap<dim> map = map_of<dim>(face.cell);
     const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
     {
       for (unsigned int j = 0; j < shapes.size(); ++j)
@@ -96,16 +96,15 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
         Tensor<1, dim> force;
         for (unsigned int k = 0; k < tables.n_moments(); ++k)
           force -= moments(k, j) * force_at(space, face, k, lambda);
-        for (const unsigned int axis : face.axes())
+        for (const unsigned int axis : face.components())
           sum(dofs[tables.numbers[shapes[j]][axis]]) += force[axis];
         const unsigned int node = tables.numbers[shapes[j]][0];
-        contact_forces.push_back(
-            {face.cell->face(face.face)->boundary_id(), force,
-             MomentSpace<dim>::point_of(face.cell, tables.fe.unit_support_point(node))});
+        contact_forces.push_back({face.cell->face(face.face)->boundary_id(), force,
+                                  map.point(tables.fe.unit_support_point(node))});
       }
     };
-    add(tables.M, tables.inner[face.face]);
-    add(tables.W, tables.rim[face.face]);
+    add(space.moments_on(face).M, tables.inner[face.face]);
+    add(space.moments_on(face).W, tables.rim[face.face]);
   }
   sum.compress(VectorOperation::add);
   reactions -= sum;
@@ -141,19 +140,20 @@ void NodalReactions<dim>::find_nodes()
     if (cell->is_artificial())
       continue;
     cell->get_dof_indices(dofs);
+    const CellMap<dim> map = map_of<dim>(cell);
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
       if (!space.owned.is_element(dofs[i]))
         continue;
       Node &node = nodes[space.owned.index_within_set(dofs[i])];
-      node.x = MomentSpace<dim>::point_of(cell, fe.unit_support_point(i));
+      node.x = map.point(fe.unit_support_point(i));
       node.component = fe.system_to_component_index(i).first;
       for (const unsigned int face : cell->face_indices())
         if (cell->at_boundary(face) && fe.has_support_on_face(i, face))
         {
           const BoundaryCondition<dim> &condition = space.condition(cell, face);
           if (condition.displacement[node.component] ||
-              (condition.holds_normal() && node.component == face / 2))
+              (condition.holds_normal() && node.component == held_axis<dim>(cell, face)))
             node.holds.insert(condition.id);
         }
     }

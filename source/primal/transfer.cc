@@ -30,6 +30,17 @@ CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSp
 
 namespace
 {
+/** None: they are the same. */
+template <int dim>
+unsigned int child_number(const typename Triangulation<dim>::cell_iterator &cell,
+                          const typename Triangulation<dim>::cell_iterator &parent)
+{
+  for (unsigned int c = 0; cell != parent && c < parent->n_children(); ++c)
+    if (parent->child(c) == cell)
+      return c;
+  return none;
+}
+
 /** lambda of the parent, a polynomial of degree p-2 on each face, at the moments of a cell. */
 template <int dim>
 void take_multiplier(const MomentSpace<dim> &space,
@@ -39,7 +50,7 @@ void take_multiplier(const MomentSpace<dim> &space,
                      std::vector<ContactVector<dim>> &lambda)
 {
   const unsigned int n = space.tables.n_moments();
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(parent);
+  const unsigned int child = child_number<dim>(cell, parent);
   unsigned int first = 0; // of the values on a face
   for (const unsigned int number : cell->face_indices())
     for (const bool is_friction : {true, false})
@@ -53,9 +64,10 @@ void take_multiplier(const MomentSpace<dim> &space,
       {
         const MomentFace<dim> &face = *space.moment_face(dof_cell, number);
         const unsigned int own = (is_friction ? face.friction : face.pressure) + k;
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = (space.contact[own].x[d] - parent->vertex(0)[d]) / size[d];
+        const Point<dim> &own_x = space.tables.moment_points[number].points[k],
+                         x = child == none
+                                 ? own_x
+                                 : GeometryInfo<dim>::child_to_cell_coordinates(own_x, child);
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int s = 0; s < n_components; ++s)
             lambda[own][s] += values[first + j * n_components + s] * space.tables.psi(j, number, x);

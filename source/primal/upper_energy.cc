@@ -24,11 +24,11 @@ double missed_on(const typename MomentSpace<dim>::Cell &cell, const unsigned int
   const BoundaryCondition<dim> &condition = space.condition(cell, face);
   const QGauss<dim - 1> points(space.tables.degree + 2);
   const CellField<dim> field = space.field(cell, u);
+  const CellMap<dim> map = map_of<dim>(cell);
   double largest = 0;
   for (const Point<dim - 1> &point : points.get_points())
   {
-    const Point<dim> reference = point_on_face<dim>(face, point),
-                     x = MomentSpace<dim>::point_of(cell, reference);
+    const Point<dim> reference = point_on_face<dim>(face, point), x = map.point(reference);
     Tensor<1, dim> value;
     for (unsigned int i = 0; i < field.size(); ++i)
       value += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];

@@ -302,7 +302,7 @@ std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
     if (!side.empty()) // edges of a mesh in no group are free
     {
       add(entries, boundary_entries(side));
-      if (names.is_from_file)
+      if (names.is_from_file && dim == 2)
         entries.push_back(curve_entry(side));
     }
   for (const std::string &interface : names.interfaces)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -61,6 +62,16 @@ std::vector<CoarseFace<2>> faces_of_mesh(const CoarseMesh &mesh, const unsigned 
     }
   return result;
 }
+
+std::vector<CoarseFace<3>> faces_of_mesh(const HexahedralMesh &mesh, const unsigned int side)
+{
+  std::vector<CoarseFace<3>> result;
+  for (const HexahedralMesh::Face &face : mesh.faces)
+    if (face.boundary == side)
+      result.push_back(
+          {mesh.corners_of(face), centre_of(mesh.corners_of(face.cell)), {}, face.cell});
+  return result;
+}
 } // namespace
 
 template <int dim>
@@ -69,6 +80,9 @@ std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, const u
   if constexpr (dim == 2)
     if (geometry.mesh)
       return faces_of_mesh(*geometry.mesh, side);
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+      return faces_of_mesh(*hexahedra_of(geometry), side);
   const unsigned int across = side / 2;
   std::array<std::vector<double>, dim> lines;
   for (unsigned int d = 0; d < dim; ++d)

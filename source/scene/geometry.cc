@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/geometry.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -113,7 +113,8 @@ std::vector<double> Geometry<dim>::grid_lines(const unsigned int direction) cons
 template <int dim>
 unsigned int Geometry<dim>::n_cells(const unsigned int direction) const
 {
-  return mesh ? static_cast<unsigned int>(std::ceil(std::sqrt(mesh->cells.size())))
+  return mesh ? static_cast<unsigned int>(std::ceil(dim == 2 ? std::sqrt(mesh->cells.size())
+                                                             : std::cbrt(mesh->cells.size())))
               : subdivisions[direction] + cuts[direction].size();
 }
 
@@ -139,7 +140,7 @@ template <int dim>
 bool Geometry<dim>::has_affine_cells() const
 {
   if (mesh)
-    return has_affine_cells_in(*mesh);
+    return dim == 2 && has_affine_cells_in(*mesh);
   double size = 0, skew = 0, coordinates = 0; // far from the origin these are rounded more coarsely
   for (unsigned int v = 0; v < corners.size(); ++v)
   {
@@ -209,6 +210,9 @@ bool is_inside(const std::vector<Side<2>> &sides, const Point<2> &x, const doubl
 template <int dim>
 bool Geometry<dim>::contains(const Point<dim> &x) const
 {
+  if constexpr (dim == 3)
+    if (mesh)
+      return hpvi::contains(*hexahedra_of(*this), x, 2e-10 * radius());
   const std::vector<Side<dim>> sides = sides_of(*this);
   if constexpr (dim == 2)
     if (mesh)
@@ -303,6 +307,9 @@ std::vector<Point<dim>> sample_body(const Geometry<dim> &geometry)
   if constexpr (dim == 2)
     if (geometry.mesh)
       return sample_mesh(*geometry.mesh);
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+      return sample(*hexahedra_of(geometry));
   std::vector<Point<dim>> points = unit_grid<dim>(16);
   for (Point<dim> &point : points)
     point = geometry.point(point);

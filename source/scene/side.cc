@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/geometry.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <limits>
@@ -27,6 +27,7 @@ template <int dim>
 std::vector<Point<dim>> Side<dim>::sample() const
 {
   std::vector<Point<dim>> points;
+  const unsigned int n = dim == 2 ? 32 : pieces.size() > 64 ? 2 : pieces.size() > 16 ? 4 : 16;
   for (unsigned int k = 0; k < pieces.size(); ++k)
   {
     const Piece &piece = pieces[k];
@@ -36,10 +37,10 @@ std::vector<Point<dim>> Side<dim>::sample() const
         points.push_back(point(k, i / 32.));
       continue;
     }
-    const auto first = sample_segment(piece[0], piece[n_corners - 2], dim == 2 ? 0 : 16),
-               last = sample_segment(piece[1], piece[n_corners - 1], dim == 2 ? 0 : 16);
+    const auto first = sample_segment(piece[0], piece[n_corners - 2], dim == 2 ? 0 : n),
+               last = sample_segment(piece[1], piece[n_corners - 1], dim == 2 ? 0 : n);
     for (unsigned int i = 0; i < first.size(); ++i)
-      for (const Point<dim> &point : sample_segment(first[i], last[i], dim == 2 ? 32 : 16))
+      for (const Point<dim> &point : sample_segment(first[i], last[i], n))
         points.push_back(point);
   }
   return points;
@@ -107,6 +108,11 @@ Tensor<1, dim> Side<dim>::normal(const Point<dim> &x) const
 {
   if (is_flat())
     return outward;
+  if constexpr (dim == 3)
+    return normal_of(*std::min_element(pieces.begin(), pieces.end(),
+                                       [&](const Piece &one, const Piece &other) {
+                                         return hpvi::distance(one, x) < hpvi::distance(other, x);
+                                       }));
   unsigned int nearest = 0;
   double least = std::numeric_limits<double>::max();
   for (unsigned int k = 0; k < pieces.size(); ++k)
@@ -154,6 +160,9 @@ std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
   if constexpr (dim == 2)
     if (geometry.mesh)
       return sides_of_mesh(*geometry.mesh);
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+      return sides_of_mesh(*hexahedra_of(geometry));
   const Point<dim> centre = geometry.centre();
   std::vector<Side<dim>> sides(GeometryInfo<dim>::faces_per_cell);
   for (unsigned int f = 0; f < sides.size(); ++f)

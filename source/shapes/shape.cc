@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/shapes/box.h>
 #include <hpvi/shapes/half_disc.h>
+#include <hpvi/shapes/hexahedra_from_file.h>
 #include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/plate_with_hole.h>
 #include <hpvi/shapes/quadrilateral.h>
@@ -29,6 +31,8 @@ const std::vector<ShapeKind<dim>> &shapes()
            {quadrilateral_shape(), ring_sector_shape(), half_disc_shape(), plate_with_hole_shape(),
             mesh_from_file()})
         kinds.push_back(kind);
+    else
+      kinds.push_back(hexahedra_from_file());
     return kinds;
   }();
   return all;
@@ -204,6 +208,18 @@ Corners<2> corners_around(const CoarseMesh &mesh)
       take(edge.curve.point(k / 16.));
   return box_corners(lower, upper);
 }
+
+Corners<3> corners_around(const HexahedralMesh &mesh)
+{
+  Point<3> lower = mesh.corners.front(), upper = lower;
+  for (const Point<3> &x : mesh.corners)
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      lower[d] = std::min(lower[d], x[d]);
+      upper[d] = std::max(upper[d], x[d]);
+    }
+  return box_corners(lower, upper);
+}
 } // namespace
 
 template <int dim>
@@ -275,6 +291,9 @@ Geometry<dim> read_geometry(const Parameters &parameters)
   if constexpr (dim == 2)
     if (geometry.mesh)
       geometry.corners = corners_around(*geometry.mesh);
+  if constexpr (dim == 3)
+    if (geometry.mesh)
+      geometry.corners = corners_around(*hexahedra_of(geometry));
   geometry.graded_towards = parameters.points<dim>("Geometry", "Graded towards");
   return geometry;
 }

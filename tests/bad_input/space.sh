@@ -72,6 +72,33 @@ invalid "Error/Bound = true" "no guaranteed bound" "remove it" -- "Error/Bound=t
 invalid "Bound on distorted cells" "no guaranteed bound" -- "Error/Bound on distorted cells=false"
 invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solution/Solution=smooth"
 
+# --- hexahedra from a file
+foot() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  cp prm/foot.prm "$scratch/foot.prm"
+  mkdir -p "$scratch/meshes"
+  sed "$1" prm/meshes/foot.msh >"$scratch/meshes/foot.msh"
+  shift
+  check 1 "${words[@]}" -- "$hpvi" --validate "$scratch/foot.prm" "$@"
+}
+"$hpvi" --validate prm/foot.prm >/dev/null || failures=1
+foot "foot.msh:" "is not plane" "curved faces are not offered" -- '/^1 -2 0 -2$/s/.*/1 -2 0.1 -2.2/'
+foot "tetrahedra (1)" "the first in this line" "transfinite" -- 's/^50 5 2 4 1 .*/50 4 2 4 1 1 2 3 7/'
+foot "hexahedra of second or higher order" "-order 1" -- 's/^50 5 2/50 17 2/'
+foot "is in no physical volume" -- 's/^50 5 2 4/50 5 2 0/'
+foot "has a face of no cell" -- 's/^1 3 2 1 1 .*/1 3 2 1 1 1 2 3 4/'
+foot "cells may not overlap" -- 's/^50 5 2 4 1 .*/50 5 2 4 1 1 2 7 6 16 17 22 21/'
+foot "Boundary flank/Symmetry" "along no axis" -- '' --set "Boundary flank/Pressure=" --set "Boundary flank/Symmetry=true"
+foot "Boundary side" "this scene has" -- '' --set "Boundary side/Pressure=1"
+foot "Boundary bottom/Curve" "unknown entry" -- '' --set "Boundary bottom/Curve=circle"
+foot "Subdivisions" "no meaning for a file" -- '' --set "Geometry/Subdivisions=2, 2, 2"
+foot "Geometry/File" "names no mesh" -- '' --set "Geometry/File="
+
 # --- methods, laws and paths that space does not have
 for method in pu hpa1 hpa2 hpa3; do
   invalid "Method = $method" "space does not offer" "hap2" -- "Adaptivity/Method=$method"

@@ -185,8 +185,7 @@ std::vector<Flaw> flaws_of_elements()
            "in this line; a body has quadrilaterals alone: set Mesh.RecombineAll = 1; "
            "Mesh.RecombinationAlgorithm = 3; in the drawing"),
       flaw("hexahedron", "5 3 2 1 1 1 2 5 4", "5 5 2 1 1 1 2 5 4 1 2 3 4", "has hexahedra (1)"),
-      flaw("tetrahedra", "5 3 2 1 1 1 2 5 4", "5 4 2 1 1 1 2 5 4",
-           "bodies in space are boxes so far"),
+      flaw("tetrahedra", "5 3 2 1 1 1 2 5 4", "5 4 2 1 1 1 2 5 4", "set Dimension = 3"),
       flaw("third order", "5 3 2 1 1 1 2 5 4", "5 36 2 1 1 1 2 5 4",
            "has quadrilaterals of third order (1)"),
       flaw("type", "5 3 2 1 1 1 2 5 4", "5 999 2 1 1 1 2 5 4", "has elements of type 999 (1)"),

@@ -5,11 +5,15 @@
 #include <hpvi/moments/moment_space.h>
 
 #include <map>
+#include <memory>
 #include <tuple>
 
 namespace hpvi
 {
-/** Stiffness matrices of cells, K or T'KT in the basis of moments: those of one size, material and set of components with moments share one. */
+/**
+ * Stiffness matrices of cells, K or T'KT in the basis of moments. Boxes of one size, material and set of components with moments
+ * share one; of a mesh from a file parallelepipeds without moments do, others are made when they are asked for.
+ */
 template <int dim>
 class BoxStiffness
 {
@@ -19,20 +23,40 @@ public:
 
   explicit BoxStiffness(const MomentSpace<dim> &space);
 
-  /** Of nodal values. */
+  /** Of nodal values; until the next call. */
   const Matrix &nodal(const Cell &cell) const;
 
-  /** In the basis of moments that MomentSpace::moment_components says. */
-  const Matrix &operator()(const Cell &cell, const std::vector<bool> &moment_components) const;
+  /** In the basis of moments of a cell of this process; until the next call. */
+  const Matrix &operator()(const Cell &cell) const;
+
+  /** K u of nodal values. */
+  void multiply(const Cell &cell, dealii::Vector<double> &result,
+                const dealii::Vector<double> &u) const;
 
 private:
+  const Matrix &of_box(const Cell &cell, const std::vector<bool> &moment_components) const;
   unsigned int size_class(const Cell &cell) const;
+  const Matrix *known(const CellMap<dim> &map, dealii::types::material_id material) const;
+  HookesLaw<dim> law(const Cell &cell) const;
 
   const MomentSpace<dim> &space;
   const std::vector<bool> none;
   mutable std::vector<dealii::Tensor<1, dim>> sizes; ///< by size_class(), of cells that differ
   mutable std::map<std::tuple<unsigned int, unsigned int, std::vector<bool>>, Matrix> matrices;
+  struct Parallelepiped
+  {
+    dealii::Tensor<2, dim> edges;
+    dealii::types::material_id material;
+    Matrix K;
+  };
+  mutable std::vector<std::unique_ptr<Parallelepiped>> parallelepipeds;
+  mutable Matrix last; ///< what is not kept
 };
+
+/** T of `u = T v` on @p cell of this process. */
+template <int dim>
+dealii::FullMatrix<double> basis_of_moments(const MomentSpace<dim> &space,
+                                            const typename MomentSpace<dim>::Cell &cell);
 
 /** Has any component moments? */
 bool any(const std::vector<bool> &moment_components);

@@ -2,6 +2,7 @@
 #ifndef hpvi_box_tables_h
 #define hpvi_box_tables_h
 
+#include <hpvi/body/cell_map.h>
 #include <hpvi/scene/material.h>
 
 #include <deal.II/base/point.h>
@@ -11,6 +12,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace hpvi
@@ -29,8 +31,15 @@ struct BoxTable
 template <int dim>
 using CellField = std::vector<dealii::Tensor<1, dim>>;
 
+/** The change from the inner nodes of a contact face to its moments, `m = M u_inner + W u_rim`. */
+struct FaceMoments
+{
+  dealii::FullMatrix<double> M, M_inverse, W;
+  std::vector<double> areas; ///< `int psi_k`
+};
+
 /**
- * All that depends on the degree alone where cells are boxes: shape functions at Gauss points, the
+ * All that depends on the degree alone: of cells that are boxes: shape functions at Gauss points, the
  * stiffness of the unit cell, and the change from the inner nodes of a contact face to moments.
  *
  * A contact face has as many inner nodes as Gauss points x_k of the rule with p-1 points a direction.
@@ -54,12 +63,12 @@ public:
   std::vector<BoxTable<dim>> faces;                  ///< by face, likewise
   std::vector<BoxTable<dim>> moment_points;          ///< by face: the Gauss points x_k
   std::vector<std::vector<unsigned int>> inner, rim; ///< shape functions of a face by face
-  dealii::FullMatrix<double> M, M_inverse, W;        ///< the same for all faces
+  FaceMoments moments; ///< of the unit face, the same for all: of parallelograms but for their area
 
   /** Number of moments of each component on a face, `(p-1)^(dim-1)`. */
   unsigned int n_moments() const
   {
-    return M.m();
+    return moments.M.m();
   }
 
   /** psi_k at a point of the unit face whose coordinates along the axes of the body are @p x. */
@@ -69,16 +78,34 @@ public:
   dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law,
                                        const dealii::Tensor<1, dim> &size) const;
 
-  /** T of `u = T v` on a cell: @p moments[dim face + component] says where v has moments for inner nodes. */
-  dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &moments) const;
+  /** Of any cell; by p+1 points a direction, as products without a matrix take them. */
+  dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law, const CellMap<dim> &map) const;
+
+  /** Of a face whose measure is not constant: `m_k = int psi_k u ds / int psi_k ds`. */
+  FaceMoments moments_of(const CellMap<dim> &map, unsigned int face) const;
+
+  /** T of `u = T v` on a box: @p components[dim face + component] says where v has moments for inner nodes. */
+  dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &components) const;
 
 private:
   dealii::FE_Q<dim> scalar() const;
-  void make_moments();
+  void number_faces();
+  FaceMoments make_moments(unsigned int face,
+                           const std::function<double(const dealii::Point<dim> &)> &measure) const;
 
   std::vector<double> gauss; ///< coordinates of the points x_k
   std::array<std::array<dealii::FullMatrix<double>, dim>, dim>
       products; ///< int d_a phi_i d_b phi_j
+};
+
+/** `d phi_i/d x_a` of a cell at the points of @p table, by axis, and the weights of its points times det J. */
+template <int dim>
+struct CellGradients
+{
+  CellGradients(const BoxTable<dim> &table, const CellMap<dim> &map);
+
+  std::array<dealii::FullMatrix<double>, dim> gradients; ///< by point and shape function
+  std::vector<double> volumes;
 };
 
 /** The gradient of a field at point @p q of @p table in a box of @p size: (i,j) is d_j u_i. */

@@ -2,18 +2,21 @@
 #ifndef hpvi_contact_moment_h
 #define hpvi_contact_moment_h
 
+#include <hpvi/moments/box_tables.h>
+#include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/friction_limit.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace hpvi
 {
 /**
- * A vector along a contact face, its components those of tangents(); or, of a pressure, one number
+ * A vector along a contact face, its components those of ContactAxes::tangents; or, of a pressure, one number
  * along the outer normal, the first component.
  */
 template <int dim>
@@ -46,7 +49,7 @@ struct ContactMoment
   double bound = 1;       ///< g(x) [stress] of friction; with a #partner without pressure
   double weight = 0;      ///< G [force], of a pressure [area]
   ContactVector<dim> gap; ///< u_0, of friction the past slip [length]
-  double sign = 1;        ///< of the outer normal along its axis, of a pressure
+  double sign = 1;        ///< of the outer normal along its unknown, of a pressure
   std::array<unsigned int, dim - 1> unknowns; ///< of its moments among those of this process
 
   FrictionLimit limit; ///< of friction
@@ -81,12 +84,19 @@ struct ContactMoment
   bool holds(const ContactVector<dim> &z) const;
 };
 
-/** A face with moments, those of its Gauss points one after the other from #friction and #pressure on. */
+/**
+ * A face with moments, those of its Gauss points one after the other from #friction and #pressure on. The unknowns at an inner
+ * node are components along the axes of coordinates; where the normal is along none of these they are, all of them moments,
+ * those along the tangents and the normal.
+ */
 template <int dim>
 struct MomentFace
 {
   typename dealii::DoFHandler<dim>::active_cell_iterator cell;
   unsigned int face;
+  ContactAxes<dim> axes;
+  std::shared_ptr<const FaceMoments> own =
+      nullptr; ///< null: those of the unit face, its measure is constant
   unsigned int friction = dealii::numbers::invalid_unsigned_int; ///< which means that there is none
   unsigned int pressure = dealii::numbers::invalid_unsigned_int; ///< likewise
 
@@ -100,7 +110,17 @@ struct MomentFace
     return pressure != dealii::numbers::invalid_unsigned_int;
   }
 
-  std::vector<unsigned int> axes() const; ///< the components that have moments
+  std::vector<unsigned int> components() const; ///< which of those at inner nodes are moments
+
+  unsigned int tangential(unsigned int s) const; ///< the component of a tangent
+  unsigned int normal() const;                   ///< the component of the normal
+  dealii::Tensor<1, dim> direction(unsigned int component) const;
+
+  /** Of the outer normal along direction(normal()). */
+  double sign() const
+  {
+    return axes.normal * direction(normal());
+  }
 };
 } // namespace hpvi
 

@@ -20,7 +20,7 @@
 namespace hpvi
 {
 /**
- * The displacements of one degree on a distributed mesh of boxes, in the basis in which contact is
+ * The displacements of one degree on a distributed mesh of hexahedra, in the plane of boxes, in the basis in which contact is
  * diagonal: moments stand for the inner nodal values of tangential components on faces with friction, and of
  * the normal one where contact has a pressure (see BoxTables). Moments belong to one cell, never hang and
  * are never prescribed.
@@ -52,7 +52,7 @@ public:
   /** u on @p cell, of this process or beside it. */
   CellField<dim> field(const Cell &cell, const DistributedVector &u) const;
 
-  /** Lengths of the edges of @p cell. */
+  /** Lengths of the edges of @p cell, a box. */
   static dealii::Tensor<1, dim>
   extent(const typename dealii::Triangulation<dim>::cell_iterator &cell);
 
@@ -62,9 +62,18 @@ public:
 
   const BoundaryCondition<dim> &condition(const Cell &cell, unsigned int face) const;
 
-  /** Does component @p c of a face of @p cell, active or not, have moments? At `dim face + c`. */
+  /**
+   * Does a face of @p cell, active or not, have moments? Of its normal component at `dim face + face/2`, and of those along
+   * it, at its other numbers.
+   */
   std::vector<bool>
   moment_components(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /** The change to moments on @p face. */
+  const FaceMoments &moments_on(const MomentFace<dim> &face) const
+  {
+    return face.own ? *face.own : tables.moments;
+  }
 
   /** A face of this process; null: it has no moments. */
   const MomentFace<dim> *moment_face(const Cell &cell, unsigned int face) const;
@@ -91,11 +100,11 @@ public:
 
 private:
   void number();
-  void constrain();
   void find_contact();
   void add_moments(const MomentFace<dim> &face, typename ContactMoment<dim>::Kind kind,
                    const std::vector<dealii::types::global_dof_index> &dofs);
   double moment_of_gap(const MomentFace<dim> &face, unsigned int k) const;
+  MomentFace<dim> face_of(const Cell &cell, unsigned int number) const;
   dealii::types::global_dof_index dof(const std::vector<dealii::types::global_dof_index> &dofs,
                                       unsigned int shape, unsigned int component) const;
 

@@ -4,14 +4,16 @@
 
 #include <hpvi/moments/moment_space.h>
 
+#include <array>
 #include <functional>
+#include <vector>
 
 namespace hpvi
 {
 /**
  * Between moments and the inner nodes of contact faces whose place they take (see BoxTables), in vectors of nodal values without
- * constrained ones: `u = T v` is `u_inner = M^-1 (m - W u_rim)`, all else alike. A contact face is one cell's, so
- * that all of it works on local elements, those of neighbours included.
+ * constrained ones: `u = T v` is `u_inner = M^-1 (m - W u_rim)`, all else alike; m of a face that is normal to no axis are first
+ * turned from its directions. A contact face is one cell's, so that all of it works on local elements, those of neighbours included.
  */
 template <typename Number>
 class MomentTransform
@@ -37,17 +39,30 @@ public:
 private:
   struct Row ///< one component of a face
   {
-    unsigned int first_inner, first_rim, n_rim;
+    unsigned int first_inner, first_rim, n_rim, matrix; ///< the last in #matrices
+  };
+  struct Turn ///< of a face whose three components begin there in #inner
+  {
+    unsigned int first_inner;
+    std::array<std::array<Number, 3>, 3> directions; ///< by component of v and axis
+  };
+  struct Matrices
+  {
+    std::vector<Number> M, M_inverse;
   };
 
+  void add(const MomentSpace<3> &space, const Vector &pattern, const MomentFace<3> &face,
+           unsigned int matrix);
+  void turn(Vector &v, bool to_axes) const;
   template <bool inverse>
-  void transform(Vector &v, std::vector<Number> *kept) const;
+  void transform(Vector &v) const;
   template <bool inverse>
   void transform_transposed(Vector &r) const;
 
-  unsigned int n = 0; ///< moments of a component
-  std::vector<Number> M, M_inverse;
+  unsigned int n = 0;             ///< moments of a component
+  std::vector<Matrices> matrices; ///< the first of the unit face
   std::vector<Row> rows;
+  std::vector<Turn> turns;
   std::vector<unsigned int> inner, rim; ///< local elements
   std::vector<Number> to_inner;         ///< -M^-1 W with constraints resolved, n for each of #rim
 };

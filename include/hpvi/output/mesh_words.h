@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_words_h
 #define hpvi_mesh_words_h
 
-#include <hpvi/scene/coarse_mesh.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <string>
 #include <vector>
@@ -14,6 +14,9 @@ namespace hpvi
  * curve inside edges and length, of each surface cells and area, curves taken as they are.
  */
 std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &length_unit);
+
+/** Likewise of hexahedra: its faces and volumes. */
+std::vector<std::string> mesh_words(const HexahedralMesh &mesh, const std::string &length_unit);
 } // namespace hpvi
 
 #endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_shared_points_h
+#define hpvi_shared_points_h
+
+#include <hpvi/body/cell_map.h>
+#include <hpvi/body/shape_tables.h>
+
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * The number of each point of @p table among those of @p other, which lie at the same places: in space two cells may look at a
+ * face from corners of their own.
+ */
+template <int dim>
+std::vector<unsigned int> shared_points(const CellMap<dim> &map, const ShapeTable<dim> &table,
+                                        const CellMap<dim> &other_map,
+                                        const ShapeTable<dim> &other);
+
+/** Of a face of a coarser cell the part, as it counts them, that is @p face; deal.II's @p known where corners are the same. */
+template <int dim>
+unsigned int shared_subface(const CellMap<dim> &map, unsigned int face,
+                            const CellMap<dim> &other_map, unsigned int other_face,
+                            unsigned int known);
+} // namespace hpvi
+
+#endif

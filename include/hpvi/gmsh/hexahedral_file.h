@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_hexahedral_file_h
+#define hpvi_hexahedral_file_h
+
+#include <hpvi/scene/hexahedral_mesh.h>
+
+#include <string>
+
+namespace hpvi
+{
+/**
+ * The body in space in the mesh file @p path of Gmsh: hexahedra of first order in format 4.1, 4.0 or 2.2, ASCII. Boundaries are
+ * its physical surfaces and #surfaces of the mesh its physical volumes, in the order of their tags; one without a name is
+ * called by its tag. Corners stand in an order in which the edges of all cells run the same way.
+ *
+ * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is missing, binary or
+ * damaged; other elements; cells that are in no group, folded, with faces that are not plane to 1e-8 of their size, or not one
+ * part connected through faces; nodes twice at one place or hanging; faces in two groups, in one and of no cell, or of more
+ * than two cells; a group that lies on the boundary and inside; names that a scene cannot write.
+ */
+HexahedralMesh read_hexahedral_file(const std::string &path);
+} // namespace hpvi
+
+#endif

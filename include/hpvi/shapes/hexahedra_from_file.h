@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_hexahedra_from_file_h
+#define hpvi_hexahedra_from_file_h
+
+#include <hpvi/shapes/shape.h>
+
+namespace hpvi
+{
+/** The mesh of a file of Gmsh in space (read_hexahedral_file()), for the list of shapes(). */
+ShapeKind<3> hexahedra_from_file();
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies of hexahedra from mesh files, which the tests write themselves: cells that are no boxes, corners in any order.
+#include "runs.h"
+
+#include <hpvi/base/input_error.h>
+#include <hpvi/gmsh/hexahedral_file.h>
+#include <hpvi/scene/hexahedral_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <random>
+
+namespace
+{
+using namespace space;
+
+using Map = std::function<Point<3>(const Point<3> &)>;
+
+/** Where a grid of the unit cube goes, its cells counted by @p n, in format 2.2; @p any_order: corners begin anywhere. */
+struct Grid
+{
+  std::array<unsigned int, 3> n;
+  Map map;
+  bool any_order = false;
+  std::function<bool(const Point<3> &)> takes = [](const Point<3> &)
+  { return true; }; ///< cells, by their centre
+
+  void write(const std::string &file) const;
+};
+
+void Grid::write(const std::string &file) const
+{
+  std::ofstream out(file);
+  out.precision(17);
+  const auto number = [&](const unsigned int i, const unsigned int j, const unsigned int k)
+  { return 1 + i + (n[0] + 1) * (j + (n[1] + 1) * k); };
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n7\n";
+  for (unsigned int f = 0; f < 6; ++f)
+    out << "2 " << f + 1 << " \"" << boundary_names(3)[f] << "\"\n";
+  out << "3 1 \"block\"\n$EndPhysicalNames\n$Nodes\n"
+      << (n[0] + 1) * (n[1] + 1) * (n[2] + 1) << "\n";
+  for (unsigned int k = 0; k <= n[2]; ++k)
+    for (unsigned int j = 0; j <= n[1]; ++j)
+      for (unsigned int i = 0; i <= n[0]; ++i)
+        out << number(i, j, k) << " "
+            << map(Point<3>(double(i) / n[0], double(j) / n[1], double(k) / n[2])) << "\n";
+  out << "$EndNodes\n";
+  std::vector<std::string> elements;
+  const auto add = [&](const std::string &begin, const std::vector<unsigned int> &nodes)
+  {
+    std::string line = std::to_string(elements.size() + 1) + begin;
+    for (const unsigned int node : nodes)
+      line += " " + std::to_string(node);
+    elements.push_back(line);
+  };
+  std::mt19937 random;
+  for (unsigned int k = 0; k < n[2]; ++k)
+    for (unsigned int j = 0; j < n[1]; ++j)
+      for (unsigned int i = 0; i < n[0]; ++i)
+      {
+        if (!takes(Point<3>((i + 0.5) / n[0], (j + 0.5) / n[1], (k + 0.5) / n[2])))
+          continue;
+        std::array<unsigned int, 8> c{{number(i, j, k), number(i + 1, j, k),
+                                       number(i + 1, j + 1, k), number(i, j + 1, k),
+                                       number(i, j, k + 1), number(i + 1, j, k + 1),
+                                       number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1)}};
+        const auto face = [&](const unsigned int id, const std::array<unsigned int, 4> &v)
+        {
+          add(" 3 2 " + std::to_string(id) + " " + std::to_string(id),
+              {c[v[0]], c[v[1]], c[v[2]], c[v[3]]});
+        };
+        if (i == 0)
+          face(1, {{0, 3, 7, 4}});
+        if (i + 1 == n[0])
+          face(2, {{1, 2, 6, 5}});
+        if (j == 0)
+          face(3, {{0, 1, 5, 4}});
+        if (j + 1 == n[1])
+          face(4, {{3, 2, 6, 7}});
+        if (k == 0)
+          face(5, {{0, 1, 2, 3}});
+        if (k + 1 == n[2])
+          face(6, {{4, 5, 6, 7}});
+        for (unsigned int turns = any_order ? random() % 4 : 0; turns > 0; --turns)
+          c = {{c[1], c[2], c[3], c[0], c[5], c[6], c[7], c[4]}};
+        for (unsigned int turns = any_order ? random() % 3 : 0; turns > 0; --turns)
+          c = {{c[0], c[4], c[5], c[1], c[3], c[7], c[6], c[2]}};
+        add(" 5 2 1 1", {c.begin(), c.end()});
+      }
+  out << "$Elements\n" << elements.size() << "\n";
+  for (const std::string &element : elements)
+    out << element << "\n";
+  out << "$EndElements\n";
+}
+
+/** A scene of the mesh, without conditions. */
+Scene<3> scene_of(const Grid &grid, const std::string &name)
+{
+  const std::string file = name + ".msh";
+  grid.write(file);
+  std::ofstream(name + ".prm")
+      << "set Dimension = 3\nsubsection Geometry\n  set Shape = file\n  set File = " << file
+      << "\nend\nsubsection Boundary top\n  set Displacement = 0; 0; 0\nend\n";
+  return read_scene<3>(name + ".prm", {});
+}
+
+Point<3> fan(const Point<3> &x)
+{
+  return {4 * x[0] + 2.4 * (x[2] - 0.5) * x[0] * (1 - x[0]), 2 * x[1], 4 * x[2]};
+}
+
+Point<3> frustum(const Point<3> &x)
+{
+  const double width = 4 * (1 - 0.3 * x[1]);
+  return {width * (x[0] - 0.5), 2 * x[1], width * (x[2] - 0.5)};
+}
+
+Point<3> turned(const Point<3> &x)
+{
+  const double c = std::cos(0.5), s = std::sin(0.5), d = std::cos(0.3), t = std::sin(0.3);
+  const Point<3> y(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
+  return {y[0], d * y[1] - t * y[2], t * y[1] + d * y[2]};
+}
+
+/** `u = B x + b` in a body that slips along its bottom, whatever its normal, under the traction that it has there. */
+TEST(Hexahedra, HaveConstantStressAndUniformSlip)
+{
+  const double entries[3][3] = {{0.1, 0.02, -0.3}, {0.05, -0.2, 0.07}, {0.11, 0.13, 0.17}};
+  const Tensor<2, 3> B(entries);
+  const KnownField<3> exact{[=](const Point<3> &x) { return B * x; },
+                            [=](const Point<3> &) { return B; }};
+  const std::vector<Map> maps{fan, frustum, [](const Point<3> &x) { return turned(frustum(x)); }};
+  for (const Map &map : maps)
+    for (const unsigned int degree : {2U, 3U})
+    {
+      Scene<3> scene = scene_of({{{2, 2, 2}}, map, true}, "hexahedra-patch");
+      scene.adaptivity.start_degree = degree;
+      scene.adaptivity.maximum_steps = 1;
+      scene.geometry.graded_towards = {map(Point<3>(0, 0, 0)), map(Point<3>(1, 1, 0))};
+      scene.geometry.grading_levels = 1;
+      scene.solver.primal_tolerance = 1e-12;
+      const HookesLaw<3> law(scene.materials[0]);
+      const std::vector<Side<3>> sides = sides_of(scene.geometry);
+      for (auto &boundary : scene.boundaries)
+        if (const Tensor<1, 3> n = sides[boundary.id].outward;
+            boundary.name == "front" || boundary.name == "top")
+          prescribe(boundary, exact);
+        else
+        {
+          ASSERT_GT(n.norm(), 0);
+          const Tensor<1, 3> traction = law.traction(B, n);
+          for (unsigned int c = 0; c < 3; ++c)
+            boundary.traction[c] = expression<3>(traction[c]);
+        }
+      BoundaryCondition<3> &bottom = scene.boundary("bottom");
+      bottom.contact = Contact::tangential; // g = 1 and n are added to what it carries
+      bottom.friction.bound = expression<3>(1.);
+      const Tensor<1, 3> n = sides[bottom.id].outward;
+      Tensor<1, 3> slip;
+      {
+        // The slip of a linear field is uniform in direction where B maps the plane to one line: B = b m' + s n'.
+        const Tensor<1, 3> along = sides[bottom.id].pieces[0][1] - sides[bottom.id].pieces[0][0];
+        slip = along / along.norm();
+      }
+      const KnownField<3> uniform{[=](const Point<3> &x)
+                                  { return B * n * (n * (x - map(Point<3>()))) + slip; },
+                                  [=](const Point<3> &) { return outer_product(B * n, n); }};
+      for (auto &boundary : scene.boundaries)
+        if (const Tensor<1, 3> normal = sides[boundary.id].outward; boundary.has_displacement())
+          prescribe(boundary, uniform);
+        else
+        {
+          Tensor<1, 3> traction = law.traction(outer_product(B * n, n), normal);
+          if (boundary.name == "bottom")
+            traction += slip; // against friction of the size 1
+          for (unsigned int c = 0; c < 3; ++c)
+            boundary.traction[c] = expression<3>(traction[c]);
+        }
+      steps_of<3>(
+          scene,
+          [&](const StepReport<3> &step)
+          {
+            double difference = 0;
+            for (const auto &cell : step.primal->space.dof_handler.active_cell_iterators())
+              for (const PointValue<3> &value : step.field.values(cell, {Point<3>(0.3, 0.6, 0.2)}))
+                difference = std::max(
+                    difference, (value.displacement -
+                                 uniform.value(map_of<3>(cell).point(Point<3>(0.3, 0.6, 0.2))))
+                                    .norm());
+            EXPECT_LT(difference, 1e-9);
+            EXPECT_LT(step.norms.total, 1e-8);
+            EXPECT_EQ(step.primal->newton.n_slipping, step.contact.at(0).points.size());
+            for (const ContactPoint<3> &point : step.contact.at(0).points)
+              EXPECT_LT((point.lambda - slip).norm(), 1e-9);
+          });
+    }
+}
+
+/** prm/dome.prm as a file of boxes, their corners in any order, and turned: the same J, meshes and points. */
+TEST(Hexahedra, OfABoxAreTheBox)
+{
+  Scene<3> box = read_scene<3>("prm/dome.prm", {{"Adaptivity/Maximum unknowns", "1500"}});
+  box.solver.primal_tolerance = 1e-11;
+  const std::vector<Step> expected = steps_of<3>(box);
+  const Map place = [](const Point<3> &x) { return Point<3>(2 * x[0] - 1, x[1], 2 * x[2] - 1); };
+  for (const bool is_turned : {false, true})
+    for (const LinearMethod linear : {LinearMethod::multigrid, LinearMethod::direct})
+    {
+      Scene<3> scene =
+          scene_of({{{4, 2, 4}},
+                    is_turned ? Map([&](const Point<3> &x) { return turned(place(x)); }) : place,
+                    true},
+                   "hexahedra-box");
+      const auto back = [is_turned](const Point<3> &x)
+      {
+        Tensor<1, 3> result = x;
+        for (unsigned int d = 0; d < 3 && is_turned; ++d)
+        {
+          Point<3> e;
+          e[d] = 1;
+          result[d] = turned(e) * x;
+        }
+        return Point<3>(result);
+      };
+      scene.materials = box.materials;
+      scene.adaptivity = box.adaptivity;
+      scene.solver = box.solver;
+      scene.solver.linear = linear;
+      for (const char *const name : {"top", "bottom"})
+      {
+        const BoundaryCondition<3> &from = box.boundary(name);
+        BoundaryCondition<3> &to = scene.boundary(name);
+        to.contact = from.contact;
+        const auto moved = [&](const Expression<3> &f) -> Expression<3>
+        {
+          return f ? expression<3>(std::function<double(const Point<3> &)>(
+                         [f, back](const Point<3> &x) { return f->value(back(x)); }))
+                   : nullptr;
+        };
+        to.gap = moved(from.gap);
+        to.friction.bound = moved(from.friction.bound);
+        const Point<3> u =
+            is_turned ? turned(Point<3>(0.01, -0.05, 0.005)) : Point<3>(0.01, -0.05, 0.005);
+        for (unsigned int c = 0; c < 3 && from.has_displacement(); ++c)
+          to.displacement[c] = expression<3>(u[c]);
+      }
+      const std::vector<Step> steps = steps_of<3>(scene);
+      ASSERT_EQ(steps.size(), expected.size());
+      for (unsigned int k = 0; k < steps.size(); ++k)
+      {
+        EXPECT_EQ(steps[k].n_cells, expected[k].n_cells);
+        EXPECT_EQ(steps[k].n_slipping, expected[k].n_slipping);
+        EXPECT_EQ(steps[k].n_pressing, expected[k].n_pressing);
+        EXPECT_NEAR(steps[k].energy, expected[k].energy,
+                    1e-10 * expected[k].norm * expected[k].norm);
+        EXPECT_NEAR(steps[k].estimate, expected[k].estimate, 1e-8 * expected[k].estimate);
+      }
+    }
+}
+
+/** What a mesh may not be: one line with what is wrong. */
+TEST(Hexahedra, AreRefusedInOneLine)
+{
+  const auto refused = [](const Grid &grid)
+  {
+    grid.write("hexahedra-bad.msh");
+    try
+    {
+      read_hexahedral_file("hexahedra-bad.msh");
+    }
+    catch (const InputError &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto identity = [](const Point<3> &x) { return x; };
+  const auto has = [](const std::string &line, const std::string &words)
+  { EXPECT_NE(line.find(words), std::string::npos) << line; };
+  EXPECT_EQ(refused({{{2, 2, 2}}, identity, true}), "");
+  has(refused({{{2, 1, 1}},
+               [](const Point<3> &x) { return Point<3>(x[0], x[1], x[2] + 0.1 * x[0] * x[1]); }}),
+      "is not plane");
+  has(refused({{{1, 1, 1}},
+               [](const Point<3> &x) { return Point<3>(x[0] * (1 - 1.5 * x[1]), x[1], x[2]); }}),
+      "folded");
+  has(refused({{{3, 1, 1}},
+               identity,
+               false,
+               [](const Point<3> &x) { return std::abs(x[0] - 0.5) > 0.2; }}),
+      "make 2 parts");
+  has(refused({{{2, 1, 1}},
+               [](const Point<3> &x) { return Point<3>(std::abs(x[0] - 0.5), x[1], x[2]); }}),
+      "two nodes are at");
+}
+} // namespace
