@@ -122,10 +122,10 @@ class Disks(RunTest):
 
     def test_a_row_is_there_as_a_whole_or_not(self):
         quiet = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false")
-        line = self.run_scene(*ENDLESS, *quiet, status=2, preexec_fn=size_limit(9000))
+        many = ("Loading/Steps=1000", "Adaptivity/Maximum steps=1", "Error/Bound=false")  # which has no state.dat
+        line = self.run_scene(*many, *quiet, status=2, preexec_fn=size_limit(9000))
         steps = len(self.rows())
-        self.assertRegex(line, r"(convergence\.csv|state\.dat) cannot be written: File too large; "
-                               rf"(step 1 is|steps 1 to {steps} are) safe")
+        self.assertIn(f"convergence.csv cannot be written: File too large; steps 1 to {steps} are safe", line)
         table = (self.out / "convergence.csv").read_text()
         self.assertTrue(table.endswith("\n") and len(table) < 9000)
         self.assertEqual(self.summary()["steps"], steps)
