@@ -54,7 +54,8 @@ void Multigrid::prepare(Level &level)
   settings.degree = smoothing_degree;
   settings.smoothing_range = smoothing_range;
   settings.preconditioner = std::make_shared<BlockJacobi<float>>(*level.matrix);
-  settings.eig_cg_n_iterations = 20; // 12 fall short on tapered cells, where the cycle was indefinite then
+  settings.eig_cg_n_iterations =
+      20; // 12 fall short on tapered cells, where the cycle was indefinite then
   level.smoother = std::make_unique<Smoother>();
   level.smoother->initialize(*level.matrix, settings);
   level.smoother->estimate_eigenvalues(level.b);
