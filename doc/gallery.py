@@ -126,7 +126,7 @@ def draw_body(run, rows):
 
 
 class Box:
-    """The cells of a box in space: (n+1)^3 points each, x fastest, from all pieces of the last step."""
+    """The cells of a body in space: (n+1)^3 points each, x fastest, from all pieces of the last step."""
 
     def __init__(self, run):
         pieces = [path.read_text(encoding="latin-1")
@@ -138,14 +138,35 @@ class Box:
             side = round((len(values) / cells) ** (1 / 3))
             setattr(self, name, values.reshape(cells, side, side, side, values.shape[1]))
 
-    def face(self, axis, end):
-        """Its cells on a side of the box: places, displacements and stresses of their points."""
-        index = [slice(None)] * 4
-        index[3 - axis] = (0, -1)[end]
-        x = self.points[..., axis]
-        is_on_it = np.abs(x[tuple(index)] - (x.min(), x.max())[end]).max(axis=(1, 2)) < 1e-5 * np.ptp(x)
-        return [values[tuple(index)][is_on_it]
-                for values in (self.points, self.displacement, self.von_mises)]
+    def faces_in_view(self):
+        """Those of the surface that look to the viewer, the farthest first: places, displacements and stresses of their points."""
+        viewer = np.cross(*PAPER)
+        weights = np.linspace(0, 1, 5)  # of the places where a face of half the size may have its middle or corners
+        owners, faces = {}, []
+        low, size = self.points.min(axis=(0, 1, 2, 3)), np.ptp(self.points)
+
+        def key(place):  # 0.317: no place of a bisected mesh lies where two keys meet
+            return tuple(np.floor(1e5 * (place - low) / size + 0.317))
+
+        for cell, points in enumerate(self.points):
+            middle = points.mean(axis=(0, 1, 2))
+            for axis in range(3):
+                for end in (0, -1):
+                    index = [slice(None)] * 3
+                    index[2 - axis] = end
+                    x = points[tuple(index)]
+                    (a, b), (c, d) = x[[0, -1]][:, [0, -1]]
+                    for s in weights:
+                        for t in weights:
+                            place = (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d)
+                            owners.setdefault(key(place), set()).add(cell)
+                    centre, normal = (a + b + c + d) / 4, np.cross(b - a, c - a)
+                    normal *= np.sign(normal @ (centre - middle))
+                    if normal @ viewer > 1e-9 * np.linalg.norm(normal):
+                        faces.append((centre @ viewer, key(centre), (cell, *index)))
+        on_surface = sorted(((depth, face) for depth, centre, face in faces if len(owners[centre]) == 1),
+                            key=lambda entry: entry[0])
+        return [[values[face] for values in (self.points, self.displacement, self.von_mises)] for _, face in on_surface]
 
 
 def on_paper(x):
@@ -166,17 +187,16 @@ def name_edges(axes, box, drawn):
 
 
 def draw_box(figure, axes, run):
-    """Von Mises stress on three faces of the deformed body, that of the contact among them."""
+    """Von Mises stress on the surface of the deformed body, seen from below, as the contact is."""
     box = Box(run)
-    patches = [box.face(0, 0), box.face(1, 0), box.face(2, 1)]  # left, bottom, back
+    patches = box.faces_in_view()
     scale = deformation_scale(box)
     stresses = np.concatenate([stress.ravel() for _, _, stress in patches])
     limit = np.quantile(stresses, 0.995)
     drawn = [on_paper(points + scale * displacement) for points, displacement, _ in patches]
-    for cells, (_, _, stress) in zip(drawn, patches):
-        for cell, values in zip(cells, stress[..., 0]):
-            colours = axes.pcolormesh(cell[..., 0], cell[..., 1], values, cmap="viridis",
-                                      shading="gouraud", vmin=0, vmax=limit, rasterized=True)
+    for cell, (_, _, stress) in zip(drawn, patches):
+        colours = axes.pcolormesh(cell[..., 0], cell[..., 1], stress[..., 0], cmap="viridis",
+                                  shading="gouraud", vmin=0, vmax=limit, rasterized=True)
     name_edges(axes, box, np.concatenate([cells.reshape(-1, 2) for cells in drawn]))
     axes.set_aspect("equal")
     axes.set_axis_off()
