@@ -217,6 +217,9 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
             << ending.reason << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
+/** Of a larger mesh a state takes more than it saves: all numbers of all cells, from one process. */
+constexpr dealii::types::global_dof_index largest_state = 300000; // unknowns
+
 /** @p state: where it goes on. */
 template <int dim>
 void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
@@ -248,7 +251,8 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
           progress.erase();
           print_row(step);
           ending.hear(step);
-          output.write_step(step, solver->state());
+          output.write_step(step,
+                            step.size.n_dofs <= largest_state ? solver->state() : std::nullopt);
         },
         announce);
   }

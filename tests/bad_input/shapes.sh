@@ -152,15 +152,16 @@ invalid "Geometry/Graded towards = 3, 3" "outside the body" -- "Geometry/Graded 
 invalid "Boundary end/Displacement" "axis x = 0" -- "Material/Plane=axisymmetric"
 
 # --- what curves and meshes do not offer
-declined() { # BASE NAME
+declined() { # BASE NAME WHAT SPACE SAYS
   base=$1
   invalid "Geometry/Shape = $2" "the primal path" "Shape = box" -- "Solver/Path=primal" "Adaptivity/Method=hap2"
-  invalid "Geometry/Shape = $2" "space has no other shape" -- "Dimension=3"
+  invalid "$3" -- "Dimension=3"
 }
-declined ring.prm "ring sector"
-declined half_disc.prm "half disc"
-declined plate.prm "plate with hole"
-declined mesh.prm file
+other="space has no other shape"
+declined ring.prm "ring sector" "$other"
+declined half_disc.prm "half disc" "$other"
+declined plate.prm "plate with hole" "$other"
+declined mesh.prm file "has no hexahedra"
 base=ring.prm
 invalid "Geometry/Shape = ring sector" "Exact solution/Solution = smooth" "Error/Reference solution" -- "${free[@]}" "Exact solution/Solution=smooth" \
   "Boundary start/Contact=bilateral" "Boundary start/Friction bound=1" "Boundary inner/Pressure=" "Boundary inner/Displacement=exact" \

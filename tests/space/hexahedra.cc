@@ -248,6 +248,37 @@ TEST(Hexahedra, OfABoxAreTheBox)
     }
 }
 
+/** A skew angle of cells, which re-entrant edges and free sides leave: bisected everywhere it is the finer one. */
+TEST(Hexahedra, OfAnAngleHaveTheEnergyOfNestedMeshes)
+{
+  const auto steps = [](const unsigned int n, const unsigned int n_steps)
+  {
+    Scene<3> scene =
+        scene_of({{{2 * n, 2 * n, n}},
+                  [](const Point<3> &x) { return Point<3>(2 * x[0] + 0.5 * x[2], 2 * x[1], x[2]); },
+                  true,
+                  [](const Point<3> &x) { return x[0] < 0.5 || x[1] < 0.5; }},
+                 "hexahedra-angle");
+    scene.boundary("top").displacement = {
+        {expression<3>(0.01), expression<3>(-0.02), expression<3>(0.004)}};
+    scene.boundary("right").traction = {
+        {expression<3>(0.), expression<3>(-0.1), expression<3>(0.05)}};
+    scene.boundary("bottom").contact = Contact::unilateral;
+    scene.boundary("bottom").friction.bound = expression<3>(0.005);
+    scene.adaptivity.method = Method::hup2;
+    scene.adaptivity.maximum_steps = n_steps;
+    scene.solver.primal_tolerance = 1e-12;
+    return steps_of<3>(scene);
+  };
+  const Step bisected = steps(1, 2).back(), fine = steps(2, 1).back();
+  EXPECT_EQ(bisected.n_cells, 24);
+  EXPECT_EQ(fine.n_cells, 24);
+  EXPECT_EQ(bisected.n_pressing, fine.n_pressing);
+  EXPECT_GT(fine.n_slipping, 0);
+  EXPECT_NEAR(bisected.lagrangian, fine.lagrangian, 1e-9 * std::abs(fine.lagrangian));
+  EXPECT_NEAR(bisected.estimate, fine.estimate, 1e-6 * fine.estimate);
+}
+
 /** What a mesh may not be: one line with what is wrong. */
 TEST(Hexahedra, AreRefusedInOneLine)
 {

@@ -249,9 +249,10 @@ TEST(Curves, MeetKirschsPlate)
   };
   const auto [J, largest] = energy(14);
   EXPECT_NEAR(largest, 3, 1e-4); // Kirsch's three times the tension
+  const double round_off = std::numeric_limits<double>::epsilon(); // 7e-8 squared is 25 of it
   for (const auto &[degree, limit] : std::vector<std::pair<unsigned int, double>>{
            {4, 2.4e-3}, {6, 7.6e-5}, {8, 2.4e-6}, {10, 7.4e-8}})
-    EXPECT_LT(std::sqrt(std::abs(energy(degree).first / J - 1)), limit) << degree;
+    EXPECT_LT(std::abs(energy(degree).first / J - 1), limit * limit + 8 * round_off) << degree;
 }
 
 /** Lame's hollow sphere under pressure inside, half of it as a body of revolution. */
