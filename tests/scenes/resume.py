@@ -8,7 +8,7 @@ import sys
 import time
 import unittest
 
-KILLS, SEED = (int(sys.argv.pop(2)), int(sys.argv.pop(2))) if len(sys.argv) > 3 else (3, 1)
+KILLS, SEED = (int(sys.argv.pop(2)), int(sys.argv.pop(2))) if len(sys.argv) > 3 else (2, 1)
 
 from runs import ENVIRONMENT, PROGRAM, RunTest, command
 
@@ -58,6 +58,13 @@ class Resume(RunTest):
             self.run_scene("Adaptivity/Maximum steps=3", *RUN[1:], *more)
             self.assertIn("\ngoes on after step 3\n", self.go_on(STEPS))
             self.check_same(whole)
+
+    def test_in_space(self):
+        self.scene = "prm/slab.prm"
+        whole = self.whole("Adaptivity/Maximum steps=3")
+        self.run_scene("Adaptivity/Maximum steps=2")
+        self.go_on("Adaptivity/Maximum steps=3")
+        self.check_same(whole)
 
     def test_killed_at_any_moment(self):
         whole = self.whole(*RUN)
