@@ -10,7 +10,7 @@ import unittest
 
 KILLS, SEED = (int(sys.argv.pop(2)), int(sys.argv.pop(2))) if len(sys.argv) > 3 else (2, 1)
 
-from runs import ENVIRONMENT, PROGRAM, RunTest, command
+from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest, command
 
 STEPS = "Adaptivity/Maximum steps=7"
 # No bound: which of some congruent patches is solved for all of them is not kept, and its last digits differ.
@@ -60,7 +60,7 @@ class Resume(RunTest):
             self.check_same(whole)
 
     def test_in_space(self):
-        self.scene = "prm/slab.prm"
+        self.scene = SCENES / "slab.prm"
         whole = self.whole("Adaptivity/Maximum steps=3")
         self.run_scene("Adaptivity/Maximum steps=2")
         self.go_on("Adaptivity/Maximum steps=3")
