@@ -186,6 +186,33 @@ TEST(Hexahedra, HaveConstantStressAndUniformSlip)
     }
 }
 
+/** A uniform pressure presses on a plane that is not parallel to the face, whose measure varies. */
+TEST(Hexahedra, RestOnAGapThatVaries)
+{
+  const Map map = [](const Point<3> &x) { return turned(fan(x)); };
+  Scene<3> scene = scene_of({{{2, 2, 2}}, map, true}, "hexahedra-gap");
+  scene.adaptivity.maximum_steps = 1;
+  scene.solver.primal_tolerance = 1e-12;
+  BoundaryCondition<3> &bottom = scene.boundary("bottom");
+  const Tensor<1, 3> n = sides_of(scene.geometry)[bottom.id].outward;
+  const Tensor<2, 3> B({{-0.1, -0.02, 0.03}, {0.02, -0.1, 0.04}, {-0.03, -0.04, -0.1}});
+  const KnownField<3> exact{[=](const Point<3> &x) { return B * x; },
+                            [=](const Point<3> &) { return B; }};
+  for (BoundaryCondition<3> &boundary : scene.boundaries)
+    if (boundary.id != bottom.id)
+      prescribe(boundary, exact);
+  bottom.contact = Contact::unilateral;
+  bottom.gap = expression<3>(
+      std::function<double(const Point<3> &)>([=](const Point<3> &x) { return n * (B * x); }));
+  const double pressure = -(HookesLaw<3>(scene.materials[0]).traction(B, n) * n);
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                for (const ContactPoint<3> &point : step.contact.at(0).points)
+                  EXPECT_NEAR(point.normal_traction, -pressure, 1e-9 * pressure);
+              });
+}
+
 /** prm/dome.prm as a file of boxes, their corners in any order, and turned: the same J, meshes and points. */
 TEST(Hexahedra, OfABoxAreTheBox)
 {
