@@ -312,7 +312,7 @@ void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVect
  */
 template <int dim>
 bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b,
-                                const double tolerance)
+                                const double tolerance, const double error)
 {
   DistributedVector r = b, z = b, p, q = b;
   multiply_linearised(q, v);
@@ -325,6 +325,8 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
     before_step();
     precondition(z, r);
     const double next = r * z;
+    if (next > 0 && next <= error * error)
+      break;
     if (step == 0)
       p = z;
     else
@@ -343,10 +345,10 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
 
 template <int dim>
 void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
-                              const double tolerance)
+                              const double tolerance, const double error)
 {
   const DistributedVector start = v;
-  while (!iterate(v, b, tolerance))
+  while (!iterate(v, b, tolerance, error))
   {
     if (method == LinearMethod::direct)
       throw NumericalFailure(

@@ -13,6 +13,9 @@ using namespace dealii;
 
 namespace
 {
+
+/** What conjugate gradients may leave of the error that Newton's method may, in its first step; a tenth of it in each further one. */
+constexpr double linear_part = 0.1;
 constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 
 /**
@@ -349,7 +352,8 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
     matrix.linearise(moment_states);
     const DistributedVector old = v;
     hold(v, moment_states);
-    matrix.solve(v, right_hand_side(moment_states), linear_tolerance(settings, now, report.steps));
+    matrix.solve(v, right_hand_side(moment_states), linear_tolerance(settings, now, report.steps),
+                 linear_part * std::pow(0.1, report.steps) * settings.error);
     if (report.steps > 0 && shorten(v, old, now.load))
       ++report.line_searches;
     previous = now.norm;

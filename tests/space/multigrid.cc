@@ -144,6 +144,30 @@ TEST(Multigrid, PreconditionsBySymmetricOperators)
                });
 }
 
+/** Conjugate gradients may stop by the error in the energy norm, which the preconditioner knows, in a part of the steps. */
+TEST(Multigrid, StopsWhereTheErrorIsSmall)
+{
+  std::mt19937 random;
+  on_last_mesh(two_materials(),
+               [&](const MomentSpace<3> &space)
+               {
+                 PrimalSystem<3> system(space);
+                 MomentMatrix<3> matrix(space, system, LinearMethod::multigrid);
+                 matrix.linearise(std::vector<MomentState<3>>(space.contact.size()));
+                 DistributedVector b = space.owned_vector(), exact = b, v = b, Ae = b;
+                 randomise(b, random);
+                 space.constraints.set_zero(b);
+                 matrix.solve(exact, b, 1e-9 * b.l2_norm());
+                 const unsigned int all_steps = matrix.n_steps;
+                 const double wanted = 1e-3 * std::sqrt(b * exact);
+                 matrix.solve(v, b, 1e-9 * b.l2_norm(), wanted);
+                 EXPECT_LT(2 * (matrix.n_steps - all_steps), all_steps);
+                 v -= exact;
+                 matrix.multiply(Ae, v);
+                 EXPECT_LT(std::sqrt(v * Ae), 1.5 * wanted);
+               });
+}
+
 /** Steps of conjugate gradients do not grow with the mesh. */
 TEST(Multigrid, TakesAFewStepsOnAnyMesh)
 {

@@ -53,11 +53,12 @@ public:
   void linearise(const std::vector<MomentState<dim>> &states, bool anew = false);
 
   /**
-   * Improves @p v until the residual is below @p tolerance; what is held stays as it is in v. Collective. Where
+   * Improves @p v until the residual r is below @p tolerance, or the error in the energy norm below @p error, taken for
+   * `(r' M r)^1/2` with the preconditioner M; what is held stays as it is in v. Collective. Where
    * multigrid takes too many steps the next method takes its place from here on. Throws
    * NumericalFailure where that does not help.
    */
-  void solve(DistributedVector &v, const DistributedVector &b, double tolerance);
+  void solve(DistributedVector &v, const DistributedVector &b, double tolerance, double error = 0);
 
   /** An approximate solution of `(A + H) z = r`. */
   void precondition(DistributedVector &z, const DistributedVector &r) const;
@@ -78,7 +79,7 @@ private:
   void factor();
   void factor_alone();
   void factor_together();
-  bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance);
+  bool iterate(DistributedVector &v, const DistributedVector &b, double tolerance, double error);
   void set_block(unsigned int k, const Block &block);
   void multiply_linearised(DistributedVector &y, const DistributedVector &x) const;
 
