@@ -3,7 +3,7 @@
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
 GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, where the primal path
 overtakes the reduced one in the plane, and what Coulomb's law takes. Runs that are there already are not repeated; --without million leaves some out;
---draw runs nothing and draws the charts from the tables of doc/space."""
+--large measures ten and thirty million unknowns instead, which wants 24 GB that are free; --draw runs nothing and draws the charts from the tables of doc/space."""
 import argparse
 import csv
 import json
@@ -25,6 +25,7 @@ parser.add_argument("--unknowns", type=int, default=20000, help="the largest of 
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
 parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust"])
+parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
 OUTPUT, FIGURES = pathlib.Path(options.output), pathlib.Path(options.figures)
@@ -164,6 +165,21 @@ def draw_million():
           {"doc/space/slab-million.prm on 2 processes": (points, 5, (-10, 0))}, log_y=False)
 
 
+def large():
+    """Runs of slab-million.prm whose last meshes are larger, by other coarse meshes; times of whole runs."""
+    table = []
+    for name, processes, subdivisions, limit in (("ten million", 2, "3, 3, 2", 6e6), ("thirty million", 2, "5, 5, 2", 1.5e7),
+                                                 ("three million", 1, "3, 3, 2", 2e6), ("three million", 2, "3, 3, 2", 2e6)):
+        last = run(f"large-{name}-{processes}".replace(" ", "-"), "doc/space/slab-million.prm", processes,
+                   **{"Geometry/Subdivisions": subdivisions, "Adaptivity/Maximum unknowns": int(limit)})[-1]
+        table.append([name, processes, *(int(last[key]) for key in ("dofs_free", "multipliers", "newton_steps", "newton_cg")),
+                      last["lagrangian"], round(last["peak_memory"] / 1e9, 2), round(last["run_wall"], 1)])
+        print(*table[-1], flush=True)
+    write("large.csv", ["run", "processes", "dofs_free", "multipliers", "newton_steps", "newton_cg", "lagrangian", "gigabytes",
+                        "wall_seconds"], table)
+    print("speed-up: wall {:.2f}".format(table[2][-1] / table[3][-1]))
+
+
 def speedup():
     table = []
     for n in (1, 2):
@@ -253,6 +269,6 @@ if options.draw:
     draw_million()
     draw_crossover()
     draw_coulomb()
-for part in (million, accuracy, crossover, speedup, coulomb, robust):
+for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust):
     if not options.draw and part.__name__ not in options.without:
         part()
