@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 parser = argparse.ArgumentParser()
 parser.add_argument("--program", default="build/hpvi")
 parser.add_argument("--output", default="output/space")
-parser.add_argument("--unknowns", type=int, default=20000, help="the largest of the limits at which runs of the accuracy chart end")
+parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
 parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust"])
@@ -36,7 +36,7 @@ os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"
 
 # Colours of Okabe and Ito, which the colour-blind tell apart; marker and line say the same in grey.
 LOOKS = (("#0072b2", "o", "-"), ("#d55e00", "s", "--"), ("#009e73", "^", "-."), ("#000000", "D", ":"),
-         ("#8a5a00", "v", "-"))
+         ("#8a5a00", "v", "-"), ("#cc79a7", "P", "--"))
 
 
 def measured(command):
@@ -118,7 +118,7 @@ def accuracy():
     if "million" not in options.without:
         limit = min(limit, run("million", "doc/space/slab-million.prm", 2)[-1], key=lambda row: row["energy"])
     J = limit["energy"]
-    methods = {"uniform Q2": "hup2", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
+    methods = {"uniform Q2": "hup2", "uniform Q4": "hup4", "adaptive Q2": "hap2", "adaptive Q3": "hap3", "adaptive Q4": "hap4"}
     table = []
     for label, method in methods.items():
         for limits in series():  # each a run of its own: CPU seconds of runs are known, not those of steps
@@ -143,7 +143,7 @@ def draw_accuracy():
     points = {}
     for row in read("accuracy.csv"):
         points.setdefault(row["method"], []).append((row["cpu_seconds"], row["error"]))
-    places = {"uniform Q2": (0, (8, 0)), "adaptive Q2": (0, (-8, 0)), "adaptive Q3": (0, (-8, 0)),
+    places = {"uniform Q2": (0, (8, 0)), "uniform Q4": (-1, (8, 0)), "adaptive Q2": (0, (-8, 0)), "adaptive Q3": (0, (-8, 0)),
               "adaptive Q4": (0, (8, 4)), "GetFEM, uniform Q2": (0, (8, 4))}
     chart("accuracy.png", "CPU time of a run [s]", "relative error of the energy [-]",
           {label: (points[label], *places[label]) for label in places if label in points})
