@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/all_cells.h>
-#include <hpvi/base/processes.h>
+#include <hpvi/body/cell_ranks.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/distributed/tria_base.h>
 
 #include <utility>
 
@@ -13,14 +14,16 @@ using namespace dealii;
 template <int dim>
 std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim> &field)
 {
-  if (hpvi::n_processes(field.communicator()) == 1)
+  const Triangulation<dim> &mesh = field.dof_handler.get_triangulation();
+  if (!dynamic_cast<const parallel::TriangulationBase<dim> *>(&mesh))
     return estimate.indicators();
+  const std::vector<types::global_cell_index> ranks = cell_ranks(mesh);
   std::vector<std::pair<types::global_cell_index, double>> own;
   for (const auto &cell : field.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      own.emplace_back(cell->global_active_cell_index(),
+      own.emplace_back(ranks[cell->active_cell_index()],
                        estimate.indicator(cell->active_cell_index()));
-  std::vector<double> eta(field.dof_handler.get_triangulation().n_global_active_cells());
+  std::vector<double> eta(mesh.n_global_active_cells());
   for (const auto &part : Utilities::MPI::all_gather(field.communicator(), own))
     for (const auto &[cell, value] : part)
       eta[cell] = value;

@@ -4,6 +4,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
+#include <hpvi/body/cell_ranks.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/checks/checks.h>
 #include <hpvi/primal/load_check.h>
@@ -317,8 +318,9 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
   std::unique_ptr<Transfer<dim>> transfer, of_past;
   {
     StageTimer timer(times.refine);
+    const auto ranks = cell_ranks(static_cast<const Triangulation<dim> &>(*mesh));
     for (const auto &cell : mesh->active_cell_iterators())
-      if (cell->is_locally_owned() && refinement.bisect[cell->global_active_cell_index()])
+      if (cell->is_locally_owned() && refinement.bisect[ranks[cell->active_cell_index()]])
         cell->set_refine_flag();
     mesh->prepare_coarsening_and_refinement();
     if (has_start)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/cell_ranks.h>
 #include <hpvi/primal/cell_numbers.h>
 #include <hpvi/primal/stored_values.h>
 #include <hpvi/primal/transfer.h>
@@ -20,13 +21,14 @@ template <int dim>
 StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVector &u,
                            const std::vector<ContactVector<dim>> &lambda)
 {
+  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
   CellNumbers own_u, own_z;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const CellValues values = values_on(cell, space, u, lambda);
-      own_u.emplace_back(cell->global_active_cell_index(), values.u);
-      own_z.emplace_back(cell->global_active_cell_index(), values.lambda);
+      own_u.emplace_back(ranks[cell->active_cell_index()], values.u);
+      own_z.emplace_back(ranks[cell->active_cell_index()], values.lambda);
     }
   const auto joined = [&space](const CellNumbers &own)
   {
@@ -44,12 +46,13 @@ bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
                  std::vector<ContactVector<dim>> &lambda)
 {
   const unsigned int n = space.tables.fe.dofs_per_cell;
+  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
   u = space.ghosted_vector();
   lambda.assign(space.contact.size(), ContactVector<dim>());
   CellNumbers sizes; // of the multiplier
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      sizes.emplace_back(cell->global_active_cell_index(),
+      sizes.emplace_back(ranks[cell->active_cell_index()],
                          std::vector<double>(1, values_on(cell, space, u, lambda).lambda.size()));
   std::vector<std::size_t> first(1, 0);
   for (const auto &size : join_cells(sizes, n_cells(space), space.communicator()))
@@ -59,7 +62,7 @@ bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const auto k = cell->global_active_cell_index();
+      const auto k = ranks[cell->active_cell_index()];
       take_values<dim>(cell,
                        {{stored_u.begin() + n * k, stored_u.begin() + n * (k + 1)},
                         {stored_z.begin() + first[k], stored_z.begin() + first[k + 1]}},

@@ -9,7 +9,7 @@
 
 namespace hpvi
 {
-/** eta_K by global_active_cell_index: the same cells are marked on any number of processes. Collective. */
+/** eta_K by cell_ranks(): the same cells are marked on any number of processes. Collective. */
 template <int dim>
 std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim> &field);
 } // namespace hpvi

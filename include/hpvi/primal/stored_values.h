@@ -11,8 +11,7 @@
 namespace hpvi
 {
 /**
- * Displacement and multiplier of the primal path cell by cell, in the order in which p4est has the cells along its curve,
- * however many processes share them.
+ * Displacement and multiplier of the primal path cell by cell, in the order of cell_ranks().
  */
 struct StoredValues
 {
