@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <sstream>
 #include <system_error>
 #include <tuple>
@@ -24,12 +26,21 @@ auto references_of(Loads &loads)
                   loads.data.displacement);
 }
 
+/** The bits of each: decimals of a large mesh would take longer than all else. */
 void write_values(std::ostream &out, const char *const name, const dealii::Vector<double> &values)
 {
-  out << name << ' ' << values.size();
+  static_assert(sizeof(double) == sizeof(std::uint64_t));
+  std::string line = name + (' ' + std::to_string(values.size()));
+  line.reserve(line.size() + 17 * values.size() + 1);
   for (const double value : values)
-    out << ' ' << text(value);
-  out << '\n';
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    line += ' ';
+    for (int shift = 60; shift >= 0; shift -= 4)
+      line += "0123456789abcdef"[bits >> shift & 15];
+  }
+  out << line << '\n';
 }
 
 /** Each cell that changes by how far it is from the one before and its degree. */
@@ -89,15 +100,15 @@ public:
   {
   }
 
-  /** As text() writes it, which knows infinity. */
-  template <class Number>
-  Number number()
+  /** As text() writes it, which knows infinity; whole numbers also in another @p base. */
+  template <class Number, class... Base>
+  Number number(const Base... base)
   {
     std::string word;
     Number value{};
     in >> word;
     const char *const end = word.data() + word.size();
-    const auto result = std::from_chars(word.data(), end, value);
+    const auto result = std::from_chars(word.data(), end, value, base...);
     if (result.ec != std::errc() || result.ptr != end)
       malformed();
     return value;
@@ -124,7 +135,10 @@ public:
     expect(name);
     dealii::Vector<double> result(number<unsigned int>());
     for (double &value : result)
-      value = number<double>();
+    {
+      const std::uint64_t bits = number<std::uint64_t>(16);
+      std::memcpy(&value, &bits, sizeof bits);
+    }
     return result;
   }
 

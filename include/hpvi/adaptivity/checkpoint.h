@@ -48,7 +48,7 @@ struct RunState
 
   static const FileFormat &format();
 
-  /** All numbers with as many digits as it takes to read them back. */
+  /** All numbers so that they read back as they are. */
   void write(std::ostream &out) const;
 
   /** What write() wrote to a file called @p name. Throws InputError where it is not whole. */
