@@ -6,6 +6,7 @@
 // program, or in the whole body, on many processes, is the business of a <i>backend</i>; the loop is the
 // same, and so is all that it says of a solution.
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/all_cells.h>
 #include <hpvi/adaptivity/column_width.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
@@ -28,24 +29,6 @@ using namespace dealii;
 
 namespace
 {
-/** eta_K by global_active_cell_index: the same cells are marked on any number of processes. */
-template <int dim>
-std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim> &field)
-{
-  if (hpvi::n_processes(field.communicator()) == 1)
-    return estimate.indicators();
-  std::vector<std::pair<types::global_cell_index, double>> own;
-  for (const auto &cell : field.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      own.emplace_back(cell->global_active_cell_index(),
-                       estimate.indicator(cell->active_cell_index()));
-  std::vector<double> eta(field.dof_handler.get_triangulation().n_global_active_cells());
-  for (const auto &part : Utilities::MPI::all_gather(field.communicator(), own))
-    for (const auto &[cell, value] : part)
-      eta[cell] = value;
-  return eta;
-}
-
 /** What the processes have had so far, their sum [bytes]. */
 double peak_memory(MPI_Comm communicator)
 {
@@ -75,8 +58,8 @@ struct AdaptiveSolver<dim>::Stages
   DataScale data;
   ErrorEstimate estimate; ///< of the current step, as the next
   BoundOfStep bound;
-  History<dim> history;                ///< of the finished steps
-  std::vector<Refinement> refinements; ///< from the coarse mesh to that of the current step
+  History<dim> history;               ///< of the finished steps
+  std::vector<MeshMarks> refinements; ///< from the coarse mesh to that of the current step
 
   Stages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
       : scene(scene), backend(std::move(backend)), true_error(scene), mean_intervals(scene)
@@ -143,8 +126,8 @@ Refinement AdaptiveSolver<dim>::Stages::mark() const
 template <int dim>
 void AdaptiveSolver<dim>::Stages::refine(const Refinement &refinement)
 {
+  refinements.emplace_back(refinement, backend->degrees());
   backend->refine(refinement);
-  refinements.push_back(refinement);
 }
 
 // @sect3{Going on where a run has ended}
@@ -157,14 +140,13 @@ template <int dim>
 void AdaptiveSolver<dim>::Stages::resume(const RunState<dim> &state)
 {
   const FileFormat &format = RunState<dim>::format();
-  format.check_entries(state.name, state.entries,
-                       RunState<dim>::entries_of(scene.effective_parameters()));
   backend->discretise();
-  for (const Refinement &refinement : state.refinements)
+  for (const MeshMarks &marks : state.refinements)
   {
-    if (refinement.bisect.size() != backend->degrees().size())
+    const Degrees degrees = backend->degrees();
+    if (!marks.fits(degrees))
       format.reject(state.name, "the run state has another coarse mesh");
-    refine(refinement);
+    refine(marks.refinement(degrees));
     backend->discretise(); // element matrices go from step to step, to the last bit
   }
   if (state.history.size() != state.refinements.size() + 1 || !backend->restore(state.values))
@@ -344,17 +326,34 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState<dim>
 {
   const OneThread one_thread; // as in run(): other numbers of threads round otherwise
   stages->hear([](const Progress &) {});
-  stages->resume(state);
+  state.require_scene(scene, hpvi::n_processes(communicator));
+  // Where a load step has ended nothing is left to mark, and element matrices are the next one's.
+  if (!state.loads)
+    stages->resume(state);
+  else if (!stages->backend->restore_end(state.refinements, state.values))
+    RunState<dim>::format().reject(state.name,
+                                   "the run state has another coarse mesh or number of unknowns");
 }
 
 template <int dim>
 AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 
 template <int dim>
-RunState<dim> AdaptiveSolver<dim>::state() const
+RunState<dim> AdaptiveSolver<dim>::state(const std::optional<FinishedLoads> &finished) const
 {
-  return {"the run state", RunState<dim>::entries_of(stages->scene.effective_parameters()),
-          stages->refinements, stages->backend->values(), stages->history};
+  const Backend<dim> &backend = *stages->backend;
+  return {"the run state",
+          RunState<dim>::entries_of(stages->scene, hpvi::n_processes(backend.communicator)),
+          finished ? backend.trail() : stages->refinements,
+          backend.values(),
+          finished ? History<dim>() : stages->history,
+          finished};
+}
+
+template <int dim>
+std::optional<ReducedPart<dim>> AdaptiveSolver<dim>::reduced() const
+{
+  return stages->backend->reduced();
 }
 
 /** Before anything is reported or written. */

@@ -3,29 +3,71 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <sstream>
 #include <system_error>
+#include <tuple>
 
 namespace hpvi
 {
 namespace
 {
+/** Those of @p loads that are no whole numbers. */
+template <class Loads>
+auto references_of(Loads &loads)
+{
+  auto &load = loads.load;
+  return std::tie(load.t, load.work, load.dissipated, load.stored, load.released, load.unbalanced,
+                  loads.seconds, loads.slipped, loads.initial_part, loads.tolerance,
+                  loads.past_data.stress, loads.past_data.displacement, loads.data.stress,
+                  loads.data.displacement);
+}
+
+/** The bits of each: decimals of a large mesh would take longer than all else. */
 void write_values(std::ostream &out, const char *const name, const dealii::Vector<double> &values)
 {
-  out << name << ' ' << values.size();
+  static_assert(sizeof(double) == sizeof(std::uint64_t));
+  std::string line = name + (' ' + std::to_string(values.size()));
+  line.reserve(line.size() + 17 * values.size() + 1);
   for (const double value : values)
-    out << ' ' << text(value);
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    line += ' ';
+    for (int shift = 60; shift >= 0; shift -= 4)
+      line += "0123456789abcdef"[bits >> shift & 15];
+  }
+  out << line << '\n';
+}
+
+/** Each cell that changes by how far it is from the one before and its degree. */
+void write_marks(std::ostream &out, const MeshMarks &marks)
+{
+  out << marks.n_cells << ' ' << marks.changed.size();
+  unsigned int last = 0;
+  for (const auto &[cell, degree] : marks.changed)
+  {
+    out << ' ' << cell - last << ' ' << degree;
+    last = cell;
+  }
   out << '\n';
 }
 
-/** A cell by its degree, or 0 where it is bisected and has none. */
-void write_refinement(std::ostream &out, const Refinement &refinement)
+/** All zero: there is no history of loads. */
+void write_loads(std::ostream &out, const FinishedLoads &loads)
 {
-  out << refinement.bisect.size();
-  for (std::size_t cell = 0; cell < refinement.bisect.size(); ++cell)
-    out << ' ' << (refinement.bisect[cell] ? 0 : refinement.degrees[cell]);
-  out << '\n';
+  out << "loads";
+  for (const unsigned int n : {loads.load.number, loads.n_steps, loads.first})
+    out << ' ' << n;
+  std::apply([&out](const auto &...value) { (out << ... << (' ' + text(value))); },
+             references_of(loads));
+  out << "\nwarnings " << loads.warnings.size() << '\n';
+  for (const Warning &warning : loads.warnings)
+    out << static_cast<unsigned int>(warning.kind) << ' ' << text(warning.size) << '\n'
+        << warning.text << '\n';
 }
 
 /** How many, then boundary, value, place and length of each. */
@@ -45,7 +87,7 @@ void write_peaks(std::ostream &out, const std::vector<StressSample<dim>> &peaks)
 
 const FileFormat &run_state_format()
 {
-  static const FileFormat format("run state", 6,
+  static const FileFormat format("run state", 7,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -58,15 +100,15 @@ public:
   {
   }
 
-  /** As text() writes it, which knows infinity. */
-  template <class Number>
-  Number number()
+  /** As text() writes it, which knows infinity; whole numbers also in another @p base. */
+  template <class Number, class... Base>
+  Number number(const Base... base)
   {
     std::string word;
     Number value{};
     in >> word;
     const char *const end = word.data() + word.size();
-    const auto result = std::from_chars(word.data(), end, value);
+    const auto result = std::from_chars(word.data(), end, value, base...);
     if (result.ec != std::errc() || result.ptr != end)
       malformed();
     return value;
@@ -93,7 +135,10 @@ public:
     expect(name);
     dealii::Vector<double> result(number<unsigned int>());
     for (double &value : result)
-      value = number<double>();
+    {
+      const std::uint64_t bits = number<std::uint64_t>(16);
+      std::memcpy(&value, &bits, sizeof bits);
+    }
     return result;
   }
 
@@ -113,13 +158,32 @@ public:
     return result;
   }
 
-  Refinement refinement()
+  MeshMarks marks()
   {
-    Refinement result;
+    MeshMarks result;
+    result.n_cells = number<unsigned int>();
+    unsigned int cell = 0;
     for (unsigned int n = number<unsigned int>(); n > 0; --n)
     {
-      result.degrees.push_back(number<unsigned int>());
-      result.bisect.push_back(result.degrees.back() == 0);
+      cell += number<unsigned int>();
+      result.changed.emplace_back(cell, number<unsigned int>());
+    }
+    return result;
+  }
+
+  FinishedLoads loads()
+  {
+    FinishedLoads result;
+    for (unsigned int *const n : {&result.load.number, &result.n_steps, &result.first})
+      *n = number<unsigned int>();
+    std::apply([this](auto &...value) { ((value = number<double>()), ...); },
+               references_of(result));
+    expect("warnings");
+    for (unsigned int n = number<unsigned int>(); n > 0; --n)
+    {
+      const auto kind = static_cast<WarningKind>(number<unsigned int>());
+      const double size = number<double>();
+      result.warnings.push_back({kind, size, lines(1).front()});
     }
     return result;
   }
@@ -146,12 +210,23 @@ bool decides(const std::string &section, const std::string &entry)
 } // namespace
 
 template <int dim>
-std::vector<std::string> RunState<dim>::entries_of(const std::string &scene_prm)
+std::vector<std::string> RunState<dim>::entries_of(const Scene<dim> &scene,
+                                                   const unsigned int n_processes)
 {
-  std::vector<std::string> result = hpvi::entries_of(scene_prm, decides);
+  std::vector<std::string> result = hpvi::entries_of(scene.effective_parameters(), decides);
+  // Several processes name the path that one finds by itself.
+  std::replace(result.begin(), result.end(), std::string("Solver/Path = auto"),
+               std::string("Solver/Path = ") +
+                   (takes_primal_path(scene, n_processes) ? "primal" : "reduced"));
   if (!result.empty()) // digits belong to the program
     result.insert(result.begin(), "hpvi = " + version());
   return result;
+}
+
+template <int dim>
+void RunState<dim>::require_scene(const Scene<dim> &scene, const unsigned int n_processes) const
+{
+  format().check_entries(name, entries, entries_of(scene, n_processes));
 }
 
 template <int dim>
@@ -176,8 +251,13 @@ void RunState<dim>::write(std::ostream &out) const
     write_peaks(content, step.peaks);
   }
   content << "refinements " << refinements.size() << '\n';
-  for (const Refinement &refinement : refinements)
-    write_refinement(content, refinement);
+  for (const MeshMarks &marks : refinements)
+    write_marks(content, marks);
+  content << "kept " << values.kept.size();
+  for (const unsigned int number : values.kept)
+    content << ' ' << number;
+  content << '\n';
+  write_loads(content, loads.value_or(FinishedLoads()));
   write_values(content, "motion", values.motion);
   write_values(content, "u", values.u);
   write_values(content, "z", values.z);
@@ -207,7 +287,13 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
   }
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
-    state.refinements.push_back(reader.refinement());
+    state.refinements.push_back(reader.marks());
+  reader.expect("kept");
+  for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)
+    state.values.kept.push_back(reader.number<unsigned int>());
+  reader.expect("loads");
+  if (const FinishedLoads loads = reader.loads(); loads.load.number > 0)
+    state.loads = loads;
   state.values.motion = reader.values("motion");
   state.values.u = reader.values("u");
   state.values.z = reader.values("z");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
 #include <hpvi/discretisation/initial_stress.h>
@@ -48,25 +49,15 @@ struct LoadHistory<dim>::Evolution
   std::shared_ptr<const Scene<dim>> current; ///< the scene of the load step
   std::unique_ptr<AdaptiveSolver<dim>> solver;
   std::optional<Past<dim>> past; ///< of the reduced path
-  LoadStep load;
-  unsigned int n_steps = 0; ///< of finished load steps
-  double seconds = 0;       ///< likewise
-  double slipped = 0;       ///< the largest |u_t| along the contact of the primal path
-  double initial_part = 0;  ///< of stored energy: initial_energy()
-  unsigned int first = 0;   ///< load step with an error; 0: none yet
-  double tolerance = 0;     ///< that it sets for those after it
-  Warnings warnings;        ///< the worst of each kind
+  FinishedLoads finished;        ///< load: that at hand
+  bool has_ended = false;        ///< that load step
 
   Evolution(const Scene<dim> &scene, MPI_Comm communicator);
 
-  /** Of a scene without history. */
-  Evolution(const Scene<dim> &scene, const RunState<dim> &state, MPI_Comm communicator)
-      : scene(scene), communicator(communicator),
-        solver(std::make_unique<AdaptiveSolver<dim>>(scene, state, communicator))
-  {
-  }
+  Evolution(const Scene<dim> &scene, const RunState<dim> &state, MPI_Comm communicator);
 
   void begin(unsigned int number);
+  void go_on_after(const RunState<dim> &state);
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
   std::string reason(const std::string &stopped_by) const;
@@ -91,12 +82,47 @@ LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene, MPI_Comm communi
 }
 
 template <int dim>
+LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene, const RunState<dim> &state,
+                                       MPI_Comm communicator)
+    : scene(scene), communicator(communicator)
+{
+  state.require_scene(scene, hpvi::n_processes(communicator));
+  if (scene.has_load_history() != state.loads.has_value())
+    RunState<dim>::format().reject(state.name,
+                                   "the scene or the run state has a load history, and not both");
+  if (scene.has_load_history())
+    go_on_after(state);
+  else
+    solver = std::make_unique<AdaptiveSolver<dim>>(scene, state, communicator);
+}
+
+/** The load step that has ended is built again, and the next one begins from it as it would have. */
+template <int dim>
+void LoadHistory<dim>::Evolution::go_on_after(const RunState<dim> &state)
+{
+  finished = *state.loads;
+  const unsigned int number = finished.load.number;
+  if (number >= scene.loading.steps)
+    RunState<dim>::format().reject(state.name, "there is nothing to go on with after load step " +
+                                                   std::to_string(number) + ", the last one");
+  scene.check();
+  const auto last = std::make_shared<Scene<dim>>(load_step(scene, number, finished.past_data));
+  last->past_data = finished.data;
+  current = last;
+  solver = std::make_unique<AdaptiveSolver<dim>>(*current, state, communicator);
+  if (const auto reduced = solver->reduced())
+    past.emplace(Past<dim>{current, reduced->solution});
+  begin(number + 1);
+}
+
+template <int dim>
 void LoadHistory<dim>::Evolution::begin(const unsigned int number)
 {
-  load.number = number;
-  load.t = scene.loading.time(number);
-  const auto next = std::make_shared<Scene<dim>>(
-      load_step(scene, number, current ? data_scale(*current) : DataScale()));
+  finished.load.number = number;
+  finished.load.t = scene.loading.time(number);
+  has_ended = false;
+  finished.past_data = current ? data_scale(*current) : DataScale();
+  const auto next = std::make_shared<Scene<dim>>(load_step(scene, number, finished.past_data));
   if (!solver)
   {
     current = next;
@@ -109,12 +135,12 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
     for (const Point<dim> &x : sides[boundary].sample())
       next->past_data.displacement =
           std::max(next->past_data.displacement, std::abs(u_t->value(x)));
-  next->past_data.displacement = std::max(next->past_data.displacement, slipped);
+  next->past_data.displacement = std::max(next->past_data.displacement, finished.slipped);
   if (keeps_mesh())
     next->adaptivity.maximum_steps = 1;
   if (next->adaptivity.tolerance == 0)
   {
-    next->adaptivity.tolerance = tolerance;
+    next->adaptivity.tolerance = finished.tolerance;
     next->adaptivity.tolerance_on = Indicator::residual;
     next->adaptivity.tolerance_column.clear();
   }
@@ -137,7 +163,8 @@ PastSlip<dim> LoadHistory<dim>::Evolution::slip_so_far() const
 template <int dim>
 bool LoadHistory<dim>::Evolution::keeps_mesh() const
 {
-  return scene.loading.adapt == LoadAdaptivity::first_step && first > 0 && first < load.number;
+  return scene.loading.adapt == LoadAdaptivity::first_step && finished.first > 0 &&
+         finished.first < finished.load.number;
 }
 
 /** Why the load step is done, where that is no limit that the scene names. */
@@ -145,7 +172,7 @@ template <int dim>
 std::string LoadHistory<dim>::Evolution::reason(const std::string &stopped_by) const
 {
   if (stopped_by == "Tolerance" && scene.adaptivity.tolerance == 0)
-    return "error of load step " + std::to_string(first);
+    return "error of load step " + std::to_string(finished.first);
   return stopped_by == "Maximum steps" && keeps_mesh() ? "Adapt = first step" : stopped_by;
 }
 
@@ -154,9 +181,9 @@ template <int dim>
 StepReport<dim> LoadHistory<dim>::Evolution::report(const StepReport<dim> &step) const
 {
   StepReport<dim> result = step;
-  result.number += n_steps;
-  result.seconds += seconds;
-  result.load = load;
+  result.number += finished.n_steps;
+  result.seconds += finished.seconds;
+  result.load = finished.load;
   return result;
 }
 
@@ -168,29 +195,31 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
     count_work(*report.reduced);
   if (report.primal)
     count(report.primal->work_done());
-  slipped = std::max(slipped, largest_slip(report));
-  load.stored = 0.5 * report.energies.norm * report.energies.norm + initial_part;
-  report.load = load;
-  n_steps = report.number;
-  seconds = report.seconds;
+  finished.slipped = std::max(finished.slipped, largest_slip(report));
+  finished.load.stored = 0.5 * report.energies.norm * report.energies.norm + finished.initial_part;
+  report.load = finished.load;
+  finished.n_steps = report.number;
+  finished.seconds = report.seconds;
   report.stopped_by = reason(report.stopped_by);
-  if (first == 0 && report.stopped_by != "round-off")
+  if (finished.first == 0 && report.stopped_by != "round-off")
   {
-    first = load.number;
-    tolerance = 1.2 * report.relative_estimate;
+    finished.first = finished.load.number;
+    finished.tolerance = 1.2 * report.relative_estimate;
   }
-  keep_worst(warnings, report.warnings, place());
-  if (load.number == scene.loading.steps)
-    report.warnings = warnings;
+  finished.data = current->past_data;
+  has_ended = true;
+  keep_worst(finished.warnings, report.warnings, place());
+  if (finished.load.number == scene.loading.steps)
+    report.warnings = finished.warnings;
 }
 
 template <int dim>
 void LoadHistory<dim>::Evolution::count(const Work &done)
 {
-  load.work += scene.thickness * done.external;
-  load.dissipated += scene.thickness * done.dissipated;
-  load.released += scene.thickness * done.released;
-  load.unbalanced += scene.thickness * done.unbalanced;
+  finished.load.work += scene.thickness * done.external;
+  finished.load.dissipated += scene.thickness * done.dissipated;
+  finished.load.released += scene.thickness * done.released;
+  finished.load.unbalanced += scene.thickness * done.unbalanced;
 }
 
 /** What the load step did from where the one before has ended. */
@@ -207,8 +236,9 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
     const double initial =
         scene.thickness *
         initial_energy(solution.scene, solution.displacement_space, solution.tables, solution.u);
-    load.work += initial - initial_part; // what heats the body does work on it, too
-    initial_part = initial;
+    finished.load.work +=
+        initial - finished.initial_part; // what heats the body does work on it, too
+    finished.initial_part = initial;
     past.emplace(Past<dim>{current, solution});
   }
 }
@@ -217,7 +247,8 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
 template <int dim>
 std::string LoadHistory<dim>::Evolution::place() const
 {
-  return "load step " + std::to_string(load.number) + ", t = " + to_string(load.t);
+  return "load step " + std::to_string(finished.load.number) +
+         ", t = " + to_string(finished.load.t);
 }
 
 template <int dim>
@@ -229,11 +260,8 @@ LoadHistory<dim>::LoadHistory(const Scene<dim> &scene, MPI_Comm communicator)
 template <int dim>
 LoadHistory<dim>::LoadHistory(const Scene<dim> &scene, const RunState<dim> &state,
                               MPI_Comm communicator)
+    : evolution(std::make_unique<Evolution>(scene, state, communicator))
 {
-  if (scene.has_load_history())
-    RunState<dim>::format().reject(
-        state.name, "the scene has a load history, Loading/Steps, which does not go on");
-  evolution = std::make_unique<Evolution>(scene, state, communicator);
 }
 
 template <int dim>
@@ -242,9 +270,11 @@ LoadHistory<dim>::~LoadHistory() = default;
 template <int dim>
 std::optional<RunState<dim>> LoadHistory<dim>::state() const
 {
-  if (evolution->scene.has_load_history())
+  if (!evolution->scene.has_load_history())
+    return evolution->solver->state();
+  if (!evolution->has_ended)
     return std::nullopt;
-  return evolution->solver->state();
+  return evolution->solver->state(evolution->finished);
 }
 
 template <int dim>
@@ -271,16 +301,18 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
   };
   const auto announce = [&](const Progress &progress)
   {
-    about_to({progress.step + evolution->n_steps, evolution->place() + ": " + progress.stage,
-              progress.note});
+    about_to({progress.step + evolution->finished.n_steps,
+              evolution->place() + ": " + progress.stage, progress.note});
   };
   try
   {
-    for (unsigned int k = 1; k <= evolution->scene.loading.steps; ++k)
+    for (;;)
     {
-      if (k > 1)
-        evolution->begin(k);
       evolution->solver->run(take, announce);
+      const unsigned int number = evolution->finished.load.number;
+      if (number == evolution->scene.loading.steps)
+        return;
+      evolution->begin(number + 1);
     }
   }
   catch (const NumericalFailure &failure)

@@ -16,6 +16,15 @@ namespace hpvi
 {
 using namespace dealii;
 
+void ProblemSize::count(const Degrees &degrees)
+{
+  for (const unsigned int degree : degrees)
+  {
+    cells_of_degree.resize(std::max<std::size_t>(cells_of_degree.size(), degree + 1));
+    ++cells_of_degree[degree];
+  }
+}
+
 unsigned int ProblemSize::p_min() const
 {
   return std::find_if(cells_of_degree.begin(), cells_of_degree.end(),
@@ -51,6 +60,28 @@ template <int dim>
 double Backend<dim>::round_off_estimate() const
 {
   return round_off_of_estimate(field());
+}
+
+template <int dim>
+bool Backend<dim>::follow(const std::vector<MeshMarks> &marks)
+{
+  for (const MeshMarks &mark : marks)
+  {
+    const Degrees before = degrees();
+    if (!mark.fits(before))
+      return false;
+    refine(mark.refinement(before));
+  }
+  return true;
+}
+
+template <int dim>
+bool Backend<dim>::restore_end(const std::vector<MeshMarks> &marks, const SolutionValues &values)
+{
+  if (!follow(marks))
+    return false;
+  discretise();
+  return restore(values);
 }
 
 template <int dim>

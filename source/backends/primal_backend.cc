@@ -4,13 +4,14 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
+#include <hpvi/body/cell_ranks.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/checks/checks.h>
-#include <hpvi/primal/cell_numbers.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/memory_need.h>
 #include <hpvi/primal/moment_field.h>
 #include <hpvi/primal/nodal_forces.h>
+#include <hpvi/primal/stored_values.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/primal/upper_energy.h>
 #include <hpvi/reader/scene_entries.h>
@@ -72,6 +73,7 @@ std::unique_ptr<Backend<dim>> PrimalBackend<dim>::next_load_step(const Scene<dim
   result->lambda = lambda;
   result->has_start = has_start;
   result->past = end_state();
+  result->refined = this->refined;
   return result;
 }
 
@@ -312,11 +314,13 @@ template <int dim>
 void PrimalBackend<dim>::refine(const Refinement &refinement)
 {
   begin("refining");
+  this->refined.emplace_back(refinement, degrees());
   std::unique_ptr<Transfer<dim>> transfer, of_past;
   {
     StageTimer timer(times.refine);
+    const auto ranks = cell_ranks(static_cast<const Triangulation<dim> &>(*mesh));
     for (const auto &cell : mesh->active_cell_iterators())
-      if (cell->is_locally_owned() && refinement.bisect[cell->global_active_cell_index()])
+      if (cell->is_locally_owned() && refinement.bisect[ranks[cell->active_cell_index()]])
         cell->set_refine_flag();
     mesh->prepare_coarsening_and_refinement();
     if (has_start)
@@ -340,57 +344,26 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
 
 // @sect3{Going on}
 //
-// Cells are counted along the curve that p4est orders them by, however many processes share them.
 template <int dim>
 SolutionValues PrimalBackend<dim>::values() const
 {
-  CellNumbers own_u, own_z;
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const CellValues values = values_on(cell, *space, u, lambda);
-      own_u.emplace_back(cell->global_active_cell_index(), values.u);
-      own_z.emplace_back(cell->global_active_cell_index(), values.lambda);
-    }
-  const auto joined = [this](const CellNumbers &own)
-  {
-    std::vector<double> all;
-    for (const auto &numbers :
-         join_cells(own, mesh->n_global_active_cells(), space->communicator()))
-      all.insert(all.end(), numbers.begin(), numbers.end());
-    return Vector<double>(all.begin(), all.end());
-  };
-  return {joined(own_u), joined(own_z), {}};
+  const StoredValues stored = stored_values(*space, u, lambda);
+  SolutionValues result{stored.u, stored.z, {}, {}};
+  if (given_way)
+    result.kept.push_back(static_cast<unsigned int>(*given_way));
+  return result;
 }
 
 template <int dim>
 bool PrimalBackend<dim>::restore(const SolutionValues &values)
 {
-  const unsigned int n = tables.fe.dofs_per_cell, n_cells = mesh->n_global_active_cells();
-  u = space->ghosted_vector();
-  lambda.assign(space->contact.size(), ContactVector<dim>());
-  CellNumbers sizes; // of the multiplier
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      sizes.emplace_back(cell->global_active_cell_index(),
-                         std::vector<double>(1, values_on(cell, *space, u, lambda).lambda.size()));
-  std::vector<std::size_t> first(1, 0);
-  for (const auto &size : join_cells(sizes, n_cells, space->communicator()))
-    first.push_back(first.back() + size.front());
-  if (values.u.size() != n * n_cells || values.z.size() != first.back() || values.motion.size() > 0)
+  if (values.motion.size() > 0 || values.kept.size() > 1 ||
+      (!values.kept.empty() && values.kept.front() >= linear_names.size()) ||
+      !take_stored(values.u, values.z, *space, u, lambda))
     return false;
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const auto k = cell->global_active_cell_index();
-      take_values<dim>(cell,
-                       {{values.u.begin() + n * k, values.u.begin() + n * (k + 1)},
-                        {values.z.begin() + first[k], values.z.begin() + first[k + 1]}},
-                       *space, u, lambda);
-    }
-  u.zero_out_ghost_values();
-  u.update_ghost_values();
   has_start = true;
+  if (!values.kept.empty())
+    given_way = static_cast<LinearMethod>(values.kept.front());
   take();
   return true;
 }

@@ -5,7 +5,6 @@
 // shape functions, element matrices that come again, and the multiplier of the step before, as a
 // function on the contact boundary, from which the next one starts.
 #include <hpvi/backends/reduced_backend.h>
-#include <hpvi/base/dense_work.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
@@ -51,7 +50,7 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
   set_edge_degrees(*coarse, cell_degrees);
   match_nested(scene, *tables, *coarse, cell_degrees);
   mesh = coarse;
-  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
+  look_at_loads(1);
 }
 
 template <int dim>
@@ -61,7 +60,8 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &las
 {
   mesh = last.mesh;
   cell_degrees = last.cell_degrees;
-  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables);
+  this->refined = last.refined;
+  look_at_loads(1);
   previous = last.previous;
   motion = last.motion;
   past_slip = past;
@@ -72,23 +72,16 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &las
   factored = std::move(last.factored);
 }
 
+/** The same on all meshes with these coarse cells. */
 template <int dim>
-std::unique_ptr<Backend<dim>> ReducedBackend<dim>::next_load_step(const Scene<dim> &scene,
-                                                                  const PastSlip<dim> &past)
+void ReducedBackend<dim>::look_at_loads(const unsigned int finer)
 {
-  return std::make_unique<ReducedBackend>(scene, *this, past);
+  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables, finer);
+  finer_loads = finer;
 }
 
 // @sect3{Discretise}
 //
-/** Of the step whose system is assembled. */
-template <int dim>
-std::string ReducedBackend<dim>::dense_note() const
-{
-  const auto &rows = discretisation->contact_rows;
-  return DenseWork{rows.kept.size(), rows.n_rows()}.note();
-}
-
 // Two objects make a step: the spaces, without any integral, and the discretisation, which has
 // assembled $A$ and $f$. The old discretisation dies only when the new one stands, for they share
 // element matrices: away from the refined cells most cells are congruent to cells that were there
@@ -103,7 +96,7 @@ void ReducedBackend<dim>::assemble()
   if (missing.empty())
     return;
   seen_late = missing;
-  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables, 4); // a closer look
+  look_at_loads(4); // a closer look
   build();
   missing = missed_loads(*discretisation, *loads);
 }
@@ -316,11 +309,11 @@ void ReducedBackend<dim>::refine(const Refinement &refinement)
 {
   begin("refining");
   StageTimer timer(times.refine);
-  // Solutions keep the mesh that they live on.
-  const auto refined = std::make_shared<Triangulation<dim>>();
-  refined->copy_triangulation(*mesh);
-  cell_degrees = refine_mesh(*refined, cell_degrees, refinement);
-  mesh = refined;
+  this->refined.emplace_back(refinement, cell_degrees);
+  const auto next = std::make_shared<Triangulation<dim>>();
+  next->copy_triangulation(*mesh);
+  cell_degrees = refine_mesh(*next, cell_degrees, refinement);
+  mesh = next;
 }
 
 // @sect3{What it tells of a step}
@@ -356,11 +349,7 @@ ProblemSize ReducedBackend<dim>::size() const
                      space.n_free_dofs(),
                      discretisation->spaces->contact_space.n_multipliers(),
                      {}};
-  for (const unsigned int degree : cell_degrees)
-  {
-    result.cells_of_degree.resize(std::max<std::size_t>(result.cells_of_degree.size(), degree + 1));
-    ++result.cells_of_degree[degree];
-  }
+  result.count(cell_degrees);
   return result;
 }
 
@@ -379,7 +368,9 @@ std::optional<ReducedPart<dim>> ReducedBackend<dim>::reduced() const
 template <int dim>
 SolutionValues ReducedBackend<dim>::values() const
 {
-  return {solution->u, solution->z, motion};
+  SolutionValues result{solution->u, solution->z, motion, resultant_intervals.levels()};
+  result.kept.push_back(finer_loads);
+  return result;
 }
 
 template <int dim>
@@ -388,9 +379,18 @@ bool ReducedBackend<dim>::restore(const SolutionValues &values)
   const Spaces<dim> &spaces = *discretisation->spaces;
   if (values.u.size() != spaces.displacement_space.n_dofs() ||
       values.z.size() != spaces.contact_space.n_multipliers() ||
-      !(values.motion.size() == 0 || values.motion.size() == scene.free_motions().size()))
+      !(values.motion.size() == 0 || values.motion.size() == scene.free_motions().size()) ||
+      values.kept.empty() || values.kept.back() == 0)
     return false;
+  std::vector<unsigned int> levels = values.kept;
+  if (levels.back() != finer_loads) // it did on another mesh of the load step
+  {
+    look_at_loads(levels.back());
+    build();
+  }
+  levels.pop_back();
   keep_start(values.z, values.motion);
+  resultant_intervals.begin_with(levels);
   take(values.u, values.z);
   return true;
 }

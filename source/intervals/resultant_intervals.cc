@@ -32,6 +32,19 @@ ResultantIntervals::ResultantIntervals(const Scene<2> &scene) : scene(scene)
 {
 }
 
+std::vector<unsigned int> ResultantIntervals::levels() const
+{
+  std::vector<unsigned int> result;
+  for (const GradedPoint &point : graded)
+    result.push_back(point.levels);
+  return has_goals ? result : at_first;
+}
+
+void ResultantIntervals::begin_with(const std::vector<unsigned int> &levels)
+{
+  at_first = levels;
+}
+
 std::string ResultantIntervals::flaws() const
 {
   std::string result;
@@ -79,7 +92,8 @@ void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
       for (const TestMotion::Fall &fall : own.goals.back().test.falls())
         if (std::none_of(graded.begin(), graded.end(),
                          [&](const GradedPoint &point) { return point.x == fall.from; }))
-          graded.push_back({fall.from, 0});
+          graded.push_back(
+              {fall.from, graded.size() < at_first.size() ? at_first[graded.size()] : 0});
     }
   }
 }

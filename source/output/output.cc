@@ -3,11 +3,13 @@
 #include <hpvi/base/text.h>
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/output/collection.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/vtu.h>
+#include <hpvi/output/written_names.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,8 +17,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <set>
 #include <sstream>
+#include <utility>
 
 namespace hpvi
 {
@@ -24,24 +27,6 @@ using namespace dealii;
 
 namespace
 {
-/** As the ResultDirectory wants them. */
-template <int dim>
-std::string names_written(const Scene<dim> &scene, const unsigned int n_processes)
-{
-  const OutputSettings &output = scene.output;
-  return results::always + (scene.has_load_history() ? "|" + results::loading : "") +
-         (output.contact && scene.has_contact() ? "|" + results::contact : "") +
-         (dim == 2 && output.mesh_picture ? "|" + results::mesh : "") +
-         (!output.vtu        ? ""
-          : n_processes == 1 ? "|" + results::vtu
-                             : "|" + results::pieces) +
-         (output.reference ? "|" + results::reference : "") +
-         (std::any_of(scene.probes.begin(), scene.probes.end(),
-                      [](const Probe<dim> &probe) { return probe.kind == ProbeKind::line; })
-              ? "|" + results::probe
-              : "");
-}
-
 template <int dim>
 std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, const unsigned int step)
 {
@@ -99,14 +84,17 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
   {
     if (n_steps > 0)
       take_up(n_steps);
-    write_summary(); // names the files of earlier runs as long as there are any
-    if (n_steps == 0)
+    else
+    {
+      write_summary(); // names the files of earlier runs as long as there are any
       directory->remove_earlier();
+    }
     if (scene.parameters)
     {
       announce({"scene.prm"});
       write("scene.prm", scene.effective_parameters());
     }
+    write_summary(); // a run that was done stays so until its scene has the limits with which it goes on
   }
   catch (const InputError &error)
   {
@@ -133,27 +121,37 @@ void Output<dim>::take_up(const unsigned int n_steps)
   summary.scene_file = directory->other_scene("");
   try
   {
-    summary.take_up(tables.take_up(n_steps, content_of(home / "convergence.csv"),
-                                   content_of(home / "degrees.csv"),
-                                   content_of(home / "forces.csv")));
+    const std::vector<Record> rows =
+        tables.take_up(n_steps, scene.has_load_history(),
+                       [&](const std::string &name) { return content_of(home / name); });
+    summary.take_up(rows, records(tables.loading().text));
   }
   catch (const InputError &error)
   {
     directory->reject(error.what());
   }
-  const std::vector<std::string> of_step = directory->remove_after(n_steps);
-  if (scene.output.steps == OutputSteps::last)
-    superseded = of_step;
+  take_up_pictures(n_steps);
   update("convergence.csv", tables.convergence());
   update("degrees.csv", tables.degrees());
   update("forces.csv", tables.forces());
-  const std::string collection = content_of(home / "solution.pvd");
-  const std::regex entry("timestep=\"([0-9]+)\" part=\"0\" file=\"([^\"]+)\"");
-  for (std::sregex_iterator found(collection.begin(), collection.end(), entry), end; found != end;
-       ++found)
-    if (const unsigned long step = std::stoul((*found)[1]); step <= n_steps)
-      add_to_pvd(pvd, step, (*found)[2]);
-  pvd.same = 0;
+  if (!tables.loading().text.empty())
+    update("loading.csv", tables.loading());
+}
+
+/** Of each step, or with OutputSteps::last of the last one and of the end of each load step. */
+template <int dim>
+void Output<dim>::take_up_pictures(const unsigned int n_steps)
+{
+  std::set<unsigned int> ends{n_steps};
+  for (const Record &load_step : records(tables.loading().text))
+    ends.insert(std::stoul(value_of(load_step, "step")));
+  const bool all = scene.output.steps == OutputSteps::all;
+  const std::vector<std::string> of_step =
+      directory->remove_after(n_steps, [&](const unsigned int step)
+                              { return step <= n_steps && (all || ends.count(step) > 0); });
+  if (!all && !scene.has_load_history())
+    superseded = of_step;
+  pvd = first_of_pvd(content_of(std::filesystem::path(path) / "solution.pvd"), n_steps);
   if (!pvd.text.empty())
     update("solution.pvd", pvd);
 }
@@ -326,7 +324,9 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
   {
     std::ostringstream content;
     state->write(content);
-    write("state.dat", content.str());
+    last_state = content.str();
+    if (!is_last || step.load.number < scene.loading.steps)
+      write_state();
   }
   for (const std::string &name : superseded)
     directory->remove(name);
@@ -358,14 +358,24 @@ void Output<dim>::write_step(const StepReport<dim> &step, const std::optional<Ru
 }
 
 template <int dim>
+void Output<dim>::write_state()
+{
+  if (const std::string state = std::exchange(last_state, {}); !state.empty())
+    write("state.dat", state);
+}
+
+/** The state comes after all else: there is nothing to finish where it says that nothing is left to do. */
+template <int dim>
 void Output<dim>::finish()
 {
   summary.status = "done";
   write_together(communicator,
                  [&]()
                  {
-                   if (is_first)
-                     write_summary();
+                   if (!is_first)
+                     return;
+                   write_summary();
+                   write_state();
                  });
 }
 

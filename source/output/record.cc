@@ -20,6 +20,14 @@ void add_line(std::string &table, const Record &record, const Field field)
 }
 } // namespace
 
+std::string value_of(const Record &record, const std::string &column)
+{
+  for (const auto &[name, value] : record)
+    if (name == column)
+      return value;
+  return {};
+}
+
 std::string csv(const std::vector<Record> &records)
 {
   std::string table;

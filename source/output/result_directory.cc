@@ -311,7 +311,8 @@ void ResultDirectory::remove_earlier()
   }
 }
 
-std::vector<std::string> ResultDirectory::remove_after(const unsigned int step)
+std::vector<std::string> ResultDirectory::remove_after(const unsigned int step,
+                                                       const KeptSteps &kept)
 {
   static const std::regex pattern(".*-([0-9]{2,9})\\.[0-9a-z.]+");
   std::vector<std::string> of_step;
@@ -319,7 +320,7 @@ std::vector<std::string> ResultDirectory::remove_after(const unsigned int step)
   {
     std::smatch match;
     const unsigned long number = std::regex_match(name, match, pattern) ? std::stoul(match[1]) : 0;
-    if (number > step || name == "reference.dat")
+    if ((number > 0 && !kept(number)) || name == "reference.dat")
       stale.insert(name);
     else if (number == step)
       of_step.push_back(name);

@@ -66,10 +66,8 @@ std::string bound_json(const Record &row)
 {
   const auto field = [&](const std::string &column)
   {
-    for (const auto &[name, value] : row)
-      if (name == column)
-        return value.empty() ? "null" : value;
-    return std::string("null");
+    const std::string value = value_of(row, column);
+    return value.empty() ? "null" : value;
   };
   return "{\n    \"step\": " + field("step") +
          ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + field("error_bound") +
@@ -79,7 +77,7 @@ std::string bound_json(const Record &row)
 }
 } // namespace
 
-void Summary::take_up(const std::vector<Record> &rows)
+void Summary::take_up(const std::vector<Record> &rows, const std::vector<Record> &load_steps)
 {
   const std::array<double *, 9> stages{{&times.setup, &times.assemble, &times.factor, &times.qp,
                                         &times.recover, &times.estimate, &times.bound,
@@ -95,6 +93,18 @@ void Summary::take_up(const std::vector<Record> &rows)
     }
   steps = rows.size();
   last_row = rows.back();
+  if (load_steps.empty())
+    return;
+  const auto number = [&](const char *const column)
+  { return std::strtod(value_of(load_steps.back(), column).c_str(), nullptr); };
+  load_step = static_cast<unsigned int>(number("load_step"));
+  load = {load_step,
+          number("t"),
+          number("work"),
+          number("dissipated_energy"),
+          number("stored_energy"),
+          number("released_energy"),
+          number("unbalanced_energy")};
 }
 
 template <int dim>

@@ -288,19 +288,30 @@ unsigned int degree_of(const std::string &column)
 } // namespace
 
 template <int dim>
-std::vector<Record> Tables<dim>::take_up(const unsigned int n_steps, const std::string &convergence,
-                                         const std::string &degrees, const std::string &forces)
+std::vector<Record>
+Tables<dim>::take_up(const unsigned int n_steps, const bool is_history,
+                     const std::function<std::string(const std::string &)> &content_of)
 {
-  std::vector<Record> of_steps = records(convergence), of_degrees = records(degrees);
+  std::vector<Record> of_steps = records(content_of("convergence.csv")),
+                      of_degrees = records(content_of("degrees.csv"));
   if (of_steps.size() < n_steps || of_degrees.size() < n_steps)
     throw InputError("convergence.csv or degrees.csv has fewer rows than the run has steps");
   of_steps.resize(n_steps);
   of_degrees.resize(n_steps);
   add_rows(rows, of_steps);
   row = of_steps.back();
-  for (const Record &forces_of_step : records(forces))
+  for (const Record &forces_of_step : records(content_of("forces.csv")))
     if (whole_number(forces_of_step.front().second) <= n_steps)
       add_row(force_rows, forces_of_step);
+  unsigned int last = is_history ? 0 : n_steps;
+  for (const Record &load_step : records(is_history ? content_of("loading.csv") : ""))
+    if (const unsigned int step = whole_number(value_of(load_step, "step")); step <= n_steps)
+    {
+      add_row(load_steps, load_step);
+      last = step;
+    }
+  if (last != n_steps)
+    throw InputError("loading.csv lacks the row of step " + std::to_string(n_steps));
   for (const Record &record : of_degrees)
   {
     elements.emplace_back();
@@ -312,7 +323,7 @@ std::vector<Record> Tables<dim>::take_up(const unsigned int n_steps, const std::
       }
     add_degrees();
   }
-  rows.same = force_rows.same = degree_rows.same = 0;
+  rows.same = force_rows.same = degree_rows.same = load_steps.same = 0;
   return of_steps;
 }
 

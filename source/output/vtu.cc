@@ -376,17 +376,6 @@ Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces)
   return {data_out.vtu(cells), is_shared ? data_out.pvtu(cells, pieces) : ""};
 }
 
-void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
-{
-  const std::string head = "<?xml version=\"1.0\"?>\n"
-                           "<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n",
-                    end = "  </Collection>\n</VTKFile>\n";
-  pvd.same = pvd.text.empty() ? 0 : pvd.text.size() - end.size();
-  pvd.text.resize(pvd.same);
-  pvd.text += (pvd.same == 0 ? head : "") + "    <DataSet timestep=\"" + text(time) +
-              "\" part=\"0\" file=\"" + file + "\"/>\n" + end;
-}
-
 template Vtu vtu(const StepReport<2> &, const std::vector<std::string> &);
 template Vtu vtu(const StepReport<3> &, const std::vector<std::string> &);
 } // namespace hpvi

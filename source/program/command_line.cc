@@ -25,7 +25,7 @@ po::options_description visible_options()
       "repeated");
   add("resume", po::value<std::string>()->value_name("DIR"),
       "go on with the run whose results are in DIR after its last finished step; --set may change "
-      "limits of Adaptivity alone; not of load histories");
+      "limits of Adaptivity alone");
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
   add("validate", "check the scene, say in words what it says, and write nothing");

@@ -225,7 +225,7 @@ template <int dim>
 void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
               const std::string &directory)
 {
-  const unsigned int n_steps = state ? state->history.size() : 0;
+  const unsigned int n_steps = state ? state->n_steps() : 0;
   note_interruptions();
   ProgressLine progress;
   const auto announce = [&](const Progress &stage)
@@ -291,7 +291,7 @@ void resume(const Scene<dim> &scene, const std::string &directory)
         std::ifstream in(file, std::ios::binary);
         if (!in)
           throw InputError("hpvi: --resume " + printable(directory, 400) +
-                           ": has no state.dat, for no step was finished there, or the scene has a "
+                           ": has no state.dat, for no step was finished there, no load step of a "
                            "load history; begin the run anew");
         state = RunState<dim>::read(in, file);
       });

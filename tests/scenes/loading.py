@@ -79,7 +79,7 @@ class Loading(RunTest):
         summary = self.summary()["loading"]
         self.assertEqual((summary["load_steps"], summary["finished"], summary["t"]), (4, 4, 1))
         self.assertEqual(str(summary["dissipated_energy"]), rows[-1]["dissipated_energy"])
-        expected = {*result_names(len(steps)), "loading.csv"} - {"state.dat"}  # histories have none
+        expected = {*result_names(len(steps)), "loading.csv"}
         self.assertEqual(self.names(), sorted(expected))
 
     def test_collection_runs_over_load_steps(self):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """processes.py HPVI MPIRUN: signals end a run of several processes as they end one, no process is left, and
-none waits for another that cannot read its scene."""
+none waits for another that cannot read its scene; what some processes have begun goes on on others."""
 
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -80,6 +81,35 @@ class Processes(RunTest):
             os.kill(max(processes(self.out)), number)
             self.check_ended(run, number, safe)
             self.assertEqual(run.returncode, 128 + number)
+
+    def resumed(self, n, whole, *settings):
+        """Does a copy, on so many processes, end with the energies of the whole run?"""
+        out = self.home / f"on-{n}"
+        shutil.copytree(self.out, out)
+        line = [PROGRAM, "--resume", out, *(word for setting in settings for word in ("--set", setting))]
+        done = subprocess.run(line if n == 1 else [*MPIRUN, "-np", str(n), *line], capture_output=True, text=True,
+                              env=ENVIRONMENT, timeout=300, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows(out / "convergence.csv")
+        self.assertEqual(len(rows), len(whole))
+        for ours, theirs in zip(rows, whole):
+            self.assertAlmostEqual(float(ours["energy"]) / float(theirs["energy"]), 1, delta=1e-9)
+            self.assertEqual(ours["elements"], theirs["elements"])
+
+    def test_goes_on_on_another_number_of_processes(self):
+        self.scene = SCENES / "fretting-dome.prm"
+        settings = ("Solver/Primal tolerance=1e-11", "Loading/Steps=2", "Adaptivity/Maximum unknowns=2000", "Adaptivity/Maximum steps=2")
+        self.run_scene(*settings, output=self.home / "whole")
+        run = subprocess.Popen([*MPIRUN, "-np", "2", *command(self.scene, self.out, *settings)],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=ENVIRONMENT)
+        self.addCleanup(self.end, run)
+        while not (self.out / "state.dat").exists():
+            time.sleep(0.001)
+        os.kill(max(processes(self.out)), signal.SIGKILL)
+        run.wait()
+        self.check_nobody_left()
+        for n in (1, 3):
+            self.resumed(n, self.rows(self.home / "whole" / "convergence.csv"))
 
     def test_what_one_process_cannot_read_ends_all(self):
         for second in (command(self.home / "missing.prm", self.out), command(self.scene, self.out, "Material/Yung=1")):

@@ -15,6 +15,18 @@ from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest, command
 STEPS = "Adaptivity/Maximum steps=7"
 # No bound: which of some congruent patches is solved for all of them is not kept, and its last digits differ.
 RUN = (STEPS, "Error/Bound=false")
+# Histories of loads, the first setting that of their number: in the plane Coulomb's law and Tresca's, of one body and of two, on the
+# other path, and in space.
+HISTORIES = (
+    ("fretting", ("Loading/Steps=5", "Loading/Adapt=first step", "Adaptivity/Tolerance=0.1", "Output/Steps=last")),
+    ("fretting", ("Loading/Steps=4", "Adaptivity/Maximum steps=3", "Boundary bottom/Friction coefficient=",
+                  "Boundary bottom/Friction bound=2", "Adaptivity/Tolerance=0.05")),
+    ("lap-joint", ("Loading/Steps=4", "Adaptivity/Maximum steps=3")),
+    ("fretting", ("Loading/Steps=4", "Solver/Path=primal", "Adaptivity/Method=hap2", "Adaptivity/Start degree=2",
+                  "Boundary bottom/Contact=bilateral", "Boundary bottom/Friction coefficient=",
+                  "Boundary bottom/Friction bound=2", "Adaptivity/Maximum steps=2")),
+    ("fretting-dome", ("Loading/Steps=4", "Loading/Adapt=every step", "Adaptivity/Maximum unknowns=2000",
+                       "Adaptivity/Maximum steps=2")))
 # Besides summary.json, which has times; convergence.csv is compared without them.
 TIMES = ("seconds", "peak_memory")
 
@@ -67,34 +79,46 @@ class Resume(RunTest):
         self.check_same(whole)
 
     def test_killed_at_any_moment(self):
-        whole = self.whole(*RUN)
-        dice = random.Random(SEED)
-        resumed = 0
-        for _ in range(KILLS):
-            self.kill_in_step(dice.randint(2, 5), dice.uniform(0, 0.05))
-            if self.finished_steps() < 7:
-                self.go_on()
-                self.check_same(whole)
-                resumed += 1
-            else:
-                self.assertIn("nothing to go on with after step 7", self.go_on(status=1))
-            for path in self.out.iterdir():
-                path.unlink()
-        print(f"{KILLS} kills, {resumed} of them with steps to go on with")
-        self.assertGreater(resumed, 0)
+        self.kill(KILLS, RUN, 7)
 
-    def kill_in_step(self, step, pause):
-        run = subprocess.Popen(command(self.scene, self.out, *RUN), stdout=subprocess.DEVNULL,
+    def test_history_killed_at_any_moment(self):
+        for scene, settings in HISTORIES:
+            self.scene = SCENES / (scene + ".prm")
+            self.kill(KILLS, settings, int(settings[0].split("=")[1]))
+
+    def kill(self, n_kills, settings, n_ends):
+        whole = self.whole(*settings)
+        dice = random.Random(SEED)
+        finished = 0
+        for _ in range(n_kills):
+            self.kill_in_step(settings, dice.randint(2, max(2, n_ends - 2)), dice.uniform(0, 0.05))
+            finished += self.ends() == n_ends
+            self.resume_to_the_end(whole, n_ends)
+        print(f"{self.scene.stem} {' '.join(settings)}: {n_kills} kills, {finished} of them after the last state")
+
+    def resume_to_the_end(self, whole, n_ends):
+        if self.ends() == n_ends:
+            self.assertIn("nothing to go on with after ", self.go_on(status=1))
+        else:
+            self.go_on()
+        self.check_same(whole)
+        for path in self.out.iterdir():
+            path.unlink()
+
+    def kill_in_step(self, settings, step, pause):
+        run = subprocess.Popen(command(self.scene, self.out, *settings), stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL, env=ENVIRONMENT)
-        while self.finished_steps() < step - 1:
+        while self.ends() < step - 1:
             time.sleep(0.001)
         time.sleep(pause)
         run.kill()
         run.wait()
 
-    def finished_steps(self):
+    def ends(self):
+        """How many steps, in a history load steps, the state knows."""
         state = self.out / "state.dat"
-        return int(state.read_text().split("\nsteps ")[1].split()[0]) if state.exists() else 0
+        text = state.read_text() if state.exists() else "\nsteps 0\nloads 0\n"
+        return int(text.split("\nloads ")[1].split()[0]) or int(text.split("\nsteps ")[1].split()[0])
 
     def test_the_bound_to_its_last_digits(self):
         self.run_scene(STEPS)

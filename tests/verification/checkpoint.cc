@@ -253,7 +253,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
     EXPECT_NE(
         damaged(text.substr(0, part * text.size() / 4)).find("state.dat: the run state is cut"),
         std::string::npos);
-  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 6\""),
+  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 7\""),
             std::string::npos);
   std::string altered = text;
   char &digit = altered[altered.find_last_of("12345678")];
@@ -266,7 +266,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
 TEST(RunState, WithoutSenseIsRefused)
 {
   for (const std::string content : {"", "entries 0\nsteps 1\n1 1 x 0\n", "entries 0\nsteps -1\n",
-                                    "entries 0\nsteps 0\nrefinements 0\nmotion 0\nu 2 1\n"})
+                                    "entries 0\nsteps 0\nrefinements 0\nkept 0\nloads 1\n"})
   {
     std::ostringstream out;
     RunState<2>::format().write(out, content);
@@ -284,7 +284,7 @@ TEST(RunState, WithoutSenseIsRefused)
   EXPECT_NE(refusal_to_go_on(state, steps(3)).find("number of steps or unknowns"),
             std::string::npos);
   state = whole;
-  state.refinements[0].bisect.resize(3);
+  state.refinements[0].n_cells = 3;
   EXPECT_NE(refusal_to_go_on(state, steps(3)).find("another coarse mesh"), std::string::npos);
 }
 } // namespace

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace hpvi
 {
@@ -37,7 +38,8 @@ public:
   /**
    * Goes on after the step in which @p state was taken, to the same numbers as if the run had not been
    * broken off. Throws InputError where @p scene is not that of the state, limits, output and labels
-   * aside, or where its limits leave no step to take.
+   * aside, or where its limits leave no step to take. In a history of loads @p scene is that of the load step which
+   * has ended in the state: then there is only the next one to go on with.
    */
   AdaptiveSolver(const Scene<dim> &scene, const RunState<dim> &state,
                  MPI_Comm communicator = MPI_COMM_SELF);
@@ -59,8 +61,14 @@ public:
       const std::function<void(const StepReport<dim> &)> &finished_step,
       const Announce &about_to = [](const Progress &) {});
 
-  /** What it takes to go on after the step at hand; to be asked while its callback lasts. */
-  RunState<dim> state() const;
+  /**
+   * What it takes to go on after the step at hand; to be asked while its callback lasts. At the end of a load step with
+   * what those leave that are @p finished.
+   */
+  RunState<dim> state(const std::optional<FinishedLoads> &finished = std::nullopt) const;
+
+  /** Of the last step, that of the state from which it goes on; none on the primal path. */
+  std::optional<ReducedPart<dim>> reduced() const;
 
 private:
   struct Stages;

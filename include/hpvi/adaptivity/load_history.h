@@ -26,13 +26,13 @@ public:
   /** Throws InputError where the scene or that of a load step does not pass Scene::check(). */
   explicit LoadHistory(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
 
-  /** Goes on as AdaptiveSolver does. Throws InputError where the scene has a history of loads. */
+  /** Goes on as AdaptiveSolver does, in a history of loads after its last finished load step. Throws InputError likewise. */
   LoadHistory(const Scene<dim> &scene, const RunState<dim> &state,
               MPI_Comm communicator = MPI_COMM_SELF);
 
   ~LoadHistory();
 
-  /** AdaptiveSolver::state(); none of a history of loads. */
+  /** AdaptiveSolver::state(); in a history of loads at the end of a load step alone. */
   std::optional<RunState<dim>> state() const;
 
   /** AdaptiveSolver::prepare(), of the first load step. */

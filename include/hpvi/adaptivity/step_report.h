@@ -2,6 +2,7 @@
 #ifndef hpvi_step_report_h
 #define hpvi_step_report_h
 
+#include <hpvi/adaptivity/finished_loads.h>
 #include <hpvi/backends/backend.h>
 #include <hpvi/evaluation/probe_value.h>
 #include <hpvi/evaluation/resultant.h>
@@ -15,19 +16,6 @@
 
 namespace hpvi
 {
-/** Where in a history of loads a step stands; all zero without one. */
-struct LoadStep
-{
-  unsigned int number = 0; ///< from 1
-  double t = 0;
-  /** From the beginning of the history to the end of the load step, once it is reached: */
-  double work = 0;       ///< the sum of Work::external [stress length^dim]
-  double dissipated = 0; ///< the sum of Work::dissipated, likewise
-  double stored = 0;     ///< a(u_N,u_N)/2, likewise
-  double released = 0;   ///< the sum of Work::released, likewise
-  double unbalanced = 0; ///< the sum of Work::unbalanced, likewise
-};
-
 /**
  * Everything known after one SOLVE, ESTIMATE, whichever backend solved; numbers are those of all processes and
  * the same on each of them, unless it says otherwise. References live until the next step begins.

@@ -4,6 +4,7 @@
 
 #include <hpvi/base/progress.h>
 #include <hpvi/base/stage_times.h>
+#include <hpvi/body/mesh_marks.h>
 #include <hpvi/cones/coulomb_solver.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/equilibration/error_bound.h>
@@ -35,6 +36,7 @@ struct ProblemSize
   dealii::types::global_dof_index n_multipliers = 0;
   std::vector<dealii::types::global_dof_index> cells_of_degree; ///< by p; nothing at 0
 
+  void count(const Degrees &degrees); ///< cells_of_degree
   unsigned int p_min() const;
   unsigned int p_max() const;
 };
@@ -77,9 +79,10 @@ struct BoundOfStep
 /** u_N and the multiplier as numbers that do not depend on how many processes found them. */
 struct SolutionValues
 {
-  dealii::Vector<double> u;      ///< displacement unknowns [length]
-  dealii::Vector<double> z;      ///< multipliers
-  dealii::Vector<double> motion; ///< amounts of Scene::free_motions() by which the body moves
+  dealii::Vector<double> u;       ///< displacement unknowns [length]
+  dealii::Vector<double> z;       ///< multipliers
+  dealii::Vector<double> motion;  ///< amounts of Scene::free_motions() by which the body moves
+  std::vector<unsigned int> kept; ///< what the backend alone remembers of steps before
 };
 
 /**
@@ -138,10 +141,22 @@ public:
   virtual void refine(const Refinement &refinement) = 0;
   virtual Degrees degrees() const = 0;
 
+  /** All refinements since the coarse mesh, those of discretise() among them. */
+  const std::vector<MeshMarks> &trail() const
+  {
+    return refined;
+  }
+
   virtual SolutionValues values() const = 0;
 
   /** In the place of solve(); false where they are those of another mesh. */
   virtual bool restore(const SolutionValues &values) = 0;
+
+  /**
+   * The end of a load step, in the place of all that led to it: @p marks are the trail() that it had, @p values its
+   * values(); false where they are those of another mesh.
+   */
+  virtual bool restore_end(const std::vector<MeshMarks> &marks, const SolutionValues &values);
 
   /** For the next load step of a history, @p scene, on the mesh at hand, with slip from @p past on; takes over what this one keeps. */
   virtual std::unique_ptr<Backend> next_load_step(const Scene<dim> &scene,
@@ -156,6 +171,12 @@ public:
 
   /** Says so. */
   void begin(const std::string &stage, const std::string &note = {}) const;
+
+protected:
+  /** Refines by each of @p marks in turn; false where they are those of another mesh. */
+  bool follow(const std::vector<MeshMarks> &marks);
+
+  std::vector<MeshMarks> refined; ///< trail()
 };
 
 /** Is it the primal path that solves @p scene on @p n processes? Throws InputError where none does. */

@@ -4,6 +4,7 @@
 
 #include <hpvi/algebra/factored_system.h>
 #include <hpvi/backends/backend.h>
+#include <hpvi/base/dense_work.h>
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/evaluation/legendre_smoothness.h>
 #include <hpvi/intervals/resultant_intervals.h>
@@ -69,7 +70,10 @@ public:
   SolutionValues values() const override;
   bool restore(const SolutionValues &values) override;
   std::unique_ptr<Backend<dim>> next_load_step(const Scene<dim> &scene,
-                                               const PastSlip<dim> &past) override;
+                                               const PastSlip<dim> &past) override
+  {
+    return std::make_unique<ReducedBackend>(scene, *this, past);
+  }
 
 private:
   using Backend<dim>::scene;
@@ -78,12 +82,18 @@ private:
 
   ReducedBackend(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> tables);
 
+  void look_at_loads(unsigned int finer);
   void assemble();
   void build();
   void factor();
   void keep_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
   void take(dealii::Vector<double> u, const dealii::Vector<double> &z);
-  std::string dense_note() const;
+  /** Of the step whose system is assembled. */
+  std::string dense_note() const
+  {
+    const auto &rows = discretisation->contact_rows;
+    return DenseWork{rows.kept.size(), rows.n_rows()}.note();
+  }
   bool needs_factor_again() const;
 
   std::shared_ptr<const dealii::Triangulation<dim>> mesh;
@@ -91,6 +101,7 @@ private:
   const std::shared_ptr<const ShapeTables<dim>> tables;
   CondensedElements<dim> elements;
   std::shared_ptr<const LoadRules<dim>> loads;
+  unsigned int finer_loads = 1;   ///< how close it looks
   std::string missing, seen_late; ///< missed_loads() of this mesh, of an earlier one
   const LegendreSmoothness<dim> smoothness;
   ErrorBounds error_bounds;

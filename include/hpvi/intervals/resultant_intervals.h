@@ -37,6 +37,12 @@ public:
   std::string set(const Solution<2> &solution, const ErrorBound &bound,
                   std::vector<Resultant<2>> &forces);
 
+  /** How often the mesh of the test displacements is bisected at each end of a fall: all that one step leaves to the next. */
+  std::vector<unsigned int> levels() const;
+
+  /** To be called before the first set(), with the levels() of a step before. */
+  void begin_with(const std::vector<unsigned int> &levels);
+
 private:
   /** A resultant of one boundary with its w. */
   struct Goal
@@ -82,7 +88,8 @@ private:
   std::vector<OfBoundary> boundaries;
   bool has_goals = false;
   std::vector<std::string> why_not;
-  std::vector<GradedPoint> graded; ///< the ends of all falls
+  std::vector<GradedPoint> graded;    ///< the ends of all falls
+  std::vector<unsigned int> at_first; ///< begin_with()
   const std::shared_ptr<PartTables> tables = std::make_shared<PartTables>();
   std::unique_ptr<TestSpace> space;
 };

@@ -49,7 +49,7 @@ public:
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
  * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
- * | `state.dat` | all that it takes to go on after the last finished step: RunState; not of a load history |
+ * | `state.dat` | all that it takes to go on after the last finished step, of a history the last finished load step: RunState |
  * | `reference.dat` | the last displacement, to measure other runs against |
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
  *
@@ -101,11 +101,13 @@ public:
 private:
   void open(const std::string &path, unsigned int n_steps);
   void take_up(unsigned int n_steps);
+  void take_up_pictures(unsigned int n_steps);
   void announce(const std::vector<std::string> &names);
   void write(const std::string &name, const std::string &content) const;
   void update(const std::string &name, const GrowingText &content);
   void check(const std::string &name, const std::error_code &error) const;
   void write_summary() const;
+  void write_state();
   void write_pieces(const StepReport<dim> &step);
   void write_pictures(const StepReport<dim> &step);
   void add_to_collection(const StepReport<dim> &step);
@@ -122,6 +124,7 @@ private:
   Tables<dim> tables;
   Summary summary;
   GrowingText pvd;
+  std::string last_state;              ///< of the last step of all, until the run is done
   std::vector<std::string> pictures;   ///< the files with the number of the step
   std::vector<std::string> superseded; ///< by those of the next step
 };

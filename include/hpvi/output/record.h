@@ -14,6 +14,9 @@ namespace hpvi
 /** Names and values of one row of a table; an empty value is an empty field. */
 using Record = std::vector<std::pair<std::string, std::string>>;
 
+/** Of a column; empty where there is none. */
+std::string value_of(const Record &record, const std::string &column);
+
 /** Comma-separated, with the names of the last record as head. */
 std::string csv(const std::vector<Record> &records);
 

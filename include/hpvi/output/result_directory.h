@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -72,6 +73,8 @@ private:
 class ResultDirectory
 {
 public:
+  using KeptSteps = std::function<bool(unsigned int)>;
+
   /**
    * Create @p path with its parents, or none of them, and lock it; the lock ends with the process.
    * Throws InputError, before anything is changed, where another run has the lock, and where a file
@@ -93,10 +96,10 @@ public:
   void remove_earlier();
 
   /**
-   * For a run that goes on after @p step: remove what was written for later ones; returns the names of the files with the
-   * number of the step. Throws InputError.
+   * For a run that goes on after @p step: remove the files of each step that is not @p kept; returns the names of those with
+   * the number of the step. Throws InputError.
    */
-  std::vector<std::string> remove_after(unsigned int step);
+  std::vector<std::string> remove_after(unsigned int step, const KeptSteps &kept);
 
   /** Remove one of the program's own files; where that fails it stays one. */
   void remove(const std::string &name);

@@ -43,8 +43,8 @@ struct Summary
   };
   Ending ending;
 
-  /** Begin with steps of convergence.csv that are finished. */
-  void take_up(const std::vector<Record> &rows);
+  /** Begin with steps of convergence.csv that are finished, and load steps of loading.csv. */
+  void take_up(const std::vector<Record> &rows, const std::vector<Record> &load_steps);
 
   /** Count a finished step, whose row is @p row. */
   template <int dim>

@@ -5,6 +5,7 @@
 #include <hpvi/adaptivity/step_report.h>
 #include <hpvi/output/record.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,11 @@ public:
   void add(const StepReport<dim> &step);
 
   /**
-   * Begins with the rows of the first @p n_steps steps of what files hold, as they stand there; returns those of convergence(). Throws
-   * InputError where they are not all there.
+   * Begins with the rows of the first @p n_steps steps of what files hold, as they stand there, the last of them the end of a load
+   * step where there @p is_history; returns those of convergence(). Throws InputError where they are not all there.
    */
-  std::vector<Record> take_up(unsigned int n_steps, const std::string &convergence,
-                              const std::string &degrees, const std::string &forces);
+  std::vector<Record> take_up(unsigned int n_steps, bool is_history,
+                              const std::function<std::string(const std::string &)> &content_of);
 
   const Record &last_row() const; ///< of convergence()
   const GrowingText &convergence() const;

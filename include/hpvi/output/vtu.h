@@ -3,7 +3,6 @@
 #define hpvi_vtu_h
 
 #include <hpvi/adaptivity/step_report.h>
-#include <hpvi/output/record.h>
 
 #include <string>
 #include <vector>
@@ -23,9 +22,6 @@ struct Vtu
  */
 template <int dim>
 Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces);
-
-/** Name a file in `solution.pvd`, by which ParaView opens all of them; @p time is the step, or the time of a history. */
-void add_to_pvd(GrowingText &pvd, double time, const std::string &file);
 } // namespace hpvi
 
 #endif

@@ -11,7 +11,7 @@
 
 namespace hpvi
 {
-/** Numbers of cells of this process, by global_active_cell_index. */
+/** Numbers of cells of this process, by cell_ranks(). */
 using CellNumbers = std::vector<std::pair<dealii::types::global_cell_index, std::vector<double>>>;
 
 /** Those of all @p n_cells cells of all processes. Collective. */

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_finished_loads_h
+#define hpvi_finished_loads_h
+
+#include <hpvi/scene/data_scale.h>
+#include <hpvi/warnings/warnings.h>
+
+namespace hpvi
+{
+/** Where in a history of loads a step stands; all zero without one. */
+struct LoadStep
+{
+  unsigned int number = 0; ///< from 1
+  double t = 0;
+  /** From the beginning of the history to the end of the load step, once it is reached: */
+  double work = 0;       ///< the sum of Work::external [stress length^dim]
+  double dissipated = 0; ///< the sum of Work::dissipated, likewise
+  double stored = 0;     ///< a(u_N,u_N)/2, likewise
+  double released = 0;   ///< the sum of Work::released, likewise
+  double unbalanced = 0; ///< the sum of Work::unbalanced, likewise
+};
+
+/** What the load steps of a history leave to the next one, besides the solution of the last of them. */
+struct FinishedLoads
+{
+  LoadStep load;            ///< the last of them
+  unsigned int n_steps = 0; ///< of all
+  double seconds = 0;       ///< likewise
+  double slipped = 0;       ///< the largest |u_t| along the contact of the primal path
+  double initial_part = 0;  ///< of stored energy: initial_energy()
+  unsigned int first = 0;   ///< load step with an error; 0: none yet
+  double tolerance = 0;     ///< that it sets for those after it
+  DataScale past_data;      ///< of the scene of the last, as load_step() got it
+  DataScale data;           ///< likewise, as it was solved
+  Warnings warnings;        ///< the worst of each kind
+};
+} // namespace hpvi
+
+#endif

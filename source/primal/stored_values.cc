@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/cell_ranks.h>
+#include <hpvi/primal/cell_numbers.h>
+#include <hpvi/primal/stored_values.h>
+#include <hpvi/primal/transfer.h>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+unsigned int n_cells(const MomentSpace<dim> &space)
+{
+  return space.dof_handler.get_triangulation().n_global_active_cells();
+}
+} // namespace
+
+template <int dim>
+StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVector &u,
+                           const std::vector<ContactVector<dim>> &lambda)
+{
+  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
+  CellNumbers own_u, own_z;
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const CellValues values = values_on(cell, space, u, lambda);
+      own_u.emplace_back(ranks[cell->active_cell_index()], values.u);
+      own_z.emplace_back(ranks[cell->active_cell_index()], values.lambda);
+    }
+  const auto joined = [&space](const CellNumbers &own)
+  {
+    std::vector<double> all;
+    for (const auto &numbers : join_cells(own, n_cells(space), space.communicator()))
+      all.insert(all.end(), numbers.begin(), numbers.end());
+    return Vector<double>(all.begin(), all.end());
+  };
+  return {joined(own_u), joined(own_z)};
+}
+
+template <int dim>
+bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
+                 const MomentSpace<dim> &space, DistributedVector &u,
+                 std::vector<ContactVector<dim>> &lambda)
+{
+  const unsigned int n = space.tables.fe.dofs_per_cell;
+  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
+  u = space.ghosted_vector();
+  lambda.assign(space.contact.size(), ContactVector<dim>());
+  CellNumbers sizes; // of the multiplier
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      sizes.emplace_back(ranks[cell->active_cell_index()],
+                         std::vector<double>(1, values_on(cell, space, u, lambda).lambda.size()));
+  std::vector<std::size_t> first(1, 0);
+  for (const auto &size : join_cells(sizes, n_cells(space), space.communicator()))
+    first.push_back(first.back() + size.front());
+  if (stored_u.size() != std::size_t(n) * n_cells(space) || stored_z.size() != first.back())
+    return false;
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const auto k = ranks[cell->active_cell_index()];
+      take_values<dim>(cell,
+                       {{stored_u.begin() + n * k, stored_u.begin() + n * (k + 1)},
+                        {stored_z.begin() + first[k], stored_z.begin() + first[k + 1]}},
+                       space, u, lambda);
+    }
+  u.zero_out_ghost_values();
+  u.update_ghost_values();
+  return true;
+}
+
+template StoredValues stored_values(const MomentSpace<2> &, const DistributedVector &,
+                                    const std::vector<ContactVector<2>> &);
+template StoredValues stored_values(const MomentSpace<3> &, const DistributedVector &,
+                                    const std::vector<ContactVector<3>> &);
+template bool take_stored(const Vector<double> &, const Vector<double> &, const MomentSpace<2> &,
+                          DistributedVector &, std::vector<ContactVector<2>> &);
+template bool take_stored(const Vector<double> &, const Vector<double> &, const MomentSpace<3> &,
+                          DistributedVector &, std::vector<ContactVector<3>> &);
+} // namespace hpvi
