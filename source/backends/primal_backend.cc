@@ -10,6 +10,7 @@
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/memory_need.h>
 #include <hpvi/primal/moment_field.h>
+#include <hpvi/primal/mooring.h>
 #include <hpvi/primal/nodal_forces.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/primal/upper_energy.h>
@@ -120,14 +121,16 @@ void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<
     begin("finding stick and slip: " + place + std::to_string(matrix.n_steps - steps_before) +
           " steps of conjugate gradients");
   };
-  report +=
-      friction.solve(v, lambda, settings,
-                     [&](const NewtonReport &sofar)
-                     {
-                       place = std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
-                                                                     : "Newton step ") +
-                               std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
-                     });
+  const auto heard = [&](const NewtonReport &sofar)
+  {
+    place =
+        std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step " : "Newton step ") +
+        std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
+  };
+  Mooring<dim> mooring(*space, *system, matrix);
+  report += mooring.solve(v, lambda, settings,
+                          [&](const NewtonSettings &inner)
+                          { return friction.solve(v, lambda, inner, heard); });
 }
 
 /** Before the error of this mesh is estimated: as if it were half of that before. */
