@@ -6,7 +6,8 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/checks/checks.h>
-#include <hpvi/primal/cell_numbers.h>
+#include <hpvi/primal/contact_statics.h>
+#include <hpvi/primal/kept_values.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/memory_need.h>
 #include <hpvi/primal/moment_field.h>
@@ -94,19 +95,51 @@ void PrimalBackend<dim>::number()
 template <int dim>
 void PrimalBackend<dim>::discretise()
 {
-  if (system)
-    return; // prepare() has been here
   if (!space)
   {
     number();
     if (past)
       space->count_slip_from(past->u);
   }
+  if (!system) // else prepare() has been here
+    assemble();
+  if (space->rests_on_contact)
+    reach_loads();
+}
+
+template <int dim>
+void PrimalBackend<dim>::assemble()
+{
   require_room(*space);
   begin("assembling " + std::to_string(mesh->n_global_active_cells()) + " elements",
         memory_note(*space));
   StageTimer timer(times.assemble);
   system = std::make_unique<PrimalSystem<dim>>(*space);
+}
+
+/**
+ * Where contact alone holds the body, statics has a say before anything is solved. Loads that pass between the last Gauss
+ * point and an edge ask for smaller cells there, as on the reduced path.
+ */
+template <int dim>
+void PrimalBackend<dim>::reach_loads()
+{
+  if constexpr (dim == 3)
+    for (unsigned int levels_left = 4;; --levels_left)
+    {
+      const ContactStatics statics(*space, system->f);
+      statics.require_equilibrium();
+      const auto missing = statics.missing();
+      if (!missing)
+        return;
+      Refinement refinement{std::vector<bool>(mesh->n_global_active_cells()), degrees()};
+      if (levels_left == 0 || missing->n_cells == 0)
+        throw NumericalFailure(missing->why);
+      for (const auto &cell : missing->cells)
+        refinement.bisect[cell->global_active_cell_index()] = true;
+      refine(refinement);
+      assemble();
+    }
 }
 
 /** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
@@ -123,17 +156,21 @@ void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<
   };
   const auto heard = [&](const NewtonReport &sofar)
   {
-    place =
-        std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step " : "Newton step ") +
-        std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
+    place = sofar.augmented_steps > 0 ? "augmented Lagrangian, step " : "Newton step ";
+    place += std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
   };
-  Mooring<dim> mooring(*space, *system, matrix);
-  report += mooring.solve(v, lambda, settings,
-                          [&](const NewtonSettings &inner)
-                          { return friction.solve(v, lambda, inner, heard); });
+  const auto solve = [&](const NewtonSettings &inner)
+  { return friction.solve(v, lambda, inner, heard); };
+  if constexpr (dim == 3)
+    if (space->rests_on_contact)
+    {
+      report += Mooring(*space, *system, matrix).solve(v, lambda, settings, solve);
+      return;
+    }
+  report += solve(settings);
 }
 
-/** Before the error of this mesh is estimated: as if it were half of that before. */
+/** Before the error of this mesh is estimated, as if it were half of that before. */
 template <int dim>
 NewtonSettings PrimalBackend<dim>::first_settings() const
 {
@@ -341,58 +378,18 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
   }
 }
 
-// @sect3{Going on}
-//
-// Cells are counted along the curve that p4est orders them by, however many processes share them.
 template <int dim>
 SolutionValues PrimalBackend<dim>::values() const
 {
-  CellNumbers own_u, own_z;
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const CellValues values = values_on(cell, *space, u, lambda);
-      own_u.emplace_back(cell->global_active_cell_index(), values.u);
-      own_z.emplace_back(cell->global_active_cell_index(), values.lambda);
-    }
-  const auto joined = [this](const CellNumbers &own)
-  {
-    std::vector<double> all;
-    for (const auto &numbers :
-         join_cells(own, mesh->n_global_active_cells(), space->communicator()))
-      all.insert(all.end(), numbers.begin(), numbers.end());
-    return Vector<double>(all.begin(), all.end());
-  };
-  return {joined(own_u), joined(own_z), {}};
+  KeptValues kept = kept_values(*space, u, lambda);
+  return {std::move(kept.u), std::move(kept.lambda), {}};
 }
 
 template <int dim>
 bool PrimalBackend<dim>::restore(const SolutionValues &values)
 {
-  const unsigned int n = tables.fe.dofs_per_cell, n_cells = mesh->n_global_active_cells();
-  u = space->ghosted_vector();
-  lambda.assign(space->contact.size(), ContactVector<dim>());
-  CellNumbers sizes; // of the multiplier
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      sizes.emplace_back(cell->global_active_cell_index(),
-                         std::vector<double>(1, values_on(cell, *space, u, lambda).lambda.size()));
-  std::vector<std::size_t> first(1, 0);
-  for (const auto &size : join_cells(sizes, n_cells, space->communicator()))
-    first.push_back(first.back() + size.front());
-  if (values.u.size() != n * n_cells || values.z.size() != first.back() || values.motion.size() > 0)
+  if (values.motion.size() > 0 || !take_kept({values.u, values.z}, *space, u, lambda))
     return false;
-  for (const auto &cell : space->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const auto k = cell->global_active_cell_index();
-      take_values<dim>(cell,
-                       {{values.u.begin() + n * k, values.u.begin() + n * (k + 1)},
-                        {values.z.begin() + first[k], values.z.begin() + first[k + 1]}},
-                       *space, u, lambda);
-    }
-  u.zero_out_ghost_values();
-  u.update_ghost_values();
   has_start = true;
   take();
   return true;

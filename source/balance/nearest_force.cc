@@ -11,8 +11,8 @@ using namespace dealii;
 
 namespace
 {
-/** What counts as nothing beside e. */
-constexpr double negligible = 1e-12;
+/** How near to e is e. */
+constexpr double round_off = 1e-13;
 
 /**
  * The resultant nearest to e by Wolfe's algorithm ("Finding the nearest point in a polytope", Math.
@@ -49,7 +49,7 @@ Nearest::Nearest(const ForceSet &set, const Force &e) : set(set), e(e)
   minimise();
   // Many more than ever seen.
   for (unsigned int steps_left = 10000; steps_left > 0; --steps_left)
-    if (residual.norm() <= 0.1 * negligible * e.norm() || !add_corner())
+    if (residual.norm() <= round_off * e.norm() || !add_corner())
       return;
 }
 
@@ -150,7 +150,7 @@ bool Nearest::shorten(const std::vector<double> &weights)
 }
 } // namespace
 
-std::optional<Separation> separate(const ForceSet &set, const Force &e)
+std::optional<Separation> separate(const ForceSet &set, const Force &e, const double negligible)
 {
   const Force motion = Nearest(set, e).residual;
   if (motion.norm() == 0.)

@@ -3,6 +3,7 @@
 #include <hpvi/checks/space_motion.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/plate_motion.h>
 
@@ -174,12 +175,10 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
       if constexpr (dim == 2)
         if (boundary.friction) // where it vanishes, the mesh decides
           rows.resisted.push_back(row_of(-cross_product_2d(boundary.held_direction(normal)), arm));
-      for (unsigned int d = 0; dim == 3 && boundary.friction && d < dim; ++d)
-        if (Tensor<1, dim> axis; std::abs(normal[d]) < 0.5) // sides of boxes
-        {
-          axis[d] = 1;
-          rows.resisted.push_back(row_of(axis, arm));
-        }
+      if constexpr (dim == 3)
+        if (boundary.friction)
+          for (const Tensor<1, dim> &tangent : contact_axes(normal).tangents)
+            rows.resisted.push_back(row_of(tangent, arm));
     }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)

@@ -65,8 +65,7 @@ template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system,
                                 const LinearMethod method)
     : method(method), space(space), system(system), blocks(space.contact.size()),
-      inserted(space.contact.size()), states(space.contact.size()),
-      springs(space.contact.size())
+      inserted(space.contact.size()), states(space.contact.size()), springs(space.contact.size())
 {
   begin();
 }

@@ -40,11 +40,11 @@ struct Separation
 };
 
 /**
- * Nothing where the set holds e to 1e-12 of it. Otherwise the residual of the nearest point, which separates e from
+ * Nothing where the set holds e to @p negligible of it. Otherwise the residual of the nearest point, which separates e from
  * the set. Of a set that is no polyhedron the nearest point is found in the limit, and what lies nearer than the method gets
  * counts as inside.
  */
-std::optional<Separation> separate(const ForceSet &set, const Force &e);
+std::optional<Separation> separate(const ForceSet &set, const Force &e, double negligible = 1e-12);
 } // namespace hpvi
 
 #endif

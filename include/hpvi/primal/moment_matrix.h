@@ -92,8 +92,8 @@ private:
   const MomentSpace<dim> &space;
   PrimalSystem<dim> &system;
   std::vector<Block> blocks, inserted; ///< of A; what set_up() has added to them in the matrix
-  std::vector<MomentState<dim>> states, known;         ///< now, with springs; when multigrid was set up
-  std::vector<double> motions;                         ///< rigid_motions(), one after the other
+  std::vector<MomentState<dim>> states, known; ///< now, with springs; when multigrid was set up
+  std::vector<double> motions;                 ///< rigid_motions(), one after the other
   dealii::TrilinosWrappers::SparseMatrix *A = nullptr; ///< of the system; null: there is none
   std::unique_ptr<Multigrid> multigrid;
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
