@@ -357,8 +357,8 @@ MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
       continue;
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
-      result[dim * face + c] = c == face / 2 ? boundary.has_pressure()
-                                             : has_tangential_moments(boundary);
+      result[dim * face + c] =
+          c == face / 2 ? boundary.has_pressure() : has_tangential_moments(boundary);
   }
   return result;
 }

@@ -77,7 +77,7 @@ NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<Contac
     if (left <= balanced && is_met)
       return report;
     if (is_met) // as the error of the mesh allows, but forces shall balance
-      settings = {std::clamp(0.01 * left, 1e-12, 1e-3), 0., settings.maximum_steps};
+      settings = {std::clamp(0.1 * left, 1e-10, 1e-3), 0., settings.maximum_steps};
   }
   throw NumericalFailure("no equilibrium found in " + std::to_string(patience) +
                          " steps: " + words +

@@ -162,7 +162,7 @@ TEST(HeldByContact, AllSolversAgree)
   }
 }
 
-/** Near its angle of friction a body takes few steps more: 92 of Newton's method where springs were stiff. */
+/** Near its angle of friction a body takes few steps more. */
 TEST(HeldByContact, FewStepsLeadToTheLimit)
 {
   for (const char *const coefficient : {"0.6", "0.51"})

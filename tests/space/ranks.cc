@@ -92,7 +92,7 @@ TEST(Ranks, HeldByContactAlone)
                                               {"Body force/Expression", force},
                                               {"Boundary bottom/Friction bound", "3"},
                                               {"Boundary bottom/Friction coefficient", ""},
-                                              {"Adaptivity/Maximum steps", "2"}});
+                                              {"Adaptivity/Maximum steps", steps}});
     scene.solver.primal_tolerance = 1e-11;
     expect_same_run(scene);
   }
