@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/backends/primal_backend.h>
-#include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/base/text.h>
 #include <hpvi/body/cell_ranks.h>
 #include <hpvi/body/mesh.h>
-#include <hpvi/checks/checks.h>
+#include <hpvi/primal/contact_statics.h>
 #include <hpvi/primal/load_check.h>
 #include <hpvi/primal/memory_need.h>
 #include <hpvi/primal/moment_field.h>
+#include <hpvi/primal/mooring.h>
 #include <hpvi/primal/nodal_forces.h>
+#include <hpvi/primal/spread_mesh.h>
 #include <hpvi/primal/stored_values.h>
 #include <hpvi/primal/transfer.h>
 #include <hpvi/primal/upper_energy.h>
@@ -32,22 +32,6 @@ constexpr double algebraic_part = 1e-2;
 
 /** Of the residual relative to the load vector: Newton's method has no less to reach. */
 constexpr double round_off = 1e-11;
-
-template <int dim>
-std::shared_ptr<typename MomentSpace<dim>::Mesh> coarse_mesh(const Scene<dim> &scene,
-                                                             MPI_Comm communicator)
-{
-  together(communicator, [&]() { check_primal_path(scene); });
-  const auto mesh = std::make_shared<typename MomentSpace<dim>::Mesh>(communicator);
-  make_mesh(scene, static_cast<Triangulation<dim> &>(*mesh));
-  const auto n = hpvi::n_processes(communicator);
-  if (mesh->n_global_active_cells() < n)
-    throw InputError(printable(scene.origin(), 400) +
-                     ": Geometry/Subdivisions: makes fewer cells, " +
-                     std::to_string(mesh->n_global_active_cells()) + ", than the " +
-                     std::to_string(n) + " processes; start fewer of them or take more cells");
-  return mesh;
-}
 } // namespace
 
 template <int dim>
@@ -60,7 +44,7 @@ PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator
 
 template <int dim>
 PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator)
-    : PrimalBackend(scene, communicator, coarse_mesh(scene, communicator))
+    : PrimalBackend(scene, communicator, spread_mesh(scene, communicator))
 {
 }
 
@@ -95,19 +79,53 @@ void PrimalBackend<dim>::number()
 template <int dim>
 void PrimalBackend<dim>::discretise()
 {
-  if (system)
-    return; // prepare() has been here
   if (!space)
   {
     number();
     if (past)
       space->count_slip_from(past->u);
   }
+  if (!system) // else prepare() has been here
+    assemble();
+  if (space->rests_on_contact)
+    reach_loads();
+}
+
+template <int dim>
+void PrimalBackend<dim>::assemble()
+{
   require_room(*space);
   begin("assembling " + std::to_string(mesh->n_global_active_cells()) + " elements",
         memory_note(*space));
   StageTimer timer(times.assemble);
   system = std::make_unique<PrimalSystem<dim>>(*space);
+}
+
+/**
+ * Where contact alone holds the body, statics has a say before anything is solved. Loads that pass between the last Gauss
+ * point and an edge ask for smaller cells there, as on the reduced path.
+ */
+template <int dim>
+void PrimalBackend<dim>::reach_loads()
+{
+  if constexpr (dim == 3)
+    for (unsigned int levels_left = 4;; --levels_left)
+    {
+      const ContactStatics statics(*space, system->f);
+      statics.require_equilibrium();
+      const auto missing = statics.missing();
+      if (!missing)
+        return;
+      if (levels_left == 0 || missing->n_cells == 0)
+        throw NumericalFailure(missing->why);
+      const auto ranks = cell_ranks(static_cast<const Triangulation<dim> &>(*mesh));
+      std::vector<unsigned int> mine(mesh->n_global_active_cells()), all(mine.size());
+      for (const auto &cell : missing->cells)
+        mine[ranks[cell->active_cell_index()]] = 1;
+      Utilities::MPI::max(mine, this->communicator, all); // states keep the marks of all processes
+      refine({std::vector<bool>(all.begin(), all.end()), degrees()});
+      assemble();
+    }
 }
 
 /** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
@@ -122,17 +140,23 @@ void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<
     begin("finding stick and slip: " + place + std::to_string(matrix.n_steps - steps_before) +
           " steps of conjugate gradients");
   };
-  report +=
-      friction.solve(v, lambda, settings,
-                     [&](const NewtonReport &sofar)
-                     {
-                       place = std::string(sofar.augmented_steps > 0 ? "augmented Lagrangian, step "
-                                                                     : "Newton step ") +
-                               std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
-                     });
+  const auto heard = [&](const NewtonReport &sofar)
+  {
+    place = sofar.augmented_steps > 0 ? "augmented Lagrangian, step " : "Newton step ";
+    place += std::to_string(sofar.steps + sofar.augmented_steps + 1) + ", ";
+  };
+  const auto solve = [&](const NewtonSettings &inner)
+  { return friction.solve(v, lambda, inner, heard); };
+  if constexpr (dim == 3)
+    if (space->rests_on_contact)
+    {
+      report += Mooring(*space, *system, matrix).solve(v, lambda, settings, solve);
+      return;
+    }
+  report += solve(settings);
 }
 
-/** Before the error of this mesh is estimated: as if it were half of that before. */
+/** Before the error of this mesh is estimated, as if it were half of that before. */
 template <int dim>
 NewtonSettings PrimalBackend<dim>::first_settings() const
 {

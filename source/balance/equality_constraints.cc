@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/tensor.h>
 #include <hpvi/balance/equality_constraints.h>
+#include <hpvi/balance/nearest_force.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,37 +13,28 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int most_equations = 24; ///< three of each of eight bodies
-
-using Force = Tensor<1, most_equations>; ///< of the equations there are, the others 0
-
-/** What counts as nothing beside e. */
-constexpr double negligible = 1e-12;
-
 /** Resultants `G'z` of the points of a set, columns of G scaled to length one. */
-class Resultants
+class Resultants : public ForceSet
 {
 public:
   Resultants(const FeasibleSet &feasible_set, const EqualityConstraints &constraints);
 
-  /** The farthest one along @p motion, or a unit vector along which they have no end. */
-  struct Extreme
-  {
-    Force place;
-    bool is_ray;
-  };
-  Extreme farthest(const Force &motion) const;
+  Extreme farthest(const Force &motion) const override;
+  Force start() const override;
+  unsigned int n_equations() const override;
 
+  Force length, e; ///< of the columns; scaled right hand side
+
+private:
   Force resultant(const Vector<double> &z) const;
 
   const FeasibleSet &feasible_set;
-  const unsigned int n_equations;
-  Force length, e; ///< of the columns; scaled right hand side
+  const unsigned int n;
   std::vector<Force> rows;
 };
 
 Resultants::Resultants(const FeasibleSet &feasible_set, const EqualityConstraints &constraints)
-    : feasible_set(feasible_set), n_equations(std::max<unsigned int>(3, constraints.e.size())),
+    : feasible_set(feasible_set), n(std::max<unsigned int>(3, constraints.e.size())),
       rows(feasible_set.size())
 {
   const FullMatrix<double> &G = constraints.G;
@@ -61,6 +52,18 @@ Resultants::Resultants(const FeasibleSet &feasible_set, const EqualityConstraint
       rows[i][j] = G(i, j) / length[j];
     e[j] = constraints.e[j] / length[j];
   }
+}
+
+unsigned int Resultants::n_equations() const
+{
+  return n;
+}
+
+Force Resultants::start() const
+{
+  Vector<double> zero(rows.size());
+  feasible_set.project(zero);
+  return resultant(zero);
 }
 
 Force Resultants::resultant(const Vector<double> &z) const
@@ -84,142 +87,6 @@ Resultants::Extreme Resultants::farthest(const Force &motion) const
   const bool is_ray = !feasible_set.farthest(direction, z);
   const Force place = resultant(z);
   return {is_ray ? place / place.norm() : place, is_ray};
-}
-
-/**
- * The resultant nearest to e by Wolfe's algorithm ("Finding the nearest point in a polytope", Math.
- * Programming 11, 1976), with rays beside points: the nearest point of what a few extremes span is moved
- * by one more extreme at a time, and those that lose their weight are dropped. Finite for polyhedra.
- */
-class Nearest
-{
-public:
-  explicit Nearest(const Resultants &resultants);
-
-  Force residual; ///< e less the nearest point
-
-private:
-  struct Corner
-  {
-    Resultants::Extreme extreme;
-    double weight;
-  };
-
-  bool add_corner();
-  void minimise();
-  std::vector<double> minimise_on_span();
-  bool shorten(const std::vector<double> &weights);
-
-  const Resultants &resultants;
-  std::vector<Corner> corners; ///< affinely independent, at least one of them a point
-};
-
-Nearest::Nearest(const Resultants &resultants) : resultants(resultants)
-{
-  Vector<double> zero(resultants.rows.size());
-  resultants.feasible_set.project(zero);
-  corners.push_back({{resultants.resultant(zero), false}, 1.});
-  minimise();
-  // Many more than ever seen.
-  for (unsigned int steps_left = 10000; steps_left > 0; --steps_left)
-    if (residual.norm() <= 0.1 * negligible * resultants.e.norm() || !add_corner())
-      return;
-}
-
-/** False if no extreme lies nearer to e. */
-bool Nearest::add_corner()
-{
-  const double distance = residual.norm();
-  const Resultants::Extreme extreme = resultants.farthest(residual);
-  if (!extreme.is_ray)
-  {
-    const double gain = residual * (extreme.place - resultants.e) + distance * distance,
-                 size = std::max(extreme.place.norm(), resultants.e.norm());
-    if (gain <= distance * std::max(1e-9 * distance, 1e-15 * size))
-      return false;
-  }
-  if (corners.size() > resultants.n_equations)
-    return false; // their span is all there is: what remains is round-off
-  corners.push_back({extreme, 0.});
-  minimise();
-  return residual.norm() < distance;
-}
-
-void Nearest::minimise()
-{
-  while (!shorten(minimise_on_span()))
-    ;
-}
-
-/** Sets the residual of the nearest point of the affine span and returns that point's weights. */
-std::vector<double> Nearest::minimise_on_span()
-{
-  const auto base = std::max_element(
-      corners.begin(), corners.end(),
-      [](const Corner &a, const Corner &b)
-      { return (a.extreme.is_ray ? -1. : a.weight) < (b.extreme.is_ray ? -1. : b.weight); });
-  residual = resultants.e - base->extreme.place;
-  std::vector<Force> basis;
-  std::vector<std::vector<double>> R; // columns of the triangle in edges = basis R
-  std::vector<double> product(corners.size()), weights(corners.size());
-  for (const Corner &corner : corners)
-  {
-    if (&corner == &*base)
-      continue;
-    Force edge = corner.extreme.place - (corner.extreme.is_ray ? Force() : base->extreme.place);
-    std::vector<double> column(basis.size() + 1);
-    for (int pass = 0; pass < 2; ++pass) // the second removes the round-off of the first
-      for (unsigned int k = 0; k < basis.size(); ++k)
-      {
-        const double part = basis[k] * edge;
-        column[k] += part;
-        edge -= part * basis[k];
-      }
-    column.back() = edge.norm();
-    basis.push_back(column.back() > 0. ? edge / column.back() : edge);
-    R.push_back(column);
-  }
-  for (int pass = 0; pass < 3; ++pass)
-    for (unsigned int k = 0; k < basis.size(); ++k)
-    {
-      const double part = basis[k] * residual;
-      product[k] += part;
-      residual -= part * basis[k];
-    }
-  weights[base - corners.begin()] = 1.;
-  for (unsigned int k = basis.size(), i = corners.size(); k-- > 0;)
-  {
-    do
-      --i;
-    while (&corners[i] == &*base);
-    weights[i] = R[k].back() > 0. ? product[k] / R[k].back() : 0.;
-    for (unsigned int l = 0; l < k; ++l)
-      product[l] -= weights[i] * R[k][l];
-    if (!corners[i].extreme.is_ray)
-      weights[base - corners.begin()] -= weights[i];
-  }
-  return weights;
-}
-
-/** Go towards @p weights as far as all stay positive. True if that is all the way. */
-bool Nearest::shorten(const std::vector<double> &weights)
-{
-  double part = 1.;
-  unsigned int blocking = corners.size();
-  for (unsigned int k = 0; k < corners.size(); ++k)
-    if (weights[k] <= 0. && corners[k].weight <= part * (corners[k].weight - weights[k]))
-    {
-      part = corners[k].weight - weights[k] > 0.
-                 ? corners[k].weight / (corners[k].weight - weights[k])
-                 : 0.;
-      blocking = k;
-    }
-  for (unsigned int k = 0; k < corners.size(); ++k)
-    corners[k].weight += part * (weights[k] - corners[k].weight);
-  if (blocking == corners.size())
-    return true;
-  corners.erase(corners.begin() + blocking);
-  return false;
 }
 } // namespace
 
@@ -293,20 +160,18 @@ std::optional<Imbalance> find_imbalance(const FeasibleSet &feasible_set,
                                         const EqualityConstraints &constraints)
 {
   const Resultants resultants(feasible_set, constraints);
-  const Force motion = Nearest(resultants).residual;
-  if (motion.norm() == 0.)
-    return {};
-  const Resultants::Extreme extreme = resultants.farthest(motion);
-  const double load = motion * resultants.e, resistance = motion * extreme.place;
-  if (extreme.is_ray || !(load - resistance > negligible * motion.norm() * resultants.e.norm()))
+  const std::optional<Separation> separation = separate(resultants, resultants.e);
+  if (!separation)
     return {};
 
   unsigned int largest = 0;
+  const Force &motion = separation->motion;
   for (unsigned int j = 0; j < constraints.e.size(); ++j)
     if (std::abs(motion[j]) > std::abs(motion[largest]))
       largest = j;
   const double unit = std::abs(motion[largest]) / resultants.length[largest];
-  Imbalance result{Vector<double>(constraints.e.size()), load / unit, resistance / unit};
+  Imbalance result{Vector<double>(constraints.e.size()), separation->load / unit,
+                   separation->resistance / unit};
   for (unsigned int j = 0; j < constraints.e.size(); ++j)
     result.motion[j] = motion[j] / resultants.length[j] / unit;
   return result;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/checks/space_motion.h>
 #include <hpvi/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/plate_motion.h>
 
@@ -173,6 +175,10 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
       if constexpr (dim == 2)
         if (boundary.friction) // where it vanishes, the mesh decides
           rows.resisted.push_back(row_of(-cross_product_2d(boundary.held_direction(normal)), arm));
+      if constexpr (dim == 3)
+        if (boundary.friction)
+          for (const Tensor<1, dim> &tangent : contact_axes(normal).tangents)
+            rows.resisted.push_back(row_of(tangent, arm));
     }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
@@ -235,9 +241,29 @@ std::vector<RigidBodyMotion<2>> motions_of_bodies(const Scene<2> &scene, const P
   }
   return result;
 }
+
+/** What holds one body; InputError where neither supports nor contact could hold it. */
+template <int dim>
+Rows<dim> checked_rows(const Scene<dim> &scene, const Point<dim> &centre, const double length)
+{
+  const Rows<dim> rows = rows_of(scene, 0, centre, length);
+  // Unilateral contact holds some motions one way, and what none holds may be in balance.
+  if (scene.has_unilateral_contact())
+    return rows;
+  std::string names;
+  for (const std::string &name : scene.geometry.boundary_names())
+    names += (names.empty() || name.empty() ? "" : ", ") + name;
+  if (const auto motions = motions_of(rows.resisted); !motions.empty())
+    throw InputError(printable(scene.origin(), 400) + ": Boundary " + names +
+                     "/Displacement: the supports leave a rigid-body motion free, " +
+                     describe(motions.front(), centre, length) +
+                     ", and no friction resists it; prescribe a displacement component or contact "
+                     "that stops it");
+  return rows;
+}
 } // namespace
 
-/** In space none may be left, for no contact may resist it there. */
+/** In space see free_motions_in_space(). */
 template <int dim>
 std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
 {
@@ -246,30 +272,22 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   if constexpr (dim == 2)
     if (!geometry.bodies.empty())
       return motions_of_bodies(*this, centre, length);
-  const Rows<dim> rows = rows_of(*this, 0, centre, length);
-  // Unilateral contact holds some motions one way, and what none holds may be in balance.
-  const bool may_rest_on_contact = dim == 2 && has_unilateral_contact();
-  std::string names;
-  for (const std::string &name : geometry.boundary_names())
-    names += (names.empty() || name.empty() ? "" : ", ") + name;
-  // In space neither friction nor a pressure that is found with it is asked to hold the body.
-  if (const auto motions = motions_of(dim == 2 ? rows.resisted : rows.held);
-      !motions.empty() && !may_rest_on_contact)
-    throw InputError(printable(origin(), 400) + ": Boundary " + names +
-                     "/Displacement: the supports leave a rigid-body motion free, " +
-                     describe(motions.front(), centre, length) +
-                     (dim == 2 ? ", and no friction resists it; prescribe a displacement component "
-                                 "or contact that stops it"
-                               : std::string(has_unilateral_contact() || has_friction()
-                                                 ? ", and bodies held by contact alone are not "
-                                                   "offered in space"
-                                                 : "") +
-                                     "; prescribe a displacement component or bilateral contact "
-                                     "that stops it"));
+  const Rows<dim> rows = checked_rows(*this, centre, length);
   std::vector<RigidBodyMotion<dim>> result;
   if constexpr (dim == 2)
     for (const RigidMotion<dim> &motion : motions_of(rows.held))
       result.push_back(motion_about(centre, length, motion));
+  return result;
+}
+
+std::vector<SpaceMotion> free_motions_in_space(const Scene<3> &scene)
+{
+  const Point<3> centre = scene.geometry.centre();
+  const double length = scene.geometry.radius();
+  std::vector<SpaceMotion> result;
+  for (const RigidMotion<3> &motion : motions_of(checked_rows(scene, centre, length).held))
+    result.push_back({Tensor<1, 3>({motion[0], motion[1], motion[2]}),
+                      Tensor<1, 3>({motion[3], motion[4], motion[5]}) / length, centre});
   return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
+#include <hpvi/checks/space_motion.h>
 #include <hpvi/moments/consistent_constraints.h>
 #include <hpvi/moments/moment_space.h>
 #include <hpvi/moments/support_constraints.h>
@@ -18,7 +19,8 @@ using namespace dealii;
 template <int dim>
 MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
-    : scene(scene), tables(tables), dof_handler(mesh)
+    : scene(scene), tables(tables), rests_on_contact(hpvi::rests_on_contact(scene)),
+      dof_handler(mesh)
 {
   number();
   together(communicator(),
@@ -29,11 +31,14 @@ MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
   for (const auto i : owned)
     constrained += constraints.is_constrained(i);
   n_free = dof_handler.n_dofs() - Utilities::MPI::sum(constrained, communicator());
-  const types::global_dof_index own_discs =
-      std::count_if(contact.begin(), contact.end(), [](const auto &c) { return c.is_friction(); });
+  types::global_dof_index own_discs = 0, own_pressures = 0;
+  for (const MomentFace<dim> &face : faces)
+  {
+    own_discs += condition(face.cell, face.face).friction ? tables.n_moments() : 0;
+    own_pressures += face.has_pressure() ? tables.n_moments() : 0;
+  }
   n_discs = Utilities::MPI::sum(own_discs, communicator());
-  n_pressures =
-      Utilities::MPI::sum(types::global_dof_index(contact.size()) - own_discs, communicator());
+  n_pressures = Utilities::MPI::sum(own_pressures, communicator());
 }
 
 /** The components of a node one after the other, as multigrid wants them. */
@@ -74,10 +79,10 @@ void MomentSpace<dim>::find_contact()
         if (!cell->at_boundary(number))
           continue;
         const BoundaryCondition<dim> &boundary = condition(cell, number);
-        if (!boundary.has_pressure() && !(boundary.has_contact() && boundary.friction))
+        if (!boundary.has_pressure() && !has_tangential_moments(boundary))
           continue;
         MomentFace<dim> face = face_of(cell, number);
-        if (boundary.has_contact() && boundary.friction)
+        if (has_tangential_moments(boundary))
         {
           face.friction = contact.size();
           add_moments(face, ContactMoment<dim>::Kind::friction, dofs);
@@ -352,8 +357,8 @@ MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
       continue;
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
-      result[dim * face + c] = c == face / 2 ? boundary.has_pressure()
-                                             : boundary.has_contact() && bool(boundary.friction);
+      result[dim * face + c] =
+          c == face / 2 ? boundary.has_pressure() : has_tangential_moments(boundary);
   }
   return result;
 }

@@ -65,7 +65,7 @@ template <int dim>
 MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system,
                                 const LinearMethod method)
     : method(method), space(space), system(system), blocks(space.contact.size()),
-      inserted(space.contact.size()), states(space.contact.size())
+      inserted(space.contact.size()), states(space.contact.size()), springs(space.contact.size())
 {
   begin();
 }
@@ -122,13 +122,14 @@ void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &
 {
   if constexpr (dim == 3)
     if (multigrid)
-    {
       multigrid->multiply(y, x);
-      return;
-    }
-  A->vmult(y, x);
-  for (unsigned int k = 0; k < inserted.size(); ++k)
-    space.add_moment(y, k, -(inserted[k] * space.moment(x, k)));
+  if (!multigrid)
+    A->vmult(y, x);
+  for (unsigned int k = 0; k < springs.size(); ++k)
+  {
+    const ContactVector<dim> m = space.moment(x, k);
+    space.add_moment(y, k, springs[k] * m - (multigrid ? ContactVector<dim>() : inserted[k] * m));
+  }
 }
 
 template <int dim>
@@ -253,12 +254,29 @@ void MomentMatrix<dim>::factor()
 }
 
 template <int dim>
+void MomentMatrix<dim>::add_springs(const std::vector<double> &stiffness)
+{
+  springs = stiffness;
+}
+
+template <int dim>
 void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_states, const bool anew)
 {
   types::global_dof_index changed = 0;
   for (unsigned int k = 0; k < states.size(); ++k)
     changed += states[k].is_held != new_states[k].is_held;
   states = new_states;
+  for (unsigned int k = 0; k < states.size(); ++k)
+    if (!states[k].is_held)
+      states[k].stiffness += springs[k] * unit_symmetric_tensor<dim - 1>();
+  prepare(anew || 50 * Utilities::MPI::sum(changed, space.communicator()) >
+                      space.n_discs + space.n_pressures);
+}
+
+/** Multigrid or factors for the states; that of ML where it is wanted @p anew or missing. */
+template <int dim>
+void MomentMatrix<dim>::prepare(const bool anew)
+{
   if constexpr (dim == 3)
     if (multigrid)
     {
@@ -270,9 +288,7 @@ void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_state
     }
   if (method == LinearMethod::direct)
     factor();
-  else if (anew || !amg ||
-           50 * Utilities::MPI::sum(changed, space.communicator()) >
-               space.n_discs + space.n_pressures)
+  else if (anew || !amg)
     set_up();
 }
 
@@ -358,7 +374,7 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
     fell_back = true;
     method = method == LinearMethod::multigrid ? LinearMethod::amg : LinearMethod::direct;
     begin();
-    linearise(std::vector<MomentState<dim>>(states), /*anew=*/true);
+    prepare(/*anew=*/true);
     v = start;
   }
 }

@@ -287,7 +287,8 @@ void MomentNewton<dim>::count(const std::vector<MomentState<dim>> &states,
     {
       const bool presses = face.has_pressure() && states[face.pressure + k].is_held;
       pressing += presses;
-      if (face.has_friction() && (presses || !face.has_pressure())) // else it is open
+      if (space.condition(face.cell, face.face).friction &&
+          (presses || !face.has_pressure())) // else it is open
         slipping += !states[face.friction + k].is_held;
     }
   report.n_slipping = Utilities::MPI::sum(slipping, space.communicator());

@@ -108,7 +108,6 @@ invalid "Linear = multigrid" "degrees 2 to 4" "amg" -- "Solver/Linear=multigrid"
 invalid "Friction coefficient" "stands beside Friction bound" -- "Boundary bottom/Friction coefficient=0.3"
 invalid "Friction coefficient" "mu_f >= 0" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3 - z"
 invalid "Friction coefficient" "pressure" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Boundary bottom/Contact=tangential"
-invalid "rigid-body motion" "held by contact alone" -- "Boundary bottom/Friction bound=" "Boundary bottom/Friction coefficient=0.3" "Boundary right/Displacement=0; free; 0"
 check 2 "has not converged" "problems of Tresca" "lower Friction coefficient" -- "$hpvi" --output "$scratch/o" prm/slab.prm --set "Boundary bottom/Friction bound=" \
   --set "Boundary bottom/Friction coefficient=50" --set "Boundary left/Traction=1.5*(5 - y); -7; 0.5" --set "Boundary bottom/Contact=unilateral" --set "Solver/Primal tolerance=1e-11"
 invalid "Normal contact = nodes" "not offered by space" "multiplier" -- "Boundary bottom/Contact=unilateral" "Solver/Normal contact=nodes"
@@ -123,8 +122,9 @@ check 1 "prm/slab.prm: Dimension = 3" "--picture draws bodies in the plane alone
 [ ! -e "$scratch/picture" ] || { echo "a refused picture leaves a directory"; failures=1; }
 
 # --- boundaries
-invalid "rigid-body motion free, translation in x" -- "Boundary right/Displacement="
-invalid "rigid-body motion free, translation in z" -- "Boundary right/Displacement=0; free; free"
+invalid "rigid-body motion free, translation in x" "no friction resists" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound="
+invalid "rigid-body motion free, translation in z" -- "Boundary right/Displacement=0; free; free" "Boundary bottom/Friction bound="
+invalid "rigid-body motion free, translation in y" -- "Boundary right/Displacement=0; free; 0" "Boundary bottom/Contact=tangential"
 invalid "contradicts" "common point" -- "Boundary top/Displacement=1; free; free"
 "$hpvi" --validate prm/slab.prm --set "Boundary top/Displacement=0.1*sin(pi); free; free" --set "Boundary right/Displacement=0; 0; 0" >/dev/null ||
   { echo "two supports that differ by round-off are refused"; failures=1; }
@@ -132,7 +132,25 @@ invalid "Traction" "that Displacement prescribes" -- "Boundary right/Traction=1;
 invalid "needs contact" -- "Boundary top/Friction bound=1"
 invalid "Gap" "at their common point" "u_n <= u_0" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=-0.1"
 invalid "Gap" "is not finite" -- "Boundary bottom/Contact=unilateral" "Boundary bottom/Gap=1/(x - 4)"
-invalid "rigid-body motion" "held by contact alone are not offered in space" -- "Boundary bottom/Contact=unilateral" "Boundary right/Displacement=" "Boundary top/Displacement=0; free; 0"
+
+# --- what contact alone cannot hold
+unheld() {
+  local words=()
+  while [ "$1" != "--" ]; do
+    words+=("$1")
+    shift
+  done
+  shift
+  local arguments=()
+  for override in "$@"; do
+    arguments+=(--set "$override")
+  done
+  check 2 "no equilibrium: " "${words[@]}" -- "$hpvi" --output "$scratch/unheld" prm/block-space.prm "${arguments[@]}"
+}
+unheld "sliding: the loads push the body along (1, 0, 0) with 2, contact can resist with 1.96 at most" "raise Friction coefficient" -- "Boundary bottom/Friction coefficient=0.49"
+unheld "toppling: the loads turn the body about an axis along (0, 0, -1) through (2, 0, " "raise" -- "Body force/Expression=3; -1; 0" "Boundary bottom/Friction coefficient=5"
+unheld "lifting off: the loads push the body along (0, 1, 0) with 4, contact can resist with 0" "add a support" -- "Body force/Expression=0; 1; 0"
+
 invalid "stands beside Contact" -- "Boundary bottom/Displacement=0; free; free"
 invalid "Friction bound" "g >= 0" -- "Boundary bottom/Friction bound=1 - x"
 invalid "million cells" -- "Geometry/Subdivisions=1000, 1000, 1000"

@@ -2,7 +2,6 @@
 // Friction that follows the pressure, on the primal path: as the reduced path has it in the plane, and in space.
 #include "reduced_path.h"
 
-#include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 
 #include <algorithm>
@@ -235,13 +234,5 @@ TEST(Coulomb, StopsWhereTheEstimatedErrorSaysSo)
                 EXPECT_NEAR(step.energies.norm, exact[k].norm, step.primal->newton.error + 1e-8);
                 ++k;
               });
-}
-
-/** A pressure that is found with the friction is no support. */
-TEST(Coulomb, BilateralContactThatFrictionFollowsHoldsNoBody)
-{
-  Overrides entries = joined(laws[0], {{"Boundary bottom/Contact", "bilateral"},
-                                       {"Boundary right/Displacement", "0; free; 0"}});
-  EXPECT_THROW(steps_of<3>(slab(entries)), InputError);
 }
 } // namespace

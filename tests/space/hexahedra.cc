@@ -3,6 +3,7 @@
 #include "runs.h"
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/gmsh/hexahedral_file.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
@@ -273,6 +274,42 @@ TEST(Hexahedra, OfABoxAreTheBox)
         EXPECT_NEAR(steps[k].estimate, expected[k].estimate, 1e-8 * expected[k].estimate);
       }
     }
+}
+
+/** The block of prm/block-space.prm on its slope, turned: contact alone holds it, its normal along no axis. */
+TEST(Hexahedra, StandOnASlopeOfAnyDirection)
+{
+  Scene<3> box = read_scene<3>("prm/block-space.prm", {{"Geometry/Subdivisions", "2, 1, 2"},
+                                                       {"Adaptivity/Maximum steps", "2"}});
+  box.solver.primal_tolerance = 1e-11;
+  const std::vector<Step> expected = steps_of<3>(box);
+  Scene<3> scene =
+      scene_of({{{2, 1, 2}},
+                [](const Point<3> &x) { return turned(Point<3>(2 * x[0], x[1], 2 * x[2])); },
+                true},
+               "hexahedra-slope");
+  scene.materials = box.materials;
+  scene.adaptivity = box.adaptivity;
+  scene.solver = box.solver;
+  scene.boundary("top").displacement = {};
+  scene.boundary("bottom").contact = Contact::unilateral;
+  const auto stands = [&](const double coefficient)
+  {
+    scene.boundary("bottom").friction.coefficient = expression<3>(coefficient);
+    const Point<3> weight = turned(Point<3>(0.5, -1, 0));
+    for (unsigned int c = 0; c < 3; ++c)
+      scene.body_force[c] = expression<3>(weight[c]);
+    return steps_of<3>(scene);
+  };
+  const std::vector<Step> steps = stands(0.51);
+  ASSERT_EQ(steps.size(), expected.size());
+  for (unsigned int k = 0; k < steps.size(); ++k)
+  {
+    EXPECT_EQ(steps[k].n_cells, expected[k].n_cells);
+    EXPECT_EQ(steps[k].n_slipping, expected[k].n_slipping);
+    EXPECT_NEAR(steps[k].energy, expected[k].energy, 1e-9 * expected[k].norm * expected[k].norm);
+  }
+  EXPECT_THROW(stands(0.49999), NumericalFailure);
 }
 
 /** A skew angle of cells, which re-entrant edges and free sides leave: bisected everywhere it is the finer one. */

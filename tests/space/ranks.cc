@@ -81,6 +81,23 @@ TEST(Ranks, FrictionThatFollowsThePressure)
                           {"Adaptivity/Maximum steps", "2"}}));
 }
 
+/** Statics and springs are of all of them, as are cells that are bisected for the loads. */
+TEST(Ranks, HeldByContactAlone)
+{
+  for (const auto &[force, steps] : {std::pair("0.5; -1; 0.1", "2"), std::pair("1; -1; 0", "1")})
+  {
+    Scene<3> scene =
+        read_scene<3>("prm/block-space.prm", {{"Geometry/Subdivisions", "2, 1, 2"},
+                                              {"Geometry/Upper corner", "2, 1.7, 2"},
+                                              {"Body force/Expression", force},
+                                              {"Boundary bottom/Friction bound", "3"},
+                                              {"Boundary bottom/Friction coefficient", ""},
+                                              {"Adaptivity/Maximum steps", steps}});
+    scene.solver.primal_tolerance = 1e-11;
+    expect_same_run(scene);
+  }
+}
+
 /** Slip of the past and work go with the cells from process to process. */
 TEST(Ranks, LoadHistory)
 {

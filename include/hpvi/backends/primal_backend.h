@@ -52,6 +52,8 @@ private:
                 std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh);
 
   void number();
+  void assemble();
+  void reach_loads();
   void iterate(FrictionIteration<dim> &friction, MomentMatrix<dim> &matrix, DistributedVector &v,
                const NewtonSettings &settings);
   NewtonSettings first_settings() const;

@@ -75,6 +75,16 @@ public:
     return face.own ? *face.own : tables.moments;
   }
 
+  /**
+   * Does anything act, or hang on springs, along a boundary? Where contact alone holds the body each of its pressures has
+   * moments beside it.
+   */
+  bool has_tangential_moments(const BoundaryCondition<dim> &boundary) const
+  {
+    return boundary.has_contact() &&
+           (boundary.friction || (rests_on_contact && boundary.is_unilateral()));
+  }
+
   /** A face of this process; null: it has no moments. */
   const MomentFace<dim> *moment_face(const Cell &cell, unsigned int face) const;
 
@@ -83,6 +93,7 @@ public:
 
   const Scene<dim> &scene;
   const BoxTables<dim> &tables;
+  const bool rests_on_contact; ///< do supports leave motions free? In space alone
   dealii::DoFHandler<dim> dof_handler;
   dealii::IndexSet owned, relevant;
   dealii::AffineConstraints<double> constraints;

@@ -49,6 +49,12 @@ public:
   /** Of A at the moments of MomentSpace::contact; of a pressure, which has one, a multiple of the unit matrix. */
   const Block &block(unsigned int k) const;
 
+  /**
+   * From here on A has a spring of so much [force/length] at each moment, of MomentSpace::contact, in the unknowns that are not
+   * held; before the first linearise().
+   */
+  void add_springs(const std::vector<double> &stiffness);
+
   /** From here on solve() knows @p states; @p anew: multigrid too. Collective. */
   void linearise(const std::vector<MomentState<dim>> &states, bool anew = false);
 
@@ -75,6 +81,7 @@ private:
   void mask(DistributedVector &x) const;
   void begin();
   void assemble();
+  void prepare(bool anew);
   void set_up();
   void factor();
   void factor_alone();
@@ -86,8 +93,8 @@ private:
   const MomentSpace<dim> &space;
   PrimalSystem<dim> &system;
   std::vector<Block> blocks, inserted; ///< of A; what set_up() has added to them in the matrix
-  std::vector<MomentState<dim>> states, known;         ///< now; when multigrid was set up
-  std::vector<double> motions;                         ///< rigid_motions(), one after the other
+  std::vector<MomentState<dim>> states, known; ///< now, with springs; when multigrid was set up
+  std::vector<double> motions;                 ///< rigid_motions(), one after the other
   dealii::TrilinosWrappers::SparseMatrix *A = nullptr; ///< of the system; null: there is none
   std::unique_ptr<Multigrid> multigrid;
   std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
@@ -96,6 +103,7 @@ private:
       factored; ///< A + H with rows of the unit matrix where moments are held
   std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors; ///< of several processes
   std::unique_ptr<LinearSolver> own_factors;                       ///< of one
+  std::vector<double> springs;                                     ///< of each moment
 };
 } // namespace hpvi
 

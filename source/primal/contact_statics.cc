@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
+#include <hpvi/moments/rigid_motions.h>
+#include <hpvi/primal/contact_statics.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double negligible = 1e-9; ///< of the loads: cones are round, and met in the limit
+
+/** What the spots can resist with along @p motions. */
+class Resistance : public ForceSet
+{
+public:
+  /** With @p is_rough nothing slides along the spots. */
+  Resistance(const std::vector<ContactSpot> &spots, const std::vector<SpaceMotion> &motions,
+             bool is_rough = false);
+
+  Extreme farthest(const Force &motion) const override;
+
+  Force start() const override
+  {
+    return {};
+  }
+
+  unsigned int n_equations() const override
+  {
+    return n;
+  }
+
+  Force without_lifting(Force motion) const; ///< the part of it that no pressure works on
+  bool resists_beyond(const Force &motion, unsigned int i) const; ///< any load?
+
+private:
+  struct Row
+  {
+    Force normal;
+    std::array<Force, 2> tangents;
+  };
+
+  struct Longest
+  {
+    double work = 0;
+    Force ray;
+  };
+  void lengthen(Longest &longest, const Force &motion, const Force &ray) const;
+  void press(Longest &longest, const Force &motion, unsigned int i) const;
+
+  const std::vector<ContactSpot> &spots;
+  const unsigned int n;
+  const bool is_rough;
+  std::vector<Row> rows;
+};
+
+Resistance::Resistance(const std::vector<ContactSpot> &spots,
+                       const std::vector<SpaceMotion> &motions, const bool is_rough)
+    : spots(spots), n(motions.size()), is_rough(is_rough), rows(spots.size())
+{
+  for (unsigned int i = 0; i < spots.size(); ++i)
+  {
+    const auto tangents = contact_axes(spots[i].normal).tangents;
+    for (unsigned int m = 0; m < n; ++m)
+    {
+      const Tensor<1, 3> u = motions[m].at(spots[i].x);
+      rows[i].normal[m] = u * spots[i].normal;
+      for (unsigned int s = 0; s < 2; ++s)
+        rows[i].tangents[s][m] = u * tangents[s];
+    }
+  }
+}
+
+/** Takes @p ray where it works more, for its length, than what was found before. */
+void Resistance::lengthen(Longest &longest, const Force &motion, const Force &ray) const
+{
+  const double length = ray.norm(), work = length > 0 ? motion * ray / length : 0;
+  if (work > std::max(longest.work, 1e-10 * motion.norm()))
+    longest = {work, ray / length};
+}
+
+/** Along @p motion at spot @p i: friction of size one against it. */
+Force friction_against(const Force &motion, const std::array<Force, 2> &tangents)
+{
+  const double s = motion * tangents[0], t = motion * tangents[1], slip = std::hypot(s, t);
+  return slip > 1e-13 * motion.norm() ? (s * tangents[0] + t * tangents[1]) / slip : Force();
+}
+
+/** Pressures without end, with the friction that grows with them. */
+void Resistance::press(Longest &longest, const Force &motion, const unsigned int i) const
+{
+  const ContactSpot &spot = spots[i];
+  const Force along = friction_against(motion, rows[i].tangents);
+  const double slope = std::isfinite(spot.limit.most) ? 0 : spot.limit.coefficient;
+  lengthen(longest, motion, rows[i].normal + slope * along);
+  if (spot.pulls)
+    lengthen(longest, motion, -1. * rows[i].normal);
+}
+
+Resistance::Extreme Resistance::farthest(const Force &motion) const
+{
+  Longest longest;
+  Force sum;
+  for (unsigned int i = 0; i < spots.size(); ++i)
+  {
+    const ContactSpot &spot = spots[i];
+    const Force along = friction_against(motion, rows[i].tangents);
+    if (spot.presses || spot.pulls)
+      press(longest, motion, i);
+    if (is_rough)
+      lengthen(longest, motion, along);
+    sum += spot.area * spot.limit.limit(0.) * along;
+    // A largest friction needs a pressure, which may cost more than it brings.
+    if (std::isfinite(spot.limit.most) && spot.limit.coefficient > 0)
+    {
+      const double rise = spot.limit.most - spot.limit.limit(0.);
+      const Force both = spot.area * rise * (along + (1 / spot.limit.coefficient) * rows[i].normal);
+      sum += motion * both > 0 ? both : Force();
+    }
+  }
+  if (longest.work > 0)
+    return {longest.ray, true};
+  return {sum, false};
+}
+
+bool Resistance::resists_beyond(const Force &motion, const unsigned int i) const
+{
+  Longest longest;
+  press(longest, motion, i);
+  return longest.work > 1e-6 * motion.norm();
+}
+
+Force Resistance::without_lifting(Force motion) const
+{
+  std::vector<Force> lifting; // orthonormal
+  for (unsigned int i = 0; i < rows.size() && lifting.size() < n; ++i)
+    if (spots[i].presses || spots[i].pulls)
+    {
+      Force rest = rows[i].normal;
+      for (unsigned int pass = 0; pass < 2; ++pass)
+        for (const Force &one : lifting)
+          rest -= (rest * one) * one;
+      if (rest.norm() > 1e-6 * rows[i].normal.norm())
+        lifting.push_back(rest / rest.norm());
+    }
+  for (const Force &one : lifting)
+    motion -= (motion * one) * one;
+  return motion;
+}
+
+constexpr unsigned int n_numbers = 12;
+
+/** Those of all processes. */
+std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm communicator)
+{
+  std::vector<double> numbers;
+  for (const ContactSpot &spot : own)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+      numbers.push_back(spot.x[d]);
+    for (unsigned int d = 0; d < 3; ++d)
+      numbers.push_back(spot.normal[d]);
+    for (const double number : {spot.limit.cohesion, spot.limit.coefficient, spot.limit.most,
+                                spot.area, double(spot.presses), double(spot.pulls)})
+      numbers.push_back(number);
+  }
+  std::vector<ContactSpot> result;
+  for (const auto &part : Utilities::MPI::all_gather(communicator, numbers))
+    for (auto p = part.begin(); p != part.end(); p += n_numbers)
+      result.push_back({Point<3>(p[0], p[1], p[2]), Tensor<1, 3>({p[3], p[4], p[5]}),
+                        FrictionLimit{p[6], p[7], p[8]}, p[9], p[10] > 0, p[11] > 0});
+  return result;
+}
+
+/** In the unknowns of this process. */
+std::vector<DistributedVector> steps_along(const MomentSpace<3> &space,
+                                           const std::vector<SpaceMotion> &motions)
+{
+  const std::vector<double> basis = rigid_motions(space);
+  const unsigned int n = space.owned.n_elements();
+  const double length = space.scene.geometry.radius();
+  std::vector<DistributedVector> result(motions.size(), space.owned_vector());
+  for (unsigned int j = 0; j < motions.size(); ++j)
+    for (unsigned int d = 0; d < 3; ++d) // rigid_motions() turns about z, x and y
+    {
+      const double turn = motions[j].rotation[(d + 2) % 3] * length;
+      for (unsigned int i = 0; i < n; ++i)
+        result[j].local_element(i) +=
+            motions[j].translation[d] * basis[d * n + i] + turn * basis[(3 + d) * n + i];
+    }
+  return result;
+}
+
+std::string remedy(const Scene<3> &scene)
+{
+  for (const BoundaryCondition<3> &boundary : scene.boundaries)
+    if (boundary.has_contact() && boundary.friction)
+      return "add a support, raise " + boundary.friction.entry_to_raise() + " or lower the loads";
+  return "add a support or change the loads";
+}
+} // namespace
+
+ContactStatics::ContactStatics(const MomentSpace<3> &space, const DistributedVector &f)
+    : space(space), motions(free_motions_in_space(space.scene)), steps(steps_along(space, motions))
+{
+  for (unsigned int j = 0; j < motions.size(); ++j)
+  {
+    double size = 0;
+    for (unsigned int i = 0; i < space.owned.n_elements(); ++i)
+      size += std::abs(f.local_element(i) * steps[j].local_element(i));
+    sizes.push_back(Utilities::MPI::sum(size, space.communicator()));
+    const double load = f * steps[j];
+    loads[j] = std::abs(load) > 1e-11 * sizes[j] ? load : 0;
+  }
+  std::vector<ContactSpot> own, own_ends;
+  for (const MomentFace<3> &face : space.faces)
+  {
+    const auto spots = spots_of(face), corners = ends_of(face);
+    own.insert(own.end(), spots.begin(), spots.end());
+    own_ends.insert(own_ends.end(), corners.begin(), corners.end());
+  }
+  on_mesh = gathered(own, space.communicator());
+  ends = gathered(own_ends, space.communicator());
+}
+
+std::vector<ContactSpot> ContactStatics::spots_of(const MomentFace<3> &face) const
+{
+  const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
+  std::vector<ContactSpot> result;
+  for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+  {
+    const ContactMoment<3> &moment =
+        space.contact[(face.has_friction() ? face.friction : face.pressure) + k];
+    result.push_back({moment.x, face.axes.normal,
+                      face.has_friction() ? moment.limit : FrictionLimit(), moment.area,
+                      face.has_pressure(), face.has_pressure() && !boundary.is_unilateral()});
+  }
+  return result;
+}
+
+/** Friction that has a largest value is counted where the mesh has it. */
+std::vector<ContactSpot> ContactStatics::ends_of(const MomentFace<3> &face) const
+{
+  std::vector<ContactSpot> result;
+  const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
+  for (unsigned int v = 0; v < 4 && face.has_pressure(); ++v)
+  {
+    const Point<3> x = face.cell->face(face.face)->vertex(v);
+    FrictionLimit limit = boundary.friction ? boundary.friction.at(x) : FrictionLimit();
+    if (std::isfinite(limit.most))
+      limit = {};
+    result.push_back({x, face.axes.normal, limit, 0., true, !boundary.is_unilateral()});
+  }
+  return result;
+}
+
+SpaceMotion ContactStatics::sum(const Force &coefficients) const
+{
+  SpaceMotion result{{}, {}, motions[0].centre};
+  for (unsigned int j = 0; j < motions.size(); ++j)
+    result.add(coefficients[j], motions[j]);
+  // A rotation about a far axis is one more to read than a body that slides or lifts off.
+  if (result.rotation.norm() * space.scene.geometry.radius() < 0.01 * result.translation.norm())
+    result.rotation = 0;
+  return result;
+}
+
+std::string ContactStatics::in_words(const Force &motion, const double load,
+                                     const std::string &what, const double resistance) const
+{
+  const SpaceMotion moved = sum(motion);
+  // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
+  const double unit = moved.turns() ? moved.rotation.norm() : moved.translation.norm();
+  std::ostringstream line;
+  line.precision(10);
+  line << "the loads " << (moved.turns() ? "turn" : "push") << " the body " << moved.in_words()
+       << " with " << load / unit << ", contact " << what << " with "
+       << (std::abs(resistance) <= 1e-9 * std::abs(load) ? 0. : resistance / unit);
+  return line.str();
+}
+
+/**
+ * Of what separates the loads from @p spots. Where even friction without limit would not help the body lifts off or topples.
+ * Else it slides: the part of the motion that lifts nothing is named, along which contact resists with what the rest leaves.
+ */
+std::string ContactStatics::why(const std::vector<ContactSpot> &spots,
+                                const Separation &separation) const
+{
+  const Resistance rough(spots, motions, /*is_rough=*/true);
+  if (const auto lifted = separate(rough, loads, negligible))
+    return (sum(lifted->motion).turns() ? "toppling: " : "lifting off: ") +
+           in_words(lifted->motion, lifted->load, "can resist", lifted->resistance);
+  const Force sliding = rough.without_lifting(separation.motion),
+              lifting = separation.motion - sliding;
+  return "sliding: " +
+         in_words(sliding, sliding * loads, "can resist", separation.resistance - lifting * loads);
+}
+
+void ContactStatics::require_equilibrium() const
+{
+  std::vector<ContactSpot> spots = on_mesh;
+  spots.insert(spots.end(), ends.begin(), ends.end());
+  if (const auto separation = separate(Resistance(spots, motions), loads, negligible))
+    throw NumericalFailure("no equilibrium: " + why(spots, *separation) + " at most; " +
+                           remedy(space.scene));
+}
+
+std::optional<ContactStatics::Missing> ContactStatics::missing() const
+{
+  const auto separation = separate(Resistance(on_mesh, motions), loads, negligible);
+  if (!separation)
+    return {};
+  Missing result{{},
+                 0,
+                 "no equilibrium on this mesh, whose pressures act at Gauss points: " +
+                     why(on_mesh, *separation) +
+                     " there; raise Geometry/Subdivisions or move the loads"};
+  for (const MomentFace<3> &face : space.faces)
+  {
+    const std::vector<ContactSpot> corners = ends_of(face);
+    const Resistance here(corners, motions);
+    for (unsigned int v = 0; v < corners.size(); ++v)
+      if (here.resists_beyond(separation->motion, v))
+      {
+        result.cells.push_back(face.cell);
+        break;
+      }
+  }
+  result.n_cells = Utilities::MPI::sum(result.cells.size(), space.communicator());
+  return result;
+}
+
+double ContactStatics::imbalance(const std::vector<ContactVector<3>> &lambda,
+                                 std::string &words) const
+{
+  std::vector<double> resisted, forces;
+  for (unsigned int j = 0; j < motions.size(); ++j)
+  {
+    std::vector<double> own{0., 0.}, sums(2);
+    for (unsigned int k = 0; k < lambda.size(); ++k)
+    {
+      const ContactMoment<3> &moment = space.contact[k];
+      const double part =
+          moment.area * moment.bound_by(lambda) * (lambda[k] * space.moment(steps[j], k));
+      own[0] += part;
+      own[1] += std::abs(part);
+    }
+    Utilities::MPI::sum(own, space.communicator(), sums);
+    resisted.push_back(sums[0]);
+    forces.push_back(sizes[j] + sums[1]);
+  }
+  const double all = *std::max_element(forces.begin(), forces.end());
+  double worst = 0;
+  for (unsigned int j = 0; j < motions.size(); ++j)
+    if (const double left = all > 0 ? std::abs(loads[j] - resisted[j]) / all : 0; left > worst)
+    {
+      Force motion;
+      motion[j] = 1;
+      worst = left;
+      words = in_words(motion, loads[j], "resists", resisted[j]);
+    }
+  return worst;
+}
+} // namespace hpvi

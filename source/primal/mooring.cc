@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/primal/mooring.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+// Softer springs need fewer steps: on prm/block-space.prm at its angle of friction plus 2e-4 of it 1e-3 fails, 1e-6 takes three.
+constexpr double softness = 1e-6;     ///< of the springs beside a body as thick as this one
+constexpr double balanced = 1e-9;     ///< of forces and moments, in parts of all of them
+constexpr unsigned int patience = 40; ///< proximal steps
+} // namespace
+
+Mooring::Mooring(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix)
+    : space(space), system(system), loads(system.f), statics(space, loads),
+      springs(space.contact.size()), anchors(space.contact.size())
+{
+  const double stiffness =
+      softness * space.scene.materials[0].modulus() / space.scene.geometry.diameter();
+  for (unsigned int k = 0; k < springs.size(); ++k)
+    springs[k] = stiffness * space.contact[k].area;
+  matrix.add_springs(springs);
+}
+
+Mooring::~Mooring()
+{
+  system.f = loads;
+}
+
+void Mooring::drop_anchors(const DistributedVector &v)
+{
+  system.f = loads;
+  for (unsigned int k = 0; k < springs.size(); ++k)
+  {
+    anchors[k] = space.moment(v, k);
+    space.add_moment(system.f, k, springs[k] * anchors[k]);
+  }
+}
+
+/** The norm of the forces of the springs, and twice their energy. */
+double Mooring::pull(const DistributedVector &v, double &energy) const
+{
+  double squares = 0, work = 0;
+  for (unsigned int k = 0; k < springs.size(); ++k)
+  {
+    const double square = (space.moment(v, k) - anchors[k]).norm_square();
+    squares += springs[k] * springs[k] * square;
+    work += springs[k] * square;
+  }
+  energy = Utilities::MPI::sum(work, space.communicator());
+  return std::sqrt(Utilities::MPI::sum(squares, space.communicator()));
+}
+
+NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<ContactVector<3>> &lambda,
+                            const NewtonSettings &wanted, const Solve &inner)
+{
+  NewtonReport report;
+  NewtonSettings settings = wanted;
+  std::string words;
+  for (unsigned int step = 0; step < patience; ++step)
+  {
+    drop_anchors(v);
+    report += inner(settings);
+    double energy = 0;
+    const double force = pull(v, energy), load = std::max(loads.l2_norm(), system.f.l2_norm());
+    report.residual += load > 0 ? force / load : 0;
+    report.error = std::sqrt(report.error * report.error + energy);
+    const bool is_met = report.residual <= 2 * wanted.residual ||
+                        (report.error > 0 && report.error <= wanted.error);
+    const double left = statics.imbalance(lambda, words);
+    if (left <= balanced && is_met)
+      return report;
+    if (is_met) // as the error of the mesh allows, but forces shall balance
+      settings = {std::clamp(0.1 * left, 1e-10, 1e-3), 0., settings.maximum_steps};
+  }
+  throw NumericalFailure("no equilibrium found in " + std::to_string(patience) +
+                         " steps: " + words +
+                         "; add a support, raise friction, lower the loads or raise "
+                         "Geometry/Subdivisions");
+}
+} // namespace hpvi
