@@ -200,7 +200,8 @@ bool mapping_is_limited()
 
 void prepare_blas()
 {
-  if (!openblas_get_num_threads)
+  thread_local bool has_buffer = false; // OpenBLAS keeps it for whoever comes next
+  if (!openblas_get_num_threads || has_buffer)
     return;
   // The largest of its buffers: 32 MB times 4, and a page.
   const double buffer = 128. * (1 << 20) + (1 << 12);
@@ -212,5 +213,6 @@ void prepare_blas()
   const unsigned int n = 128; // on some machines smaller products go without a buffer
   dealii::LAPACKFullMatrix<double> factor(n, n), product(n, n);
   factor.mmult(product, factor);
+  has_buffer = true;
 }
 } // namespace hpvi

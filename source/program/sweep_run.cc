@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/backends/backend.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/text.h>
@@ -18,8 +20,6 @@
 #include <hpvi/program/swept_run.h>
 #include <hpvi/program/terminal.h>
 #include <hpvi/reader/scene_reader.h>
-
-#include <deal.II/base/multithread_info.h>
 
 #include <algorithm>
 #include <chrono>
@@ -58,7 +58,9 @@ public:
   void solve(const std::function<void()> &start_mpi);
 
 private:
+  void naming_values(unsigned int k, const std::function<void()> &work) const;
   void read();
+  void prepare(const std::vector<unsigned int> &numbers) const;
   void look_for_results();
   void solve_one(unsigned int k, bool is_alone);
   void solve_all(const std::vector<unsigned int> &numbers, unsigned int n_at_once);
@@ -72,7 +74,8 @@ private:
 
   const CommandLine &command_line;
   const std::vector<SweptScene> swept;
-  const unsigned int n_threads;
+  const unsigned int
+      n_threads;    ///< 1 where mapping is limited, for each maps much more than it uses
   std::string home; ///< directory of all
   std::vector<std::optional<Scene<dim>>> scenes;
   std::vector<SweptRun> runs;
@@ -87,8 +90,8 @@ private:
 template <int dim>
 Sweep<dim>::Sweep(const CommandLine &command_line)
     : command_line(command_line), swept(swept_scenes(command_line.sweeps)),
-      n_threads(n_usable_cores()), scenes(swept.size()), runs(swept.size()),
-      last_rows(swept.size()), width(0)
+      n_threads(mapping_is_limited() ? 1 : n_usable_cores()), scenes(swept.size()),
+      runs(swept.size()), last_rows(swept.size()), width(0)
 {
   for (const SweptScene &scene : swept)
     width = std::max(width, scene.directory.size());
@@ -97,25 +100,60 @@ Sweep<dim>::Sweep(const CommandLine &command_line)
                                                : command_line.output_directory;
 }
 
+/** Does @p work with scene k; where that is refused, the line begins with the values. */
+template <int dim>
+void Sweep<dim>::naming_values(const unsigned int k, const std::function<void()> &work) const
+{
+  try
+  {
+    work();
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("hpvi: --sweep " + swept[k].words() + ": " + error.what());
+  }
+}
+
 /** All of them, before anything is solved. */
 template <int dim>
 void Sweep<dim>::read()
 {
   const auto read_one = [&](const unsigned int k)
   {
+    auto overrides = command_line.overrides;
+    overrides.insert(overrides.end(), swept[k].overrides.begin(), swept[k].overrides.end());
+    scenes[k].emplace(read_scene<dim>(command_line.scene_file, overrides, SceneUse::solve));
+    resultant_in_words(*scenes[k], takes_primal_path(*scenes[k], 1)); // refuses loads, too
+  };
+  on_threads(n_threads, swept.size(),
+             [&](const unsigned int k) { naming_values(k, [&]() { read_one(k); }); });
+}
+
+/** What their first step refuses comes before anything is solved, too; whatever else goes wrong will do so again. */
+template <int dim>
+void Sweep<dim>::prepare(const std::vector<unsigned int> &numbers) const
+{
+  const auto prepare_one = [&](const unsigned int k)
+  {
     try
     {
-      auto overrides = command_line.overrides;
-      overrides.insert(overrides.end(), swept[k].overrides.begin(), swept[k].overrides.end());
-      scenes[k].emplace(read_scene<dim>(command_line.scene_file, overrides, SceneUse::solve));
-      resultant_in_words(*scenes[k], takes_primal_path(*scenes[k], 1)); // refuses loads, too
+      LoadHistory<dim>(*scenes[k]).prepare();
     }
-    catch (const InputError &error)
+    catch (const InputError &)
     {
-      throw InputError("hpvi: --sweep " + swept[k].words() + ": " + error.what());
+      throw;
     }
+    catch (const std::exception &)
+    {
+    }
+    forget_memory_claim();
   };
-  on_threads(n_threads, swept.size(), read_one);
+  on_threads(n_threads, numbers.size(),
+             [&](const unsigned int number)
+             {
+               const unsigned int k = numbers[number];
+               naming_values(k, [&]() { prepare_one(k); });
+             });
 }
 
 template <int dim>
@@ -207,8 +245,9 @@ void Sweep<dim>::solve_one(const unsigned int k, const bool is_alone)
 {
   if (interrupting_signal() != 0)
     return;
-  const SweptRun run = SweptRun::solved(*scenes[k], directory_of(k));
+  SweptRun run = SweptRun::solved(*scenes[k], directory_of(k));
   const std::lock_guard<std::mutex> lock(mutex);
+  run.was_postponed = runs[k].is_short_of_memory;
   runs[k] = run;
   if (run.is_short_of_memory && !is_alone)
     postponed.push_back(k);
@@ -229,8 +268,13 @@ void Sweep<dim>::print_head() const
   std::cout << version_line() << '\n'
             << legible(scenes.front()->title) << '\n'
             << swept.size() << (swept.size() == 1 ? " scene" : " scenes") << " on " << n_threads
-            << (n_threads == 1 ? " core" : " cores") << "\n\n"
+            << (n_threads == 1 ? " core" : " cores")
+            << (mapping_is_limited() ? ", for ulimit says how much memory may be mapped" : "")
+            << "\n\n"
             << SweptRun::head(width) << std::endl;
+  for (std::size_t k = 0; k < swept.size(); ++k)
+    if (runs[k].was_done)
+      std::cout << runs[k].line(swept[k].directory, width, last_rows[k]) << std::endl;
 }
 
 template <int dim>
@@ -269,19 +313,20 @@ void Sweep<dim>::conclude(const double seconds)
 template <int dim>
 void Sweep<dim>::solve(const std::function<void()> &start_mpi)
 {
-  look_for_results();
-  directory.emplace(home, "", std::vector<std::string>());
-  note_interruptions();
-  const OneThread one_thread; // of dense algebra, for its number is one of the process
-  dealii::MultithreadInfo::set_thread_limit(1);
-  print_head();
+  // Dense algebra has one number of threads for the process. That of deal.II stays: with one it
+  // takes another way to the stresses of solution-NN.vtu, whose last bits would not be those of a
+  // run alone.
+  const OneThread one_thread;
   const auto start = Clock::now();
+  look_for_results();
   std::vector<unsigned int> together, in_turn;
   for (std::size_t k = 0; k < swept.size(); ++k)
-    if (runs[k].was_done)
-      std::cout << runs[k].line(swept[k].directory, width, last_rows[k]) << std::endl;
-    else
+    if (!runs[k].was_done)
       (takes_primal_path(*scenes[k], 1) ? in_turn : together).push_back(k);
+  prepare(together);
+  directory.emplace(home, "", std::vector<std::string>());
+  note_interruptions();
+  print_head();
   write_table();
   solve_all(together, n_threads);
   solve_all(std::vector<unsigned int>(postponed), 1);

@@ -16,13 +16,6 @@ namespace hpvi
 {
 namespace
 {
-/** Memory that one scene lacks beside others may be there for it alone. */
-bool is_out_of_memory(const std::exception &error)
-{
-  return dynamic_cast<const MemoryFailure *>(&error) ||
-         failure_line(error).find("out of memory") != std::string::npos;
-}
-
 /** What a warning is about, up to its reasons and remedies: the run's own summary.json has all of it. */
 std::string in_short(const std::string &warning)
 {
@@ -109,6 +102,8 @@ std::string SweptRun::line(const std::string &name, const std::size_t width,
       padded(name, width) +
       columns(status, energy.empty() ? "-" : text(std::strtod(energy.c_str(), nullptr), 8),
               unknowns.empty() ? "-" : unknowns, was_done ? "before" : time.str());
+  if (was_postponed)
+    result += "  alone, for beside others it was short of memory";
   if (!message.empty())
     result += "  " + message;
   for (const std::string &warning : warnings)

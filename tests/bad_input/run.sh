@@ -576,6 +576,7 @@ refused "--sweep Boundary bottom/Friction bound" "is swept twice" -- "${swept[@]
 refused "--sweep Boundary bottom/Friction bound" "--set gives it the value 3" "remove one" -- "${swept[@]}" --set "Boundary bottom/Friction  bound=3" "$scenes/base.prm"
 refused "--sweep Dimension=2, 3" "write a scene of each" -- --sweep "Dimension=2, 3" "$scenes/base.prm"
 refused "--sweep Boundary bottom/Friction bound = -1" "base.prm (--set)" "is negative" "g >= 0" -- --sweep "Boundary bottom/Friction bound=1, -1, -2" "$scenes/base.prm"
+refused "--sweep Body force/Expression = 1/(x-0.125); 0" "is not finite at (0.125, " -- --sweep "Body force/Expression=0; 0 | 1/(x-0.125); 0" "$scenes/base.prm"
 refused "Solver/Path = primal" "base.prm" "does not offer" -- --sweep "Solver/Path=reduced, primal" "$scenes/base.prm"
 refused "--sweep Boundary bottom/Friction bound" "--picture" "--set" -- --picture "${swept[@]}" "$scenes/base.prm"
 refused "--sweep Boundary bottom/Friction bound" "--inf-sup" "--set" -- --inf-sup "${swept[@]}" "$scenes/base.prm"

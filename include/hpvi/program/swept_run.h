@@ -20,6 +20,7 @@ struct SweptRun
   double seconds = 0;
   bool was_done = false;           ///< by an earlier sweep
   bool is_short_of_memory = false; ///< why it failed
+  bool was_postponed = false;      ///< for it was, beside others
 
   /** As run() does alone, on the calling thread. Throws nothing: what goes wrong is the status. */
   template <int dim>
