@@ -66,12 +66,13 @@ private:
   void solve_all(const std::vector<unsigned int> &numbers, unsigned int n_at_once);
   void finish(unsigned int k);
   void write_table();
-  void print_head() const;
-  void conclude(double seconds);
+  void print_head(std::size_t n_in_turn) const;
+  void conclude();
   std::string directory_of(unsigned int k) const;
   Record last_row_of(unsigned int k) const;
   unsigned int count(const std::string &status) const;
 
+  const Clock::time_point start = Clock::now();
   const CommandLine &command_line;
   const std::vector<SweptScene> swept;
   const unsigned int
@@ -234,7 +235,8 @@ void Sweep<dim>::write_table()
 template <int dim>
 void Sweep<dim>::finish(const unsigned int k)
 {
-  last_rows[k] = last_row_of(k);
+  if (runs[k].status != "refused") // else what is there is of an earlier run
+    last_rows[k] = last_row_of(k);
   std::cout << runs[k].line(swept[k].directory, width, last_rows[k]) << std::endl;
   if (seconds_since(written) > 1)
     write_table();
@@ -263,13 +265,16 @@ void Sweep<dim>::solve_all(const std::vector<unsigned int> &numbers, const unsig
 }
 
 template <int dim>
-void Sweep<dim>::print_head() const
+void Sweep<dim>::print_head(const std::size_t n_in_turn) const
 {
   std::cout << version_line() << '\n'
             << legible(scenes.front()->title) << '\n'
             << swept.size() << (swept.size() == 1 ? " scene" : " scenes") << " on " << n_threads
             << (n_threads == 1 ? " core" : " cores")
             << (mapping_is_limited() ? ", for ulimit says how much memory may be mapped" : "")
+            << (n_in_turn > 0
+                    ? "; " + std::to_string(n_in_turn) + " on the primal path, one after the other"
+                    : "")
             << "\n\n"
             << SweptRun::head(width) << std::endl;
   for (std::size_t k = 0; k < swept.size(); ++k)
@@ -286,7 +291,7 @@ unsigned int Sweep<dim>::count(const std::string &status) const
 
 /** Throws where not all are done. */
 template <int dim>
-void Sweep<dim>::conclude(const double seconds)
+void Sweep<dim>::conclude()
 {
   write_table();
   const std::string done = std::to_string(count("done")) + " of " + std::to_string(swept.size()) +
@@ -298,7 +303,7 @@ void Sweep<dim>::conclude(const double seconds)
   for (const SweptRun &run : runs)
     sum += run.seconds;
   std::cout << std::fixed << std::setprecision(2) << '\n'
-            << done << ": " << seconds << " s, the sum of their own is " << sum
+            << done << ": " << seconds_since(start) << " s, the sum of their own is " << sum
             << " s\na row for each in " << home << "/sweep.csv" << std::endl;
   check_standard_output("; the results in " + printable(home, 400) + " are complete");
   const std::string others = ", and sweep.csv says which";
@@ -317,7 +322,6 @@ void Sweep<dim>::solve(const std::function<void()> &start_mpi)
   // takes another way to the stresses of solution-NN.vtu, whose last bits would not be those of a
   // run alone.
   const OneThread one_thread;
-  const auto start = Clock::now();
   look_for_results();
   std::vector<unsigned int> together, in_turn;
   for (std::size_t k = 0; k < swept.size(); ++k)
@@ -326,14 +330,15 @@ void Sweep<dim>::solve(const std::function<void()> &start_mpi)
   prepare(together);
   directory.emplace(home, "", std::vector<std::string>());
   note_interruptions();
-  print_head();
+  print_head(in_turn.size());
   write_table();
   solve_all(together, n_threads);
   solve_all(std::vector<unsigned int>(postponed), 1);
   if (!in_turn.empty())
     start_mpi();
+  note_interruptions(); // MPI has its own ways with signals when it starts
   solve_all(in_turn, 1);
-  conclude(seconds_since(start));
+  conclude();
 }
 } // namespace
 

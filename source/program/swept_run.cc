@@ -64,16 +64,20 @@ SweptRun SweptRun::solved(const Scene<dim> &scene, const std::string &directory)
 {
   const auto start = std::chrono::steady_clock::now();
   SweptRun run;
+  bool has_begun = false;
+  RunListener<dim> listener;
+  listener.about_to = [](const Progress &) { stop_if_interrupted(); };
+  listener.begun = [&](const Output<dim> &) { has_begun = true; };
+  listener.finished = [&](const StepReport<dim> &step) { run.warnings = texts(step.warnings); };
   try
   {
-    run_silently<dim>(scene, directory,
-                      {[](const Progress &) { stop_if_interrupted(); }, [](const Output<dim> &) {},
-                       [&](const StepReport<dim> &step) { run.warnings = texts(step.warnings); }});
+    run_silently<dim>(scene, directory, listener);
     run.status = "done";
   }
   catch (const Interruption &)
   {
-    run.status = "interrupted";
+    if (has_begun)
+      run.status = "interrupted";
   }
   catch (const std::exception &error)
   {

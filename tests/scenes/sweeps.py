@@ -8,6 +8,7 @@ import os
 import re
 import signal
 import subprocess
+import time
 import unittest
 
 from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest
@@ -183,6 +184,20 @@ class Sweeps(RunTest):
         for name, row in self.runs().items():
             summary = self.out / name / "summary.json"
             self.assertEqual(json.loads(summary.read_text())["status"] if summary.exists() else "not begun", row["status"])
+
+    def test_a_signal_ends_the_primal_path(self):
+        line = [PROGRAM, "--output", self.out, SCENES / "slab.prm", "--set", "Output/VTU=false", "--sweep", "Title=a, b"]
+        run = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
+        self.addCleanup(self.end, run)
+        while not (self.out / "Title=a/convergence.csv").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        run.send_signal(signal.SIGTERM)
+        printed, errors = run.communicate(timeout=120)
+        self.assertEqual(run.returncode, 143)
+        self.assertIn("; 2 on the primal path, one after the other\n", printed)
+        self.assertIn("interrupted by SIGTERM; 0 of 2 scenes are done", errors)
+        self.assertEqual([run["status"] for run in self.runs().values()], ["interrupted", "not begun"])
 
 
 if __name__ == "__main__":
