@@ -318,7 +318,7 @@ def main():
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
-                 "results", "extensions", "columns", "contributing"):
+                 "results", "sweeps", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \

@@ -130,7 +130,7 @@ void LinearSolver::Factor::check() const
                            std::to_string(permutation.size()) +
                            " unknowns) has more entries than its indices can count" + remedy);
   if (common.status == CHOLMOD_OUT_OF_MEMORY)
-    throw NumericalFailure(
+    throw MemoryFailure(
         "the factorisation of " + std::to_string(permutation.size()) +
         " unknowns is out of memory: it holds " + bytes_text(common.memory_inuse) +
         (L ? " and asked for up to " + bytes_text(sizeof(double) * double(L->xsize)) : "") +

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <hpvi/base/memory.h>
-#include <hpvi/base/numerical_failure.h>
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -11,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <vector>
 
@@ -129,17 +129,54 @@ AvailableMemory available_memory(const fs::path &root)
                            [](const auto &a, const auto &b) { return a.bytes < b.bytes; });
 }
 
+namespace
+{
+std::mutex claims_mutex;
+double all_claims = 0; ///< of all threads
+
+/** What one thread has asked for last. */
+struct Claim
+{
+  double bytes = 0;
+
+  /** With the mutex held. */
+  void set(const double new_bytes)
+  {
+    all_claims += new_bytes - bytes;
+    bytes = new_bytes;
+  }
+
+  ~Claim()
+  {
+    forget_memory_claim();
+  }
+};
+thread_local Claim claim;
+} // namespace
+
+void forget_memory_claim()
+{
+  const std::lock_guard<std::mutex> lock(claims_mutex);
+  claim.set(0);
+}
+
 void require_memory(const double bytes, const std::string &purpose)
 {
+  const std::lock_guard<std::mutex> lock(claims_mutex);
+  const double others = all_claims - claim.bytes;
+  claim.set(bytes);
   // To read what is left takes as long as a small factorisation; no machine is that short of memory.
   if (bytes < (1 << 26) && !mapping_is_limited())
     return;
-  const AvailableMemory available = available_memory();
-  if (bytes > available.bytes)
-    throw NumericalFailure(purpose + " needs " + bytes_text(bytes) + " of memory, " +
-                           bytes_text(available.bytes) + " are left of " + available.limit +
-                           "; lower Adaptivity/Maximum unknowns, take fewer Geometry/Subdivisions "
-                           "or allow more memory");
+  AvailableMemory available = available_memory();
+  available.bytes = std::max(0., available.bytes - others);
+  if (bytes <= available.bytes)
+    return;
+  claim.set(0);
+  throw MemoryFailure(purpose + " needs " + bytes_text(bytes) + " of memory, " +
+                      bytes_text(available.bytes) + " are left of " + available.limit +
+                      "; lower Adaptivity/Maximum unknowns, take fewer Geometry/Subdivisions "
+                      "or allow more memory");
 }
 
 void want_large_pages(void *const memory, const std::size_t bytes)
@@ -163,17 +200,19 @@ bool mapping_is_limited()
 
 void prepare_blas()
 {
-  if (!openblas_get_num_threads)
+  thread_local bool has_buffer = false; // OpenBLAS keeps it for whoever comes next
+  if (!openblas_get_num_threads || has_buffer)
     return;
   // The largest of its buffers: 32 MB times 4, and a page.
   const double buffer = 128. * (1 << 20) + (1 << 12);
   const AvailableMemory available = available_memory();
   if (mapping_is_limited() && available.bytes < buffer)
-    throw NumericalFailure("OpenBLAS needs " + bytes_text(buffer) + " of memory for its buffer, " +
-                           bytes_text(available.bytes) + " are left of " + available.limit +
-                           "; allow more memory");
+    throw MemoryFailure("OpenBLAS needs " + bytes_text(buffer) + " of memory for its buffer, " +
+                        bytes_text(available.bytes) + " are left of " + available.limit +
+                        "; allow more memory");
   const unsigned int n = 128; // on some machines smaller products go without a buffer
   dealii::LAPACKFullMatrix<double> factor(n, n), product(n, n);
   factor.mmult(product, factor);
+  has_buffer = true;
 }
 } // namespace hpvi

@@ -23,6 +23,10 @@ po::options_description visible_options()
   add("set", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "override one entry of the scene, as in --set \"Material/Poisson's ratio=0.3\"; may be "
       "repeated");
+  add("sweep", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUES"),
+      "solve the scene for each of several values, a, b, c or a | b | c, on all cores, into "
+      "DIR/ENTRY=VALUE, and tell of all in DIR/sweep.csv; repeated: for all combinations; what is "
+      "done there already is not done again");
   add("resume", po::value<std::string>()->value_name("DIR"),
       "go on with the run whose results are in DIR after its last finished step; --set may change "
       "limits of Adaptivity alone");
@@ -79,6 +83,9 @@ void take_resume(const std::string &directory, CommandLine &line)
   if (!line.scene_file.empty() || !line.output_directory.empty())
     throw InputError(begin + "goes on with the scene that is there, and writes there; remove " +
                      (line.scene_file.empty() ? "--output" : printable(line.scene_file, 400)));
+  if (!line.sweeps.empty())
+    throw InputError(begin + "goes on with one scene; remove --sweep, which goes on by itself with "
+                             "the scenes that are not done");
   if (line.validate || line.picture || line.inf_sup || line.print_parameters)
     throw InputError(begin + "goes on with a run; remove the other command");
   for (const auto &[entry, value] : line.overrides)
@@ -91,6 +98,21 @@ void take_resume(const std::string &directory, CommandLine &line)
   line.resume = true;
   line.output_directory = directory;
   line.scene_file = directory + "/scene.prm";
+}
+
+void check_sweeps(const CommandLine &line)
+{
+  const std::vector<SweptScene> scenes = swept_scenes(line.sweeps);
+  const std::string begin = "hpvi: --sweep " + printable(line.sweeps.front().path) + ": ";
+  if (line.picture || line.inf_sup)
+    throw InputError(begin + "solves many scenes, and " +
+                     (line.picture ? "--picture" : "--inf-sup") +
+                     " is of one; give its value by --set");
+  for (const auto &[entry, value] : scenes.front().overrides)
+    for (const auto &[other, its_value] : line.overrides)
+      if (is_same_entry(entry, other))
+        throw InputError("hpvi: --sweep " + printable(entry) + ": --set gives it the value " +
+                         printable(its_value) + "; remove one of the two");
 }
 } // namespace
 
@@ -114,6 +136,9 @@ CommandLine parse(const int argc, const char *const argv[])
   if (values.count("set"))
     for (const std::string &text : values["set"].as<std::vector<std::string>>())
       result.overrides.push_back(split_override(text));
+  if (values.count("sweep"))
+    for (const std::string &text : values["sweep"].as<std::vector<std::string>>())
+      result.sweeps.push_back(swept_entry(text));
   result.validate = values.count("validate");
   result.picture = values.count("picture");
   result.inf_sup = values.count("inf-sup");
@@ -123,6 +148,8 @@ CommandLine parse(const int argc, const char *const argv[])
 
   if (values.count("resume"))
     take_resume(values["resume"].as<std::string>(), result);
+  if (!result.sweeps.empty())
+    check_sweeps(result);
 
   for (const auto &[option, is_named] : {std::make_pair("--inf-sup", result.inf_sup),
                                          {"--validate", result.validate},
@@ -133,7 +160,8 @@ CommandLine parse(const int argc, const char *const argv[])
   if (result.inf_sup && !result.output_directory.empty())
     throw InputError("hpvi: --output " + printable(result.output_directory, 400) +
                      ": --inf-sup writes no file; remove one of the two");
-  const bool defaults = result.print_parameters && !result.validate && result.overrides.empty();
+  const bool defaults = result.print_parameters && !result.validate && result.overrides.empty() &&
+                        result.sweeps.empty();
   if (result.scene_file.empty() && !result.help && !result.version && !defaults)
     throw InputError("hpvi: no scene; name a parameter file, as in hpvi prm/han-6-12.prm, or see "
                      "hpvi --help");

@@ -12,6 +12,7 @@
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
 #include <hpvi/program/started_processes.h>
+#include <hpvi/program/sweep_run.h>
 #include <hpvi/program/terminal.h>
 #include <hpvi/reader/scene_reader.h>
 
@@ -140,6 +141,8 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
     std::cout << version_line() << std::endl;
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();
+  else if (!command_line.sweeps.empty())
+    (is_in_space(command_line) ? sweep<3> : sweep<2>)(command_line, start_mpi);
   else if (is_in_space(command_line))
     obey_scene<3>(command_line, start_mpi);
   else

@@ -222,43 +222,27 @@ constexpr dealii::types::global_dof_index largest_state = 300000; // unknowns
 
 /** @p state: where it goes on. */
 template <int dim>
-void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
-              const std::string &directory)
+void solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
+           const std::string &directory, const RunListener<dim> &listener)
 {
-  const unsigned int n_steps = state ? state->n_steps() : 0;
-  note_interruptions();
-  ProgressLine progress;
-  const auto announce = [&](const Progress &stage)
-  {
-    stop_all_if_interrupted();
-    progress.show(stage);
-  };
-  const bool is_primal = takes_primal_path(scene, n_started_processes());
   const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
                             : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
-  const std::string loads = resultant_in_words(scene, is_primal);
-  prepare(*solver, announce);
-  progress.erase();
-  Output<dim> output(scene, directory, n_steps, MPI_COMM_WORLD);
-  Ending ending;
-  print_head(scene, output, directory, loads, n_steps);
-  print_table_head(scene, is_primal);
+  prepare(*solver, listener.about_to);
+  Output<dim> output(scene, directory, state ? state->n_steps() : 0, MPI_COMM_WORLD);
+  listener.begun(output);
   try
   {
     solver->run(
         [&](const StepReport<dim> &step)
         {
-          progress.erase();
-          print_row(step);
-          ending.hear(step);
+          listener.finished(step);
           output.write_step(step,
                             step.size.n_dofs <= largest_state ? solver->state() : std::nullopt);
         },
-        announce);
+        listener.about_to);
   }
   catch (const Interruption &interruption)
   {
-    progress.erase();
     output.give_up("interrupted", interruption.what());
     throw Interruption(interruption.signal,
                        "; " + output.safe_steps() + " in " + printable(directory));
@@ -269,10 +253,47 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
     throw;
   }
   output.finish();
+}
+
+template <int dim>
+void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
+              const std::string &directory)
+{
+  note_interruptions();
+  const bool is_primal = takes_primal_path(scene, n_started_processes());
+  const std::string loads = resultant_in_words(scene, is_primal);
+  ProgressLine progress;
+  Ending ending;
+  const auto about_to = [&](const Progress &stage)
+  {
+    stop_all_if_interrupted();
+    progress.show(stage);
+  };
+  const auto begun = [&](const Output<dim> &output)
+  {
+    progress.erase();
+    print_head(scene, output, directory, loads, state ? state->n_steps() : 0);
+    print_table_head(scene, is_primal);
+  };
+  const auto finished = [&](const StepReport<dim> &step)
+  {
+    progress.erase();
+    print_row(step);
+    ending.hear(step);
+  };
+  solve<dim>(state, scene, directory, {about_to, begun, finished});
+  progress.erase();
   print_end(scene, ending, directory);
 }
 
 } // namespace
+
+template <int dim>
+void run_silently(const Scene<dim> &scene, const std::string &directory,
+                  const RunListener<dim> &listener)
+{
+  solve<dim>(std::nullopt, scene, directory, listener);
+}
 
 template <int dim>
 void run(const Scene<dim> &scene, const std::string &directory)
@@ -298,6 +319,8 @@ void resume(const Scene<dim> &scene, const std::string &directory)
   run_from(state, scene, directory);
 }
 
+template void run_silently(const Scene<2> &, const std::string &, const RunListener<2> &);
+template void run_silently(const Scene<3> &, const std::string &, const RunListener<3> &);
 template void resume(const Scene<2> &, const std::string &);
 template void resume(const Scene<3> &, const std::string &);
 template void run(const Scene<2> &, const std::string &);

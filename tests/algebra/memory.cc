@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <thread>
 
 namespace
 {
@@ -103,6 +104,31 @@ TEST(Memory, OfTheAddressSpace)
   const std::string failure = failure_of([] { require_memory(65e6, "the test"); });
   EXPECT_EQ(failure.find("the test needs 65 MB of memory, "), 0u) << failure;
   EXPECT_NE(failure.find("are left of the address space (ulimit -v)"), std::string::npos);
+}
+
+/** What a thread has asked for last is granted to no other before it is given back, or the thread ends. */
+TEST(Memory, IsGrantedOnce)
+{
+  const double some = 0.6 * available_memory().bytes;
+  const auto is_granted_to_another = [&]()
+  {
+    bool granted = false;
+    std::thread([&]()
+                { granted = failure_of([&] { require_memory(some, "another"); }) == "nothing"; })
+        .join();
+    return granted;
+  };
+  EXPECT_TRUE(is_granted_to_another());
+  EXPECT_TRUE(is_granted_to_another());
+  require_memory(some, "the test");
+  EXPECT_FALSE(is_granted_to_another());
+  require_memory(some, "the next thing in the same thread");
+  EXPECT_FALSE(is_granted_to_another());
+  EXPECT_THROW(require_memory(2 * some, "what there is not"), MemoryFailure);
+  EXPECT_TRUE(is_granted_to_another());
+  require_memory(some, "the test");
+  forget_memory_claim();
+  EXPECT_TRUE(is_granted_to_another());
 }
 
 /** OpenBLAS would wait for its buffer for ever. */

@@ -566,6 +566,24 @@ invalid "Error/Reference solution = base.prm" "asks for a history" -- "Loading/S
 invalid "Exact solution/Solution = stick-slip" "asks for a history" -- "${exact[@]}" "Loading/Steps=4"
 refused "Loading/Steps = 4" "inf-sup" "remove it" -- --inf-sup --set "Loading/Steps=4" "$scenes/base.prm"
 
+# --- sweeps
+swept=(--sweep "Boundary bottom/Friction bound=1, 2")
+refused "--sweep Boundary bottom" "no '='" "quotes" -- --sweep "Boundary bottom" "$scenes/base.prm"
+refused "--sweep =1, 2" "names no entry" -- --sweep "=1, 2" "$scenes/base.prm"
+refused "Friction bound=1,,2" "no value before or after a separator" -- --sweep "Boundary bottom/Friction bound=1,,2" "$scenes/base.prm"
+refused "Friction bound=1, 2, 1" "has the value 1 twice" "remove one" -- --sweep "Boundary bottom/Friction bound=1, 2, 1" "$scenes/base.prm"
+refused "--sweep Boundary bottom/Friction bound" "is swept twice" -- "${swept[@]}" "${swept[@]}" "$scenes/base.prm"
+refused "--sweep Boundary bottom/Friction bound" "--set gives it the value 3" "remove one" -- "${swept[@]}" --set "Boundary bottom/Friction  bound=3" "$scenes/base.prm"
+refused "--sweep Dimension=2, 3" "write a scene of each" -- --sweep "Dimension=2, 3" "$scenes/base.prm"
+refused "--sweep Boundary bottom/Friction bound = -1" "base.prm (--set)" "is negative" "g >= 0" -- --sweep "Boundary bottom/Friction bound=1, -1, -2" "$scenes/base.prm"
+refused "--sweep Body force/Expression = 1/(x-0.125); 0" "is not finite at (0.125, " -- --sweep "Body force/Expression=0; 0 | 1/(x-0.125); 0" "$scenes/base.prm"
+refused "Solver/Path = primal" "base.prm" "does not offer" -- --sweep "Solver/Path=reduced, primal" "$scenes/base.prm"
+refused "--sweep Boundary bottom/Friction bound" "--picture" "--set" -- --picture "${swept[@]}" "$scenes/base.prm"
+refused "--sweep Boundary bottom/Friction bound" "--inf-sup" "--set" -- --inf-sup "${swept[@]}" "$scenes/base.prm"
+refused "--resume $scenes" "goes on with one scene" "remove --sweep" -- --resume "$scenes" "${swept[@]}"
+refused "no scene" "hpvi --help" -- --print-parameters "${swept[@]}"
+refused "cannot be used" "--output" -- --output /dev/null "${swept[@]}" "$scenes/base.prm"
+
 # --- the good scene passes, and its effective parameters are the same scene again
 "$hpvi" --validate "$scenes/base.prm" >"$scratch/stdout" 2>"$scratch/stderr" ||
   complain "base.prm" "the good scene is rejected"

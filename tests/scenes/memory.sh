@@ -57,3 +57,9 @@ grep -q '"status": "failed"' "$directory/out/summary.json" || fail "summary.json
 # 12000 multipliers: Y and S alone are larger than that.
 solve 2000 "Geometry/Subdivisions=6000, 1"
 gives_up "the dense algebra of 12000 multipliers needs 4.61 GB" "Geometry/Subdivisions"
+
+# Scenes of a sweep come one after the other there, and leave what they mapped to the next one.
+(ulimit -v 1000000 && exec timeout 60 "$program" --output "$directory/swept" --set "Adaptivity/Maximum steps=1" \
+  --set "Output/VTU=false" --sweep "Material/Poisson's ratio=0.1, 0.2, 0.3, 0.4" "$scene") >"$directory/rows" 2>"$directory/errors" ||
+  fail "1 GB is not enough for a sweep"
+grep -q "4 scenes on 1 core, for ulimit" "$directory/rows" || fail "a sweep does not come one after the other"

@@ -2,6 +2,8 @@
 #ifndef hpvi_memory_h
 #define hpvi_memory_h
 
+#include <hpvi/base/numerical_failure.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -25,11 +27,22 @@ struct AvailableMemory
  */
 AvailableMemory available_memory(const std::filesystem::path &root = "/");
 
+/** There is too little memory. */
+class MemoryFailure : public NumericalFailure
+{
+public:
+  using NumericalFailure::NumericalFailure;
+};
+
 /**
- * Throws NumericalFailure where @p bytes for @p purpose are more than what is available, before
- * they are asked for: Linux grants what it does not have, and ends the process when it is used.
+ * Throws MemoryFailure where @p bytes for @p purpose are more than what is available, before
+ * they are asked for: Linux grants what it does not have, and ends the process when it is used. What another thread has asked
+ * for last counts as not yet taken: some of it counts twice then, and none is granted twice.
  */
 void require_memory(double bytes, const std::string &purpose);
+
+/** The calling thread has given back what it asked for; the end of a thread says the same. */
+void forget_memory_claim();
 
 constexpr std::size_t large_page = std::size_t(1) << 21;
 
@@ -41,7 +54,7 @@ bool mapping_is_limited();
 
 /**
  * Make OpenBLAS take the buffer of the calling thread. It takes it at the first product and tries
- * for ever where it gets none. Throws NumericalFailure where there is no room for it.
+ * for ever where it gets none. Throws MemoryFailure where there is no room for it.
  */
 void prepare_blas();
 } // namespace hpvi

@@ -2,6 +2,8 @@
 #ifndef hpvi_command_line_h
 #define hpvi_command_line_h
 
+#include <hpvi/input/sweep.h>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,10 +17,11 @@ struct CommandLine
   std::string output_directory; ///< empty: output/<scene>
   /** `--set "Section/Entry=value"` in the order given: path of the entry, value. */
   std::vector<std::pair<std::string, std::string>> overrides;
-  bool resume = false;   ///< go on in output_directory, whose scene.prm is the scene
-  bool validate = false; ///< say what the scene says, write nothing
-  bool picture = false;  ///< draw the scene, solve nothing
-  bool inf_sup = false;  ///< measure the inf-sup constant, write nothing
+  std::vector<SweptEntry> sweeps; ///< `--sweep`: a scene for each combination of their values
+  bool resume = false;            ///< go on in output_directory, whose scene.prm is the scene
+  bool validate = false;          ///< say what the scene says, write nothing
+  bool picture = false;           ///< draw the scene, solve nothing
+  bool inf_sup = false;           ///< measure the inf-sup constant, write nothing
   bool print_parameters = false;
   bool help = false;
   bool version = false;

@@ -10,6 +10,9 @@ namespace hpvi
 /** Is it one of those that a run may end with? Others are errors of the program. */
 bool is_foreseen(const std::exception &error);
 
+/** May it go better where others leave more memory? */
+bool is_out_of_memory(const std::exception &error);
+
 /** The one line for stderr. */
 std::string failure_line(const std::exception &error);
 
