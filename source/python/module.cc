@@ -5,6 +5,7 @@
 #include <hpvi/python/result.h>
 #include <hpvi/python/scene_text.h>
 
+#include <plot_text.h>
 #include <pybind11/stl.h>
 
 #include <exception>
@@ -77,6 +78,8 @@ SceneText make_scene(const py::object &file, const py::object &entries)
   const bool has_no_file = py::isinstance<py::dict>(file);
   if (!has_no_file && !file.is_none())
     scene.file = path_text(file);
+  if (!has_no_file && !file.is_none() && scene.file.empty())
+    throw py::value_error("file: the name is empty; leave it out for a scene of entries alone");
   for (const py::object &some : {has_no_file ? file : py::none(), entries})
     if (!some.is_none())
       set_all(scene, some.cast<py::dict>(), "");
@@ -214,6 +217,21 @@ py::object last_value(const Result &result, const std::string &column)
   throw py::key_error(column + ": is no column of convergence.csv; steps has them all");
 }
 
+/** plot() of plot.py, which the module has within. */
+py::object plotter()
+{
+  py::module_ module = py::module_::import("hpvi");
+  if (!py::hasattr(module, "_plot"))
+  {
+    const auto plot = py::module_::import("types").attr("ModuleType")("hpvi._plot");
+    const auto code =
+        py::module_::import("builtins").attr("compile")(plot_text, "hpvi/plot.py", "exec");
+    py::module_::import("builtins").attr("exec")(code, plot.attr("__dict__"));
+    module.attr("_plot") = plot;
+  }
+  return module.attr("_plot").attr("plot");
+}
+
 // ---------------------------------------------------------------- the module
 
 /** Python's classes of the exceptions of the library, by name. */
@@ -236,6 +254,10 @@ void translate(const std::exception_ptr error)
   catch (const py::builtin_exception &)
   {
     throw;
+  }
+  catch (const NotAtHand &failure)
+  {
+    PyErr_SetString(PyExc_RuntimeError, failure.what());
   }
   catch (const std::exception &failure)
   {
@@ -332,7 +354,28 @@ void add_result(py::module_ &module)
       .def_property_readonly(
           "loading", [](const Result &result) { return columns(result.loading()); },
           "The columns of loading.csv, a value a load step; empty without a load history.")
+      .def_property_readonly(
+          "probe_lines",
+          [](const Result &result)
+          {
+            py::dict lines;
+            for (const auto &[name, rows] : result.probe_lines())
+              lines[py::str(name)] = columns(rows);
+            return lines;
+          },
+          "Of each probe along a line the columns of probe-NAME-NN.csv.")
       .def_property_readonly("mesh", &mesh_of)
+      .def_property_readonly("dimension", &Result::dimension, "2 or 3.")
+      .def_readonly("length_unit", &Result::length_unit)
+      .def_readonly("stress_unit", &Result::stress_unit)
+      .def(
+          "plot",
+          [](const py::object &result, const py::object &what, const py::object &axes,
+             const py::object &scale) { return plotter()(result, what, axes, scale); },
+          py::arg("what") = py::none(), py::arg("axes") = py::none(), py::arg("scale") = py::none(),
+          R"(Draw "body", "contact" or "convergence", without a name all of them, and return the figure.
+
+axes: matplotlib's, to draw into; scale: how many times displacements are shown.)")
       .def(
           "u",
           [](const Result &result, const py::array_t<double> &points)
@@ -368,4 +411,5 @@ PYBIND11_MODULE(hpvi, module)
   hpvi::add_exceptions(module);
   hpvi::add_scene(module);
   hpvi::add_result(module);
+  Py_AtExit(&hpvi::end_mpi);
 }

@@ -6,6 +6,7 @@
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/forces_table.h>
 #include <hpvi/output/output.h>
+#include <hpvi/output/probe_table.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/python/result.h>
 #include <hpvi/reader/scene_reader.h>
@@ -15,7 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <new>
+#include <mutex>
 #include <optional>
 
 namespace hpvi
@@ -69,16 +70,13 @@ class RunOf : public Result
 public:
   explicit RunOf(const SceneText &text) : scene(read_scene<dim>(text.file, text.entries))
   {
+    length_unit = scene.length_unit;
+    stress_unit = scene.stress_unit;
   }
 
   unsigned int dimension() const override
   {
     return dim;
-  }
-
-  bool is_at_hand() const override
-  {
-    return last.has_value();
   }
 
   Rows contact() const override
@@ -94,6 +92,14 @@ public:
   Rows loading() const override
   {
     return records(tables.loading().text);
+  }
+
+  std::vector<std::pair<std::string, Rows>> probe_lines() const override
+  {
+    std::vector<std::pair<std::string, Rows>> lines;
+    for (const ProbeLine<dim> &line : step().probe_lines)
+      lines.emplace_back(scene.probes[line.probe].name, records(probe_table(line)));
+    return lines;
   }
 
   std::vector<double> bound_by_cell() const override
@@ -128,8 +134,8 @@ private:
   const StepReport<dim> &step() const
   {
     if (!last)
-      throw std::logic_error("the solution of the last step is at hand in the callback and after "
-                             "solve() alone; ask it there");
+      throw NotAtHand("the solution of the last step is at hand in the callback and after "
+                      "solve() alone; ask it there");
     return *last;
   }
 
@@ -197,14 +203,17 @@ PointArrays RunOf<dim>::grid(const unsigned int n) const
   return arrays;
 }
 
-/** The library wants MPI for the primal path alone. It ends after all that Python keeps. */
+/** What of the library runs by MPI: one at a time, for MPI knows no threads. */
+std::recursive_mutex mpi_turn;
+std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
+
+/** Only the primal path needs it. */
 void start_mpi()
 {
-  static std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
   if (mpi)
     return;
   if (Utilities::MPI::job_supports_mpi())
-    throw std::runtime_error(
+    throw NotAtHand(
         "hpvi: MPI has been started by another module; import hpvi first and solve one scene, or "
         "set mpi4py.rc.initialize = False before mpi4py.MPI is imported");
   static int argc = 0;
@@ -245,8 +254,12 @@ std::shared_ptr<Result> run(const SceneText &text, const std::string &directory,
                             const Listener &listener)
 {
   const auto result = std::make_shared<RunOf<dim>>(text);
+  std::unique_lock<std::recursive_mutex> turn(mpi_turn, std::defer_lock);
   if (takes_primal_path(result->scene, 1))
+  {
+    turn.lock();
     start_mpi();
+  }
   const auto announce = [&](const Progress &) { listener.between(); };
   result->solver = std::make_unique<LoadHistory<dim>>(result->scene);
   prepare(*result->solver, announce);
@@ -298,6 +311,11 @@ std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directo
   if (scene_dimension(scene.file, scene.entries) == 3)
     return run<3>(scene, directory, listener);
   return run<2>(scene, directory, listener);
+}
+
+void end_mpi()
+{
+  mpi.reset();
 }
 
 std::string exception_name(const std::exception &error)

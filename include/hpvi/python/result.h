@@ -34,7 +34,7 @@ struct PointArrays
 
 /**
  * The steps of a run so far, and the solution of the last of them, as plain numbers. What is asked of the solution throws
- * std::logic_error while the run is between two steps, and after a run that was broken off there.
+ * NotAtHand while the run is between two steps, and after a run that was broken off there.
  */
 class Result
 {
@@ -42,8 +42,7 @@ public:
   virtual ~Result() = default;
 
   virtual unsigned int dimension() const = 0;
-  virtual bool is_at_hand() const = 0; ///< may the solution be asked?
-
+  std::string length_unit, stress_unit;
   Rows steps;                        ///< of convergence.csv
   std::string stopped_by;            ///< why there is no next step; empty: there is one
   std::vector<std::string> warnings; ///< of the last step
@@ -51,6 +50,7 @@ public:
   virtual Rows contact() const = 0; ///< contact-NN.csv
   virtual Rows forces() const = 0;  ///< of forces.csv
   virtual Rows loading() const = 0; ///< loading.csv; empty without a history
+  virtual std::vector<std::pair<std::string, Rows>> probe_lines() const = 0; ///< by name
   virtual MeshArrays mesh() const = 0;
   virtual PointArrays at(const std::vector<double> &points) const = 0;
   /** At n points a direction and cell, ends included, cell by cell, x slowest. */
@@ -58,6 +58,13 @@ public:
   virtual std::vector<double> bound_by_cell() const = 0; ///< empty: there is no bound
   virtual std::vector<double> indicator_by_cell() const = 0;
   virtual std::string no_bound() const = 0; ///< why there is none
+};
+
+/** What is asked for is not there (now); one line. */
+class NotAtHand : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
 };
 
 /** Whoever listens wants the run to end: passes through it, and its line stands in summary.json. */
@@ -80,6 +87,9 @@ struct Listener
  */
 std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directory,
                               const Listener &listener);
+
+/** To be called when nothing of Python is left: matrices of runs end before MPI. */
+void end_mpi();
 
 /** InputError, NumericalFailure, OutputFailure, MemoryError or RuntimeError: as what Python shall raise @p error. */
 std::string exception_name(const std::exception &error);
