@@ -38,10 +38,16 @@ py::array_t<T> copy(const std::vector<T> &values, const std::vector<py::ssize_t>
 py::object column(const Rows &rows, const std::size_t number_of_column)
 {
   const std::string &name = rows.front()[number_of_column].first;
+  bool has_empty = false;
   py::list fields;
   for (const auto &row : rows)
-    fields.append(field(name, row[number_of_column].second));
-  const char *const type = counts.count(name) ? "int64" : names.count(name) ? "str" : "float64";
+  {
+    const std::string &text = row[number_of_column].second;
+    has_empty = has_empty || text.empty();
+    fields.append(field(name, text));
+  }
+  const bool is_count = counts.count(name) && !has_empty;
+  const char *const type = is_count ? "int64" : names.count(name) ? "str" : "float64";
   return py::module_::import("numpy").attr("array")(fields, type);
 }
 } // namespace
@@ -58,7 +64,7 @@ py::object field(const std::string &column, const std::string &text)
 {
   if (names.count(column))
     return py::str(text);
-  if (counts.count(column))
+  if (counts.count(column) && !text.empty())
     return py::int_(static_cast<long>(number(text)));
   return py::float_(number(text));
 }

@@ -35,43 +35,87 @@ constexpr std::array<unsigned int, 1 << dim> around()
     return {{0, 1, 3, 2, 4, 5, 7, 6}};
 }
 
-/** Behind those that are there. */
+/** Behind those that are there; without @p value, outside the body, NaN. */
 template <int dim>
-void append(PointArrays &arrays, const Point<dim> &x, const PointValue<dim> &value)
+void append(PointArrays &arrays, const Point<dim> &x, const std::optional<PointValue<dim>> &value)
 {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   for (unsigned int d = 0; d < dim; ++d)
   {
     arrays.x.push_back(x[d]);
-    arrays.u.push_back(value.displacement[d]);
+    arrays.u.push_back(value ? value->displacement[d] : nan);
   }
+  const auto component = [&](const unsigned int i, const unsigned int j)
+  {
+    if (i < dim && j < dim)
+      return value->stress[i][j];
+    return i == j ? value->across : 0.;
+  };
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
-      arrays.stress.push_back(i < dim && j < dim ? value.stress[i][j] : i == j ? value.across : 0.);
+      arrays.stress.push_back(value ? component(i, j) : nan);
 }
 
-/** Outside the body. */
-template <int dim>
-PointValue<dim> no_value()
+/** Runs of the primal path use MPI, which knows no threads: one at a time. */
+std::recursive_mutex mpi_turn;
+std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
+/** What Python let go of while another thread had its turn; ends with that. */
+std::mutex left_mutex;
+std::vector<std::shared_ptr<const void>> left;
+
+void end_what_is_left()
 {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  PointValue<dim> value;
-  for (unsigned int d = 0; d < dim; ++d)
-    value.displacement[d] = nan;
-  for (unsigned int i = 0; i < dim; ++i)
-    for (unsigned int j = i; j < dim; ++j)
-      value.stress[i][j] = nan;
-  value.across = nan;
-  return value;
+  std::vector<std::shared_ptr<const void>> ending;
+  const std::lock_guard<std::mutex> lock(left_mutex);
+  ending.swap(left);
 }
+
+/** As long as a run lasts that needs it. */
+class MpiTurn
+{
+public:
+  explicit MpiTurn(const bool is_needed) : lock(mpi_turn, std::defer_lock)
+  {
+    if (is_needed)
+      lock.lock();
+  }
+
+  ~MpiTurn()
+  {
+    if (lock.owns_lock())
+      end_what_is_left();
+  }
+
+private:
+  std::unique_lock<std::recursive_mutex> lock;
+};
 
 template <int dim>
 class RunOf : public Result
 {
 public:
-  explicit RunOf(const SceneText &text) : scene(read_scene<dim>(text.file, text.entries))
+  explicit RunOf(const SceneText &text)
+      : scene_read(std::make_shared<const Scene<dim>>(read_scene<dim>(text.file, text.entries))),
+        scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
   {
     length_unit = scene.length_unit;
     stress_unit = scene.stress_unit;
+  }
+
+  /** It may be another thread's turn, for which the interpreter must not wait. */
+  ~RunOf() override
+  {
+    last.reset();
+    std::shared_ptr<const void> ending(solver.release(),
+                                       [scene = scene_read](LoadHistory<dim> *run) { delete run; });
+    if (const std::unique_lock<std::recursive_mutex> turn(mpi_turn, std::try_to_lock);
+        !needs_mpi || turn.owns_lock())
+    {
+      ending.reset();
+      return;
+    }
+    const std::lock_guard<std::mutex> lock(left_mutex);
+    left.push_back(std::move(ending));
   }
 
   unsigned int dimension() const override
@@ -81,7 +125,7 @@ public:
 
   Rows contact() const override
   {
-    return records(contact_table(step().scene, step().contact));
+    return records(contact_table(scene, step().contact));
   }
 
   Rows forces() const override
@@ -126,7 +170,9 @@ public:
 
   void take(const StepReport<dim> &step);
 
-  const Scene<dim> scene; ///< outlives the solver
+  const std::shared_ptr<const Scene<dim>> scene_read; ///< outlives the solver
+  const Scene<dim> &scene;
+  const bool needs_mpi;
   std::unique_ptr<LoadHistory<dim>> solver;
   std::optional<StepReport<dim>> last; ///< as long as what it refers to
 
@@ -181,7 +227,7 @@ PointArrays RunOf<dim>::at(const std::vector<double> &points) const
   PointArrays arrays;
   const auto values = values_at(step().field, places);
   for (std::size_t k = 0; k < places.size(); ++k)
-    append(arrays, places[k], values[k].value_or(no_value<dim>()));
+    append(arrays, places[k], values[k]);
   return arrays;
 }
 
@@ -198,14 +244,10 @@ PointArrays RunOf<dim>::grid(const unsigned int n) const
     const CellMap<dim> map = map_of<dim>(cell);
     const auto values = step().field.values(cell, references);
     for (std::size_t k = 0; k < references.size(); ++k)
-      append(arrays, map.point(references[k]), values[k]);
+      append<dim>(arrays, map.point(references[k]), values[k]);
   }
   return arrays;
 }
-
-/** What of the library runs by MPI: one at a time, for MPI knows no threads. */
-std::recursive_mutex mpi_turn;
-std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
 
 /** Only the primal path needs it. */
 void start_mpi()
@@ -254,12 +296,9 @@ std::shared_ptr<Result> run(const SceneText &text, const std::string &directory,
                             const Listener &listener)
 {
   const auto result = std::make_shared<RunOf<dim>>(text);
-  std::unique_lock<std::recursive_mutex> turn(mpi_turn, std::defer_lock);
-  if (takes_primal_path(result->scene, 1))
-  {
-    turn.lock();
+  const MpiTurn turn(result->needs_mpi);
+  if (result->needs_mpi)
     start_mpi();
-  }
   const auto announce = [&](const Progress &) { listener.between(); };
   result->solver = std::make_unique<LoadHistory<dim>>(result->scene);
   prepare(*result->solver, announce);
@@ -315,6 +354,7 @@ std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directo
 
 void end_mpi()
 {
+  end_what_is_left();
   mpi.reset();
 }
 

@@ -9,8 +9,12 @@
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_reader.h>
 
+#include <deal.II/base/utilities.h>
+
 namespace hpvi
 {
+using namespace dealii;
+
 namespace
 {
 /** What @p ask says of the scene, in the plane or in space. */
@@ -90,7 +94,7 @@ std::string SceneText::value(const std::string &path) const
 
 std::string SceneText::words() const
 {
-  return ask_scene(*this, [](const auto &scene) { return scene_in_words(scene); });
+  return ask_scene(*this, [](const auto &scene) { return Utilities::trim(scene_in_words(scene)); });
 }
 
 std::string SceneText::picture() const
