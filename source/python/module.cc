@@ -253,5 +253,4 @@ PYBIND11_MODULE(hpvi, module)
   hpvi::add_exceptions(module);
   hpvi::add_scene(module);
   hpvi::add_result(module);
-  Py_AtExit(&hpvi::end_mpi);
 }

@@ -56,7 +56,10 @@ void append(PointArrays &arrays, const Point<dim> &x, const std::optional<PointV
       arrays.stress.push_back(value ? component(i, j) : nan);
 }
 
-/** Runs of the primal path use MPI, which knows no threads: one at a time. */
+/**
+ * Runs of the primal path use MPI, which knows no threads: one at a time. These end with the process, after all that Python
+ * has and before what they depend on.
+ */
 std::recursive_mutex mpi_turn;
 std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
 /** What Python let go of while another thread had its turn; ends with that. */
@@ -350,12 +353,6 @@ std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directo
   if (scene_dimension(scene.file, scene.entries) == 3)
     return run<3>(scene, directory, listener);
   return run<2>(scene, directory, listener);
-}
-
-void end_mpi()
-{
-  end_what_is_left();
-  mpi.reset();
 }
 
 std::string exception_name(const std::exception &error)

@@ -88,9 +88,6 @@ struct Listener
 std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directory,
                               const Listener &listener);
 
-/** To be called when nothing of Python is left: matrices of runs end before MPI. */
-void end_mpi();
-
 /** InputError, NumericalFailure, OutputFailure, MemoryError or RuntimeError: as what Python shall raise @p error. */
 std::string exception_name(const std::exception &error);
 
