@@ -56,6 +56,9 @@ void set_all(SceneText &scene, const py::dict &entries, const std::string &secti
 {
   for (const auto &[key, value] : entries)
   {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("names of entries are texts, and " + py::repr(key).cast<std::string>() +
+                           " is none");
     const std::string path = section + key.cast<std::string>();
     if (py::isinstance<py::dict>(value))
       set_all(scene, py::reinterpret_borrow<py::dict>(value), path + "/");
