@@ -289,6 +289,12 @@ def with_results(text, program, directory):
     return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
 
 
+def session(text):
+    """doc/python.md as a page of the manual."""
+    text = re.sub("^# (.*)$", r"# \1 {#python}", text, count=1, flags=re.M).replace("](python/", "](../python/")
+    return text.replace("```python", "```{.py}").replace("```sh", "```{.sh}")
+
+
 def short(field):
     """A number with five digits; what is none stays."""
     try:
@@ -320,6 +326,7 @@ def main():
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
                  "results", "sweeps", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
+    pages["python"] = session((ROOT / "doc/python.md").read_text())
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \
         commented_source(ROOT / "doc/tutorial/tresca_friction.cc")

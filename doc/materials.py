@@ -4,15 +4,13 @@
 
 Runs a block of two materials in three arrangements, and one of an orthotropic material, against overkill reference solutions,
 and writes a chart and tables to doc/materials/ and into doc/materials.md, between its marker comments.
+PYTHONPATH says where the module hpvi is: build.
 """
 import argparse
-import csv
 import math
-import os
 import pathlib
-import subprocess
-import sys
 
+import hpvi
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -22,80 +20,55 @@ from stability import COLOURS, N_LABEL, number, plain, progress, put_table, save
 PAGE = "materials"
 CHART = pathlib.Path(__file__).resolve().parent / PAGE / "chart.csv"
 # Clamped ends and a held base: their singular points are there with one material as well.
-SCENE = """subsection Geometry
-  set Lower corner = -2, -2
-  set Upper corner = 2, 2
-  set Subdivisions = 4, 4
-end
-subsection Boundary left
-  set Displacement = 0; 0
-end
-subsection Boundary right
-  set Displacement = -0.01; 0
-end
-subsection Boundary bottom
-  set Contact        = bilateral
-  set Friction bound = 0.03
-end
-"""
+BLOCK = {"Geometry": {"Lower corner": (-2, -2), "Upper corner": (2, 2), "Subdivisions": (4, 4)},
+         "Boundary left/Displacement": (0, 0), "Boundary right/Displacement": (-0.01, 0),
+         "Boundary bottom": {"Contact": "bilateral", "Friction bound": 0.03}, "Adaptivity/Tolerance": 0,
+         "Output": {"VTU": False, "Mesh picture": False, "Contact tables": False}}
 ARRANGEMENTS = {"layers": "1 - abs(y)", "inclusion": "min(1 - abs(x), 1 - abs(y))", "four at a vertex": "x*y"}
 RATIOS = ("1e-3", "1e3", "1e6")
 # E1 over E2 = E3 = 1 and the angle of axis 1; with 1 the material is isotropic.
 FIBRES, FIBRE_RATIOS, DEGREES = ("fibres at 0", "fibres at 30"), ("10", "100", "1000"), (2, 3, 4, 6)
 METHODS = {"hup2": (5, "o"), "hup4": (4, "s"), "hpa3": (16, ".")}
 COLUMNS = ("dofs_free", "energy", "energy_norm", "estimate_relative", "error_bound", "error_energy", "effectivity")
-LEAN = ("Adaptivity/Tolerance=0", "Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false")
 # The singularity, like r^0.001, is not resolved down to the smallest numbers: there is no reference.
 BEYOND_REACH = {("four at a vertex", "1e6")}
 # Steps count whose error is so many times that of the reference, which its indicator overestimates by about four.
 CLEAR, OVERESTIMATE = 8, 4
 
 
-def run(program, home, *settings):
-    """What is needed of the rows of convergence.csv."""
-    home.mkdir(parents=True, exist_ok=True)
-    scene = home / "block.prm"
-    scene.write_text(SCENE)
-    options = [word for setting in (*LEAN, *settings) for word in ("--set", setting)]
-    done = subprocess.run([program, "--output", home / "out", scene, *options], text=True, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, env={"OMP_NUM_THREADS": "1", **os.environ})
-    if done.returncode != 0:
-        sys.exit(f"{home}: {done.stderr.strip()}")
-    with (home / "out/convergence.csv").open(encoding="utf-8") as table:
-        return [{name: float(row[name] or "nan") for name in COLUMNS} for row in csv.DictReader(table)]
+def run(*entries, output=None):
+    """What is needed of the steps."""
+    steps = hpvi.Scene({name: value for some in (BLOCK, *entries) for name, value in some.items()}).solve(output=output).steps
+    return [dict(zip(COLUMNS, row)) for row in zip(*(steps[name] for name in COLUMNS))]
 
 
 def materials(arrangement, ratio):
     if arrangement in FIBRES:
-        settings = {"Elasticity": "orthotropic", "Young's moduli": f"{ratio}, 1, 1", "Poisson's ratios": "0.3, 0.3, 0.3",
-                    "Shear moduli": repr(1 / 2.6), "Angle": arrangement.split()[-1]}
-        return [f"Material/{entry}={value}" for entry, value in settings.items()]
-    return [] if ratio == "1" else [f"Material other/Where={ARRANGEMENTS[arrangement]}",
-                                    f"Material other/Young's modulus={ratio}"]
+        return {"Material": {"Elasticity": "orthotropic", "Young's moduli": (ratio, 1, 1), "Poisson's ratios": (0.3, 0.3, 0.3),
+                             "Shear moduli": 1 / 2.6, "Angle": arrangement.split()[-1]}}
+    return {} if ratio == "1" else {"Material other": {"Where": ARRANGEMENTS[arrangement], "Young's modulus": ratio}}
 
 
-def find_reference(program, home, arrangement, ratio):
-    """About how far from the solution it is, and the setting that compares with it."""
+def find_reference(home, arrangement, ratio):
+    """About how far from the solution it is, and the entry that compares with it."""
     if (arrangement, ratio) in BEYOND_REACH:
-        return math.inf, []
+        return math.inf, {}
     steps, unknowns = (260, 90000) if arrangement == "four at a vertex" else (40, 150000) if arrangement in FIBRES else (30, 40000)
-    last = run(program, home, *materials(arrangement, ratio), f"Adaptivity/Maximum steps={steps}",
-               f"Error/Bound={str(arrangement in FIBRES).lower()}", f"Adaptivity/Maximum unknowns={unknowns}",
-               "Output/Reference solution=true")[-1]
+    last = run(materials(arrangement, ratio), {"Adaptivity/Maximum steps": steps, "Adaptivity/Maximum unknowns": unknowns,
+                                               "Error/Bound": arrangement in FIBRES, "Output/Reference solution": True}, output=home)[-1]
     # Of fibres the indicator overestimates too much, and the bound itself is taken.
     relative = last["error_bound"] / last["energy_norm"] if arrangement in FIBRES else last["estimate_relative"] / OVERESTIMATE
     progress(f"  {arrangement}, ratio {ratio}: a reference of {last['dofs_free']:.0f} unknowns, relative error about {relative:.1e}")
-    return relative * last["energy_norm"], [f"Error/Reference solution={(home / 'out/reference.dat').resolve()}"]
+    return relative * last["energy_norm"], {"Error/Reference solution": str((home / "reference.dat").resolve())}
 
 
-def measure(program, output, arrangement, ratio):
+def measure(output, arrangement, ratio):
     """What all methods say of their errors; nothing of an error where no reference is near enough."""
     home = output / f"{arrangement.replace(' ', '-')}-{ratio}"
-    its_error, against = find_reference(program, home / "reference", arrangement, ratio)
+    its_error, against = find_reference(home, arrangement, ratio)
     rows = []
     for method, (steps, _) in METHODS.items():
-        for row in run(program, home / method, *materials(arrangement, ratio), f"Adaptivity/Method={method}",
-                       f"Adaptivity/Maximum steps={steps}", *against):
+        for row in run(materials(arrangement, ratio), {"Adaptivity/Method": method, "Adaptivity/Maximum steps": steps}, against):
             # J >= 0 without loads: |u - u_N|^2 <= 2 (J(u_N) - J(u)) <= 2 J(u_N)
             most = math.sqrt(2 * row["energy"])
             is_clear = row["error_energy"] > CLEAR * its_error
@@ -106,14 +79,14 @@ def measure(program, output, arrangement, ratio):
     return rows
 
 
-def measure_degrees(program, output, arrangement, ratio):
+def measure_degrees(output, arrangement, ratio):
     """Relative errors of 4 x 4 cells by degree."""
     home = output / f"{arrangement.replace(' ', '-')}-{ratio}"
-    against = [f"Error/Reference solution={(home / 'reference/out/reference.dat').resolve()}"]
+    against = {"Error/Reference solution": str((home / "reference.dat").resolve())}
     row = {"arrangement": arrangement, "E1/E2": ratio}
     for degree in DEGREES:
-        steps = run(program, home / f"degree-{degree}", *materials(arrangement, ratio), *against, "Adaptivity/Method=hup2",
-                    f"Adaptivity/Start degree={degree}", "Adaptivity/Maximum steps=1", "Error/Bound=false")
+        steps = run(materials(arrangement, ratio), against, {"Adaptivity/Method": "hup2", "Adaptivity/Start degree": degree,
+                                                             "Adaptivity/Maximum steps": 1, "Error/Bound": False})
         row[f"p = {degree}"] = f"{steps[0]['error_energy'] / steps[0]['energy_norm']:.1%}"
     return row
 
@@ -129,12 +102,12 @@ def tabulate_fibres(rows):
     put_table("fibres", lines, page=PAGE)
 
 
-def measure_fibres(program, output):
+def measure_fibres(output):
     rows, errors = [], []
     for arrangement in FIBRES:
         for ratio in FIBRE_RATIOS:
-            rows += measure(program, output, arrangement, ratio)
-            errors.append(measure_degrees(program, output, arrangement, ratio))
+            rows += measure(output, arrangement, ratio)
+            errors.append(measure_degrees(output, arrangement, ratio))
     tabulate_fibres(rows)
     put_table("degrees", errors, page=PAGE)
 
@@ -207,21 +180,19 @@ def draw(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", default="build/hpvi", type=pathlib.Path)
     parser.add_argument("--output", default="output/materials", type=pathlib.Path)
     parser.add_argument("--fibres", action="store_true", help="measure the orthotropic material alone")
     parser.add_argument("--draw", action="store_true", help="draw from the table that is there")
     options = parser.parse_args()
     if not options.draw:
-        measure_fibres(options.program.resolve(), options.output)
+        measure_fibres(options.output)
     if options.fibres:
         return
     if not options.draw:
-        program = options.program.resolve()
-        rows = measure(program, options.output, "one material", "1")
+        rows = measure(options.output, "one material", "1")
         for arrangement in ARRANGEMENTS:
             for ratio in RATIOS:
-                rows += measure(program, options.output, arrangement, ratio)
+                rows += measure(options.output, arrangement, ratio)
         CHART.parent.mkdir(exist_ok=True)
         write_csv(CHART, rows)
     rows = read_csv(CHART)

@@ -2,6 +2,7 @@
 #include <hpvi/base/parameter_file.h>
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -20,7 +21,7 @@ namespace
 class FileScanner
 {
 public:
-  explicit FileScanner(const std::string &file) : file(file), shown(printable(file, 400))
+  explicit FileScanner(const std::string &file) : file(file), shown(shown_file(file))
   {
   }
 
@@ -124,7 +125,7 @@ private:
 
 std::vector<Assignment> read_parameter_file(const std::string &file)
 {
-  return FileScanner(file).scan();
+  return file.empty() ? std::vector<Assignment>() : FileScanner(file).scan();
 }
 
 namespace

@@ -2,6 +2,7 @@
 #include <hpvi/input/parameters.h>
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -84,7 +85,7 @@ void Parameters::in_section(const std::string &section, const Action &action)
 Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Hint> all_hints,
                        const std::string &file)
     : entries(std::move(all_entries)), hints(std::move(all_hints)), file(file),
-      shown(printable(file, 400))
+      shown(shown_file(file))
 {
   for (const Entry &entry : entries)
     in_section(entry.section,

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# `cpack -G DEB`, or ./run package: hpvi, libhpvi-dev and hpvi-doc. Texts that package_texts.py and ./run doc make are taken
+# `cpack -G DEB`, or ./run package: hpvi, libhpvi-dev, python3-hpvi where the module is built, and hpvi-doc. Texts that package_texts.py and ./run doc make are taken
 # where they are.
-foreach(component program development manual)
+set(CPACK_COMPONENTS_ALL program development manual)
+if(TARGET hpvi_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+foreach(component ${CPACK_COMPONENTS_ALL})
   set(name_of_program hpvi)
   set(name_of_development libhpvi-dev)
   set(name_of_manual hpvi-doc)
+  set(name_of_python python3-hpvi)
   set(name ${name_of_${component}})
   install(FILES source/package/copyright ${PROJECT_BINARY_DIR}/package/changelog.gz
     ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz DESTINATION ${CMAKE_INSTALL_DOCDIR}/../${name}
@@ -17,7 +22,6 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/doc/html/ DESTINATION ${CMAKE_INSTALL_DO
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc COMPONENT manual)
 
 set(CPACK_PACKAGE_CONTACT "The hpvi authors <hpvi@example.org>")
-set(CPACK_COMPONENTS_ALL program development manual)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -34,6 +38,15 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "hpvi (= ${PROJECT_VERSION}-1), libdeal.ii-dev, libsuitesparse-dev, libmuparser-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "library of hpvi, elastic contact with friction
  Headers, static library and CMake package of hpvi, for programs that solve scenes and read results.")
+if(TARGET hpvi_python)
+  math(EXPR NEXT_PYTHON "${Python3_VERSION_MINOR} + 1")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hpvi (= ${PROJECT_VERSION}-1), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${NEXT_PYTHON}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of hpvi, elastic contact with friction
+ Solves scenes of hpvi from Python; results are arrays of NumPy, and pictures where matplotlib is.")
 set(CPACK_DEBIAN_MANUAL_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_DEPENDS libjs-mathjax)

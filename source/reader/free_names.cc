@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/parameter_file.h>
+#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/free_names.h>
 
@@ -57,7 +58,7 @@ all_assignments(const std::string &file,
   for (const auto &[path, value] : overrides)
     if (const std::size_t slash = path.rfind('/'); slash != std::string::npos)
       all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
-                     value, printable(file, 400) + " (--set)"});
+                     value, shown_file(file) + " (--set)"});
   return all;
 }
 } // namespace

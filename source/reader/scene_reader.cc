@@ -3,6 +3,7 @@
 #include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/shape.h>
 
+#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 #include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/input/expressions.h>
@@ -272,7 +273,7 @@ FreeNames names_in(const std::string &file,
 {
   const std::vector<std::string> bodies = body_names(file, overrides);
   if (dim == 3 && !bodies.empty())
-    throw InputError(printable(file, 400) +
+    throw InputError(shown_file(file) +
                      ": Dimension = 3: several bodies are offered in the plane alone; set 2, or "
                      "describe one body in the subsection Geometry");
   SideNames sides;
@@ -308,7 +309,7 @@ Scene<dim> read_scene(const std::string &file,
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
                        "is not that of the program; set Dimension = " + std::to_string(dim));
-  const std::string name = std::filesystem::path(file).stem().string();
+  const std::string name = file.empty() ? "scene" : std::filesystem::path(file).stem().string();
   complete(*parameters, name);
   std::vector<std::string> bodies{"Geometry"};
   for (const std::string &body : names.bodies)

@@ -181,7 +181,7 @@ BoundaryCondition<dim> &Scene<dim>::boundary(const std::string &wanted)
 template <int dim>
 std::string Scene<dim>::origin() const
 {
-  return parameters ? parameters->file_name() : name;
+  return parameters && !parameters->file_name().empty() ? parameters->file_name() : name;
 }
 
 template <int dim>

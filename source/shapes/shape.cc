@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/shapes/box.h>
@@ -264,7 +265,7 @@ SideNames names_of_sides(const std::string &file,
   }
   catch (const InputError &error) // of a mesh, whose file it names
   {
-    throw InputError(printable(file, 400) + ": " + section + "/File: " + error.what());
+    throw InputError(shown_file(file) + ": " + section + "/File: " + error.what());
   }
 }
 

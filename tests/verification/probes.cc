@@ -8,6 +8,7 @@
 #include <hpvi/body/disc_rule.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/evaluation/probe_rule.h>
+#include <hpvi/evaluation/values_at.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/tables.h>
 
@@ -362,6 +363,31 @@ TEST(Intervals, AreRoundedOutwards)
   EXPECT_EQ(interval_in_words({0.0004, 0.01}), "0 +- 0.011");
   EXPECT_EQ(interval_in_words({-1e-12, 13.}), "0 +- 14");
   EXPECT_EQ(interval_in_words({3., 0.}), "3 +- 0");
+}
+
+/** Inside, where cells meet, on curves and beside the body: one by one and all at once. */
+TEST(ValuesAt, AreThoseOfEachPoint)
+{
+  const Scene<2> scene = shipped_scene("press-ring", {{"Adaptivity/Maximum steps", "2"}});
+  AdaptiveSolver<2>(scene).run(
+      [](const StepReport<2> &step)
+      {
+        std::vector<Point<2>> points{{100, 0}};
+        for (const auto &cell : step.field.dof_handler.active_cell_iterators())
+          for (const Point<2> &reference :
+               {Point<2>(0.3, 0.6), Point<2>(0, 0.5), Point<2>(0.5, 1), Point<2>(1, 1)})
+            points.push_back(map_of<2>(cell).point(reference));
+        const auto values = values_at(step.field, points);
+        EXPECT_FALSE(values[0]);
+        for (std::size_t k = 1; k < points.size(); ++k)
+        {
+          const auto one = step.field.at(points[k]);
+          ASSERT_TRUE(one && values[k]) << points[k];
+          EXPECT_EQ(values[k]->displacement, one->displacement) << points[k];
+          EXPECT_EQ(values[k]->stress, one->stress) << points[k];
+          EXPECT_EQ(values[k]->across, one->across) << points[k];
+        }
+      });
 }
 
 /** Where |u_N| is largest, and von Mises' stress. */

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_values_at_h
+#define hpvi_values_at_h
+
+#include <hpvi/evaluation/field.h>
+
+#include <optional>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * u_N and its stress at many points on one process, by cells: what Field::at() says of each, null outside the body, in a
+ * time that grows like the number of cells and that of points rather than with their product.
+ */
+template <int dim>
+std::vector<std::optional<PointValue<dim>>>
+values_at(const Field<dim> &field, const std::vector<dealii::Point<dim>> &points);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_scene_text_h
+#define hpvi_scene_text_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A scene as it is written, which Python changes entry by entry; it is read, and checked, each time that it is asked or
+ * solved. Functions throw InputError as read_scene() does.
+ */
+struct SceneText
+{
+  std::string file; ///< empty: entries are all that there is
+  /** "Section/Entry", value, in the order in which they were set; of each entry one. */
+  std::vector<std::pair<std::string, std::string>> entries;
+
+  void set(const std::string &path, const std::string &value);
+
+  std::string
+  value(const std::string &path) const; ///< of an entry, its default where it is not set
+
+  std::string words() const;   ///< of `hpvi --validate`
+  std::string picture() const; ///< of `hpvi --picture`
+  std::string print() const;   ///< scene.prm, every entry with its value
+  std::string title() const;
+};
+
+/** Does the entry have components, which semicolons part, where commas part those of points? */
+bool has_components(const std::string &path, const std::string &value);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What Python sees: classes and their documentation. Everything behind it knows nothing of Python but arrays.
+#include <hpvi/base/version.h>
+#include <hpvi/python/result.h>
+#include <hpvi/python/result_class.h>
+#include <hpvi/python/scene_text.h>
+
+#include <pybind11/stl.h>
+
+#include <exception>
+#include <map>
+
+namespace py = pybind11;
+
+namespace hpvi
+{
+namespace
+{
+// ---------------------------------------------------------------- scenes
+
+/** A value as a file has it: tuples are components or coordinates, tuples of these lists of points. */
+std::string text_of(const py::handle &value, const std::string &path, const bool is_inner = false)
+{
+  if (py::isinstance<py::str>(value))
+    return value.cast<std::string>();
+  if (py::isinstance<py::bool_>(value))
+    return value.cast<bool>() ? "true" : "false";
+  if (PyIndex_Check(value.ptr()) && !py::isinstance<py::sequence>(value))
+    return py::str(py::int_(py::reinterpret_borrow<py::object>(value)));
+  if (py::hasattr(value, "__float__") && !py::isinstance<py::sequence>(value))
+    return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
+  if (!py::isinstance<py::sequence>(value) && !py::hasattr(value, "__array__"))
+    throw py::type_error(path + " = " + py::repr(value).cast<std::string>() +
+                         ": give a text, a number, True or False, or a tuple of these");
+  std::vector<std::string> parts;
+  bool has_tuples = false;
+  for (const py::handle &part : py::list(py::reinterpret_borrow<py::object>(value)))
+  {
+    has_tuples =
+        has_tuples || (!py::isinstance<py::str>(part) && py::isinstance<py::sequence>(part));
+    parts.push_back(text_of(part, path, true));
+  }
+  const auto joined = [&](const std::string &between)
+  {
+    std::string text;
+    for (const std::string &part : parts)
+      text += (&part == &parts.front() ? "" : between) + part;
+    return text;
+  };
+  const bool is_list = has_tuples || (!is_inner && has_components(path, joined("; ")));
+  return joined(is_list ? "; " : ", ");
+}
+
+/** {"Section/Entry": value}, or {"Section": {"Entry": value}}. */
+void set_all(SceneText &scene, const py::dict &entries, const std::string &section)
+{
+  for (const auto &[key, value] : entries)
+  {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("names of entries are texts, and " + py::repr(key).cast<std::string>() +
+                           " is none");
+    const std::string path = section + key.cast<std::string>();
+    if (py::isinstance<py::dict>(value))
+      set_all(scene, py::reinterpret_borrow<py::dict>(value), path + "/");
+    else
+      scene.set(path, text_of(value, path));
+  }
+}
+
+std::string path_text(const py::object &path)
+{
+  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+/** The file, the entries or both, in either place: Scene(entries) reads as well as Scene(file, entries). */
+SceneText make_scene(const py::object &file, const py::object &entries)
+{
+  SceneText scene;
+  const bool has_no_file = py::isinstance<py::dict>(file);
+  if (!has_no_file && !file.is_none())
+    scene.file = path_text(file);
+  if (!has_no_file && !file.is_none() && scene.file.empty())
+    throw py::value_error("file: the name is empty; leave it out for a scene of entries alone");
+  for (const py::object &some : {has_no_file ? file : py::none(), entries})
+    if (!some.is_none())
+      set_all(scene, some.cast<py::dict>(), "");
+  return scene;
+}
+
+// ---------------------------------------------------------------- runs
+
+/** Calls back into Python from a run, which has let go of the interpreter. */
+struct Caller
+{
+  const py::object callback;
+  std::exception_ptr raised{}; ///< what Python has raised meanwhile
+
+  /** Throws BrokenOff in the place of what Python raises, which the run does not know. */
+  template <class Call>
+  auto call(const Call &python)
+  {
+    const py::gil_scoped_acquire gil;
+    try
+    {
+      return python();
+    }
+    catch (const py::error_already_set &error)
+    {
+      raised = std::current_exception();
+      const auto name = error.type().attr("__name__").cast<std::string>();
+      throw BrokenOff("hpvi: interrupted by " + name);
+    }
+  }
+};
+
+std::shared_ptr<Result> run(const SceneText &scene, const py::object &callback,
+                            const py::object &output)
+{
+  const SceneText at_start = scene; // Python may change the other one meanwhile
+  const std::string directory = output.is_none() ? "" : path_text(output);
+  Caller caller{callback};
+  const auto between = [&]()
+  {
+    caller.call(
+        []()
+        {
+          if (PyErr_CheckSignals() != 0)
+            throw py::error_already_set();
+        });
+  };
+  const auto finished = [&](const std::shared_ptr<Result> &result)
+  {
+    return caller.call(
+        [&]()
+        {
+          if (PyErr_CheckSignals() != 0)
+            throw py::error_already_set();
+          return callback.is_none() || !callback(result).is(py::bool_(false));
+        });
+  };
+  try
+  {
+    const py::gil_scoped_release release;
+    return solve(at_start, directory, {between, finished});
+  }
+  catch (const BrokenOff &)
+  {
+    std::rethrow_exception(caller.raised);
+  }
+}
+
+// ---------------------------------------------------------------- the module
+
+/** Python's classes of the exceptions of the library, by name. */
+std::map<std::string, py::object> &exceptions()
+{
+  static auto *const all = new std::map<std::string, py::object>; // outlives the interpreter
+  return *all;
+}
+
+void translate(const std::exception_ptr error)
+{
+  try
+  {
+    std::rethrow_exception(error);
+  }
+  catch (const py::error_already_set &)
+  {
+    throw;
+  }
+  catch (const py::builtin_exception &)
+  {
+    throw;
+  }
+  catch (const NotAtHand &failure)
+  {
+    PyErr_SetString(PyExc_RuntimeError, failure.what());
+  }
+  catch (const std::exception &failure)
+  {
+    PyErr_SetString(exceptions().at(exception_name(failure)).ptr(), line_of(failure).c_str());
+  }
+}
+
+void add_exceptions(py::module_ &module)
+{
+  const auto add = [&](const char *const name, PyObject *const base, const char *const doc)
+  {
+    const py::object type = py::reinterpret_steal<py::object>(
+        PyErr_NewExceptionWithDoc((std::string("hpvi.") + name).c_str(), doc, base, nullptr));
+    module.attr(name) = type;
+    exceptions()[name] = type;
+  };
+  add("InputError", PyExc_ValueError,
+      "Bad input: one line with file, entry, value and remedy, as the program's on stderr.");
+  add("NumericalFailure", PyExc_ArithmeticError,
+      "The numerics gave up: one line that says where and why.");
+  add("OutputFailure", PyExc_OSError, "Results cannot be written.");
+  exceptions()["MemoryError"] = py::reinterpret_borrow<py::object>(PyExc_MemoryError);
+  exceptions()["RuntimeError"] = py::reinterpret_borrow<py::object>(PyExc_RuntimeError);
+  py::register_exception_translator(&translate);
+}
+
+void add_scene(py::module_ &module)
+{
+  py::class_<SceneText>(module, "Scene", R"(A scene, from a file, from entries, or both.
+
+    Scene("prm/han-6-12.prm", {"Boundary bottom/Friction bound": 0.3})
+    Scene({"Geometry": {"Upper corner": (2, 1)}, "Boundary left": {"Traction": (0.3, 0)}})
+
+Entries are those of a scene file, and so are their names and defaults. Values are texts, numbers,
+True or False, and tuples: components and points, or tuples of these. A scene is checked when it is
+asked or solved: InputError.)")
+      .def(py::init(&make_scene), py::arg("file") = py::none(), py::arg("entries") = py::none())
+      .def(
+          "__setitem__",
+          [](SceneText &scene, const std::string &path, const py::object &value)
+          { set_all(scene, py::dict(py::arg(path.c_str()) = value), ""); },
+          "scene[\"Section/Entry\"] = value")
+      .def("__getitem__", &SceneText::value,
+           "The text of an entry, its default where it is not set.")
+      .def(
+          "copy", [](const SceneText &scene) { return scene; },
+          "Another scene with the same entries.")
+      .def_property_readonly("title", &SceneText::title)
+      .def("describe", &SceneText::words, "What the scene says, in words: as hpvi --validate.")
+      .def("print", &SceneText::print, "All entries with their values, as a scene file.")
+      .def("picture", &SceneText::picture,
+           "The scene as scalable vector graphics; notebooks show it by themselves.")
+      .def("_repr_svg_", &SceneText::picture)
+      .def("__repr__",
+           [](const SceneText &scene)
+           {
+             return "hpvi.Scene(" + (scene.file.empty() ? "" : "\"" + scene.file + "\"") +
+                    (scene.file.empty() || scene.entries.empty() ? "" : ", ") +
+                    (scene.entries.empty()
+                         ? ""
+                         : std::to_string(scene.entries.size()) + " entries set") +
+                    ")";
+           })
+      .def("solve", &run, py::arg("callback") = py::none(), py::kw_only(),
+           py::arg("output") = py::none(), R"(Solve, on one process, and return a Result.
+
+callback(result) is called after each step, with what there is so far; where it returns False the
+run ends with this step, and what it raises ends the run. output=DIR writes the files of the
+program; without it none is written. Raises InputError, NumericalFailure, OutputFailure.)");
+}
+
+} // namespace
+} // namespace hpvi
+
+PYBIND11_MODULE(hpvi, module)
+{
+  module.doc() = "hp finite elements for elastic bodies in contact with friction.";
+  module.attr("__version__") = hpvi::version();
+  hpvi::add_exceptions(module);
+  hpvi::add_scene(module);
+  hpvi::add_result(module);
+}

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/base/text.h>
+#include <hpvi/body/cell_map.h>
+#include <hpvi/evaluation/values_at.h>
+#include <hpvi/output/contact_table.h>
+#include <hpvi/output/forces_table.h>
+#include <hpvi/output/output.h>
+#include <hpvi/output/probe_table.h>
+#include <hpvi/program/failure.h>
+#include <hpvi/python/result.h>
+#include <hpvi/reader/scene_reader.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Where deal.II counts along the axes, others go around: the vertices of a cell in their order. */
+template <int dim>
+constexpr std::array<unsigned int, 1 << dim> around()
+{
+  if constexpr (dim == 2)
+    return {{0, 1, 3, 2}};
+  else
+    return {{0, 1, 3, 2, 4, 5, 7, 6}};
+}
+
+/** Behind those that are there; without @p value, outside the body, NaN. */
+template <int dim>
+void append(PointArrays &arrays, const Point<dim> &x, const std::optional<PointValue<dim>> &value)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    arrays.x.push_back(x[d]);
+    arrays.u.push_back(value ? value->displacement[d] : nan);
+  }
+  const auto component = [&](const unsigned int i, const unsigned int j)
+  {
+    if (i < dim && j < dim)
+      return value->stress[i][j];
+    return i == j ? value->across : 0.;
+  };
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      arrays.stress.push_back(value ? component(i, j) : nan);
+}
+
+/**
+ * Runs of the primal path use MPI, which knows no threads: one at a time. These end with the process, after all that Python
+ * has and before what they depend on.
+ */
+std::recursive_mutex mpi_turn;
+std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
+/** What Python let go of while another thread had its turn; ends with that. */
+std::mutex left_mutex;
+std::vector<std::shared_ptr<const void>> left;
+
+void end_what_is_left()
+{
+  std::vector<std::shared_ptr<const void>> ending;
+  const std::lock_guard<std::mutex> lock(left_mutex);
+  ending.swap(left);
+}
+
+/** As long as a run lasts that needs it. */
+class MpiTurn
+{
+public:
+  explicit MpiTurn(const bool is_needed) : lock(mpi_turn, std::defer_lock)
+  {
+    if (is_needed)
+      lock.lock();
+  }
+
+  ~MpiTurn()
+  {
+    if (lock.owns_lock())
+      end_what_is_left();
+  }
+
+private:
+  std::unique_lock<std::recursive_mutex> lock;
+};
+
+template <int dim>
+class RunOf : public Result
+{
+public:
+  explicit RunOf(const SceneText &text)
+      : scene_read(std::make_shared<const Scene<dim>>(read_scene<dim>(text.file, text.entries))),
+        scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
+  {
+    length_unit = scene.length_unit;
+    stress_unit = scene.stress_unit;
+  }
+
+  /** It may be another thread's turn, for which the interpreter must not wait. */
+  ~RunOf() override
+  {
+    last.reset();
+    std::shared_ptr<const void> ending(solver.release(),
+                                       [scene = scene_read](LoadHistory<dim> *run) { delete run; });
+    if (const std::unique_lock<std::recursive_mutex> turn(mpi_turn, std::try_to_lock);
+        !needs_mpi || turn.owns_lock())
+    {
+      ending.reset();
+      return;
+    }
+    const std::lock_guard<std::mutex> lock(left_mutex);
+    left.push_back(std::move(ending));
+  }
+
+  unsigned int dimension() const override
+  {
+    return dim;
+  }
+
+  Rows contact() const override
+  {
+    return records(contact_table(scene, step().contact));
+  }
+
+  Rows forces() const override
+  {
+    return forces_rows(step());
+  }
+
+  Rows loading() const override
+  {
+    return records(tables.loading().text);
+  }
+
+  std::vector<std::pair<std::string, Rows>> probe_lines() const override
+  {
+    std::vector<std::pair<std::string, Rows>> lines;
+    for (const ProbeLine<dim> &line : step().probe_lines)
+      lines.emplace_back(scene.probes[line.probe].name, records(probe_table(line)));
+    return lines;
+  }
+
+  std::vector<double> bound_by_cell() const override
+  {
+    return step().bound ? step().bound->indicators() : std::vector<double>();
+  }
+
+  std::vector<double> indicator_by_cell() const override
+  {
+    std::vector<double> eta = step().estimate.indicators();
+    for (double &one : eta)
+      one *= std::sqrt(scene.thickness);
+    return eta;
+  }
+
+  std::string no_bound() const override
+  {
+    return step().bound ? "" : step().no_bound;
+  }
+
+  MeshArrays mesh() const override;
+  PointArrays at(const std::vector<double> &points) const override;
+  PointArrays grid(unsigned int n) const override;
+
+  void take(const StepReport<dim> &step);
+
+  const std::shared_ptr<const Scene<dim>> scene_read; ///< outlives the solver
+  const Scene<dim> &scene;
+  const bool needs_mpi;
+  std::unique_ptr<LoadHistory<dim>> solver;
+  std::optional<StepReport<dim>> last; ///< as long as what it refers to
+
+private:
+  const StepReport<dim> &step() const
+  {
+    if (!last)
+      throw NotAtHand("the solution of the last step is at hand in the callback and after "
+                      "solve() alone; ask it there");
+    return *last;
+  }
+
+  Tables<dim> tables;
+};
+
+template <int dim>
+void RunOf<dim>::take(const StepReport<dim> &step)
+{
+  last.emplace(step);
+  tables.add(step);
+  steps.push_back(tables.last_row());
+  stopped_by = step.stopped_by;
+  warnings = texts(step.warnings);
+}
+
+template <int dim>
+MeshArrays RunOf<dim>::mesh() const
+{
+  MeshArrays mesh;
+  std::map<unsigned int, long> numbers; // by that of the triangulation, which has unused ones
+  for (const auto &cell : step().field.dof_handler.active_cell_iterators())
+  {
+    for (const unsigned int k : around<dim>())
+    {
+      const auto [vertex, is_new] = numbers.emplace(cell->vertex_index(k), numbers.size());
+      for (unsigned int d = 0; is_new && d < dim; ++d)
+        mesh.vertices.push_back(cell->vertex(k)[d]);
+      mesh.cells.push_back(vertex->second);
+    }
+    mesh.degrees.push_back(cell->get_fe().degree);
+  }
+  return mesh;
+}
+
+template <int dim>
+PointArrays RunOf<dim>::at(const std::vector<double> &points) const
+{
+  std::vector<Point<dim>> places(points.size() / dim);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (unsigned int d = 0; d < dim; ++d)
+      places[k][d] = points[dim * k + d];
+  PointArrays arrays;
+  const auto values = values_at(step().field, places);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    append(arrays, places[k], values[k]);
+  return arrays;
+}
+
+template <int dim>
+PointArrays RunOf<dim>::grid(const unsigned int n) const
+{
+  std::vector<Point<dim>> references(std::pow(n, dim) + 0.5);
+  for (std::size_t k = 0; k < references.size(); ++k)
+    for (std::size_t d = dim, rest = k; d-- > 0; rest /= n)
+      references[k][d] = rest % n / (n - 1.);
+  PointArrays arrays;
+  for (const auto &cell : step().field.dof_handler.active_cell_iterators())
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    const auto values = step().field.values(cell, references);
+    for (std::size_t k = 0; k < references.size(); ++k)
+      append<dim>(arrays, map.point(references[k]), values[k]);
+  }
+  return arrays;
+}
+
+/** Only the primal path needs it. */
+void start_mpi()
+{
+  if (mpi)
+    return;
+  if (Utilities::MPI::job_supports_mpi())
+    throw NotAtHand(
+        "hpvi: MPI has been started by another module; import hpvi first and solve one scene, or "
+        "set mpi4py.rc.initialize = False before mpi4py.MPI is imported");
+  static int argc = 0;
+  static char **argv = nullptr;
+  mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
+}
+
+/** What the first step may still reject comes before anything is written. */
+template <int dim>
+void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &)> &announce)
+{
+  try
+  {
+    solver.prepare(announce);
+  }
+  catch (const NumericalFailure &) // the run will say so
+  {
+  }
+}
+
+/** The listener has had enough after a step that is whole. */
+struct Enough
+{
+};
+
+/** Files, where they are wanted. */
+template <int dim>
+void write_step(const std::unique_ptr<Output<dim>> &output, const StepReport<dim> &step,
+                const LoadHistory<dim> &solver)
+{
+  constexpr types::global_dof_index largest_state = 300000; // unknowns, as the program
+  if (output)
+    output->write_step(step, step.size.n_dofs <= largest_state ? solver.state() : std::nullopt);
+}
+
+template <int dim>
+std::shared_ptr<Result> run(const SceneText &text, const std::string &directory,
+                            const Listener &listener)
+{
+  const auto result = std::make_shared<RunOf<dim>>(text);
+  const MpiTurn turn(result->needs_mpi);
+  if (result->needs_mpi)
+    start_mpi();
+  const auto announce = [&](const Progress &) { listener.between(); };
+  result->solver = std::make_unique<LoadHistory<dim>>(result->scene);
+  prepare(*result->solver, announce);
+  std::unique_ptr<Output<dim>> output;
+  if (!directory.empty())
+    output = std::make_unique<Output<dim>>(result->scene, directory);
+  const auto finished = [&](const StepReport<dim> &step)
+  {
+    result->take(step);
+    write_step(output, step, *result->solver);
+    if (!listener.finished(result))
+      throw Enough();
+    if (step.stopped_by.empty() || step.load.number < result->scene.loading.steps)
+      result->last.reset();
+  };
+  try
+  {
+    result->solver->run(finished, announce);
+    if (output)
+      output->finish();
+  }
+  catch (const Enough &)
+  {
+    result->stopped_by = "callback";
+    if (output)
+      output->give_up("interrupted", "hpvi: stopped by the callback");
+  }
+  catch (const BrokenOff &end)
+  {
+    result->last.reset();
+    if (output)
+      output->give_up("interrupted", end.what());
+    throw;
+  }
+  catch (const std::exception &error)
+  {
+    result->last.reset();
+    if (output)
+      output->give_up("failed", failure_line(error));
+    throw;
+  }
+  return result;
+}
+} // namespace
+
+std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directory,
+                              const Listener &listener)
+{
+  if (scene_dimension(scene.file, scene.entries) == 3)
+    return run<3>(scene, directory, listener);
+  return run<2>(scene, directory, listener);
+}
+
+std::string exception_name(const std::exception &error)
+{
+  if (dynamic_cast<const InputError *>(&error))
+    return "InputError";
+  if (dynamic_cast<const NumericalFailure *>(&error))
+    return "NumericalFailure";
+  if (dynamic_cast<const OutputFailure *>(&error))
+    return "OutputFailure";
+  return failure_line(error).rfind("hpvi: out of memory", 0) == 0 ? "MemoryError" : "RuntimeError";
+}
+
+std::string line_of(const std::exception &error)
+{
+  return failure_line(error);
+}
+} // namespace hpvi
