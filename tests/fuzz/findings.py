@@ -142,6 +142,7 @@ def of_forces(rows, steps, summary, stiffness):
                 known = sum(number(row, component + "_bound") for row in own if row.get(component + "_bound"))
                 if abs(sum(number(row, component) for row in own)) > max(1e-6, stated) * size + known + round_off:
                     return f"forces in {component[1]} are out of balance"
-    if (summary["balance"]["force"] or 0) > (1e-2 if is_primal else 1e-6) and not any("balance" in w for w in summary["warnings"]):
+    imbalance = summary["balance"]["force"] or 0
+    if imbalance > (1e-2 if is_primal else 1e-6) and imbalance * size > round_off and not any("balance" in w for w in summary["warnings"]):
         return "imbalance without a warning"
     return ""

@@ -109,7 +109,7 @@ class Mutator:
         self.overrides, self.spoilt = [], set()
         if self.happens(0.12):
             self.take_other_path()
-        for _ in range(self.choose((0, 1, 1, 1, 1, 2, 2, 3, 4))):
+        for _ in range(self.choose((0, 1, 1, 1, 1, 1, 2, 2, 3))):
             self.mutate()
         data = "\n".join(self.lines).encode("utf-8", "surrogateescape")
         files = {"scene.prm": self.bytes_spoilt(data) if self.happens(0.05) else data}
@@ -117,7 +117,10 @@ class Mutator:
             mesh = (scene.parent / name).read_bytes()
             files[name] = self.mesh_spoilt(mesh) if self.happens(0.4) else mesh
         arguments = ["scene.prm"]
-        for path, value in {**self.limits(text), **dict(self.overrides)}.items():
+        settled = {**self.limits(text), **dict(self.overrides)}
+        if any(path == "Loading/Steps" and re.fullmatch(r"\+?\d{2,9}|\d+e\d", value) for path, value in settings(data.decode(errors="replace")) + list(settled.items())):
+            settled["Loading/Steps"] = "3"  # more take their time, and may
+        for path, value in settled.items():
             arguments += ["--set", f"{path}={value}".replace("\0", "?")]
         mode = self.random.random()
         if mode < 0.1:
@@ -144,13 +147,16 @@ class Mutator:
     def value(self, path, old):
         """Another value of an entry, mostly of its own kind."""
         known = self.library.values.get(kind(path), [""])
+        takes_functions = any(re.search(r"\b[xyt]\b", value) for value in known)
         roll = self.random.random()
-        if roll < 0.35 and NUMBER.search(old):
+        if roll < 0.4 and NUMBER.search(old):
             return self.tweaked(old)
-        if roll < 0.6:
-            return self.choose(known)
-        if roll < 0.72 and old:
+        if roll < 0.72:
+            alike = [value for value in known if value != old and re.sub("[^;,]", "", value) == re.sub("[^;,]", "", old)]
+            return self.choose(alike if alike and self.happens(0.85) else known)
+        if roll < 0.84 and old and (takes_functions or self.happens(0.1)):
             return self.with_function(old)
+        roll = self.random.uniform(0.74, 1)
         if roll < 0.82 and NUMBER.search(old):
             number = self.choose(list(NUMBER.finditer(old)))
             return old[:number.start()] + self.choose(NUMBERS) + old[number.end():]

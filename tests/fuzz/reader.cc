@@ -27,20 +27,23 @@ using namespace hpvi;
   std::abort();
 }
 
-/** A directory of this process, left again with nothing in it. */
+/** A directory of this process, as long as it lives. */
 class Directory
 {
 public:
   Directory()
   {
     std::filesystem::create_directory(path);
-    std::filesystem::current_path(path);
   }
 
   ~Directory()
   {
-    std::filesystem::current_path("/");
     std::filesystem::remove_all(path);
+  }
+
+  std::string file(const std::string &name) const
+  {
+    return (path / name).string();
   }
 
 private:
@@ -48,9 +51,16 @@ private:
       std::filesystem::temp_directory_path() / ("reader-" + std::to_string(getpid()));
 };
 
-void write(const char *const file, const std::string &bytes)
+const Directory &directory()
 {
-  std::ofstream(file, std::ios::binary) << bytes;
+  static const Directory own;
+  return own;
+}
+
+std::string write(const std::string &name, const std::string &bytes)
+{
+  std::ofstream(directory().file(name), std::ios::binary) << bytes;
+  return directory().file(name);
 }
 
 /** Control characters of ASCII alone: a line may quote what the file says in any language. */
@@ -64,20 +74,19 @@ void check_line(const std::string &line)
 }
 
 template <int dim>
-std::string printed(const char *const file)
+std::string printed(const std::string &file)
 {
   return read_scene<dim>(file).parameters->print(false);
 }
 
 template <int dim>
-void read_twice()
+void read_twice(const std::string &scene)
 {
-  const std::string once = printed<dim>("scene.prm");
-  write("printed.prm", once);
+  const std::string once = printed<dim>(scene);
   std::string again;
   try
   {
-    again = printed<dim>("printed.prm");
+    again = printed<dim>(write("printed.prm", once));
   }
   catch (const InputError &error)
   {
@@ -90,17 +99,16 @@ void read_twice()
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size)
 {
-  static const Directory directory;
   const std::string bytes(reinterpret_cast<const char *>(data), size);
   const std::size_t mesh = bytes.find("$MeshFormat");
-  write("scene.prm", bytes.substr(0, mesh));
+  const std::string scene = write("scene.prm", bytes.substr(0, mesh));
   write("body.msh", mesh == std::string::npos ? "" : bytes.substr(mesh));
   try
   {
-    if (scene_dimension("scene.prm", {}) == 3)
-      read_twice<3>();
+    if (scene_dimension(scene, {}) == 3)
+      read_twice<3>(scene);
     else
-      read_twice<2>();
+      read_twice<2>(scene);
   }
   catch (const InputError &error)
   {

@@ -2,6 +2,7 @@
 #ifndef hpvi_load_rule_h
 #define hpvi_load_rule_h
 
+#include <deal.II/dofs/dof_handler.h>
 #include <hpvi/body/displacement_cuts.h>
 #include <hpvi/body/load_quadrature.h>
 
