@@ -132,7 +132,7 @@ def of_forces(rows, steps, summary, stiffness):
     round-off makes of the displacement.
     """
     is_primal = bool(steps[-1].get("newton_steps"))  # ends where the error of discretisation is larger
-    round_off = 1e-9 * stiffness * (summary["largest_displacement"] or {"value": 0})["value"]
+    round_off = (1e-6 if is_primal else 1e-9) * stiffness * (summary["largest_displacement"] or {"value": 0})["value"]
     for step in {row["step"] for row in rows}:
         own = [row for row in rows if row["step"] == step]
         stated = 4 * (summary["balance"]["force"] or 0) if step == steps[-1]["step"] else 1e-2 if is_primal else 0

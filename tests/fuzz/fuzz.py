@@ -56,6 +56,11 @@ class Program:
         self.server = subprocess.Popen([self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=self.scratch,
                                        env={**self.environment, "LD_PRELOAD": str(self.library)})
 
+    def stop(self):
+        if self.server:
+            self.server.stdin.close()
+            self.server.wait()
+
     def served(self, arguments, home):
         """Status as of waitpid, kilobytes, seconds, was it ended?"""
         if not self.server:
@@ -195,9 +200,7 @@ def main():
                 keep(program, directory, spoilt, wrong, run, f"{shlex.join(sys.argv[:2])} --seed {options.seed} --only {k}", is_new)
                 print(f"FOUND: {wrong}, from {spoilt.origin}: {directory}", file=sys.stderr, flush=True)
             k += 1
-        if program.server:
-            program.server.stdin.close()
-            program.server.wait()
+        program.stop()
     share = ", ".join(f"{100 * statuses[s] / max(1, count):.0f} % status {s}" for s in (0, 1, 2))
     print(f"{count} spoilt scenes of seed {options.seed} in {time.monotonic() - begin:.0f} s: {share}; "
           f"at most {slowest:.1f} s and {largest / 1e6:.2f} GB; {len(found)} findings")

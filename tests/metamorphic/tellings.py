@@ -7,6 +7,8 @@ own scenes have not; tables are compared column by column, by the units that doc
 
 tellings.py HPVI --server LIBRARY [--seconds SECONDS] [--seed SEED] [--spoilt N] [--quick]
 
+--quick: every other scene, in other units alone.
+
 Each entry that the program has must have its unit here, or this fails: a new one is told in other units from its first day on.
 """
 import argparse
@@ -259,6 +261,7 @@ class Scenes:
 
         dimension = int(get("Dimension"))
         is_revolved = any(value == "axisymmetric" for path, value in settings if path.endswith("/Plane"))
+        near = 1e-9 if dimension == 2 else 1e-7  # what iterations leave
         has_history, has_exact = bool(get("Loading/Steps")), get("Exact solution/Solution") not in ("", "none")
         has_coulomb = any(value not in ("", "0") for path, value in settings if path.endswith("/Friction coefficient"))
         numbers = {entry: [abs(float(number)) for path, value in settings if path.endswith(entry) for number in NUMBER.findall(value)]
@@ -274,14 +277,14 @@ class Scenes:
             self.compare(name, telling, first[1], self.tables(other, other_files, order), flaws_of, (first[0], other), other_files)
 
         units = Telling(2.**self.random.randint(-20, 20), 2.**self.random.randint(-10, 10))
-        self.check_frame(check, "other units", units, settings, files, self.same(units, dimension, is_revolved, 1e-9, round_off))
+        self.check_frame(check, "other units", units, settings, files, self.same(units, dimension, is_revolved, near, round_off))
         if quick:
             return True
         if not has_exact:
             far = Telling(1., 1., (0. if is_revolved else 2., 1., 4. if dimension == 3 else 0.))
-            self.check_frame(check, "elsewhere", far, settings, files, self.same(far, dimension, is_revolved, 1e-8, round_off))
+            self.check_frame(check, "elsewhere", far, settings, files, self.same(far, dimension, is_revolved, 10 * near, round_off))
         still = Telling()
-        check("another order", settings, self.same(still, dimension, is_revolved, 1e-9, round_off), order=random.Random(self.random.random()))
+        check("another order", settings, self.same(still, dimension, is_revolved, near, round_off), order=random.Random(self.random.random()))
         if not has_history:
             check("a history of one load step", given(Loading__Steps="1"), self.near(1e-7))
         if dimension == 3:
@@ -361,7 +364,6 @@ def main():
     parser.add_argument("--seed", default="1")
     parser.add_argument("--spoilt", type=int, default=0)
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--only")
     options = parser.parse_args()
     scenes = mutator.scenes_of(ROOT)
     library = mutator.Library(options.program, scenes)
@@ -371,14 +373,13 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         program = fuzz.Program(options.program.resolve(), options.server, pathlib.Path(scratch))
         told = Scenes(program, options.seed)
-        for name, files, arguments in bases(library, scenes, options.seed, options.spoilt):
+        for name, files, arguments in bases(library, scenes[::2] if options.quick else scenes, options.seed, options.spoilt):
             if time.monotonic() - begin > options.seconds:
                 break
-            if options.only not in (None, name):
-                continue
             settings = [(path, "0" if path == "Adaptivity/Maximum seconds" else value) for path, value in settings_of(program, files, arguments)]
             if settings:
                 count += told.tell(name, settings, {file: data for file, data in files.items() if file != "scene.prm"}, options.quick)
+        program.stop()
     print(f"{count} scenes in {time.monotonic() - begin:.0f} s: {told.passed} tellings agree, {told.failed} do not, {told.refused} refused alike")
     return 1 if told.failed or not told.passed else 0
 
