@@ -65,11 +65,7 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
   }
   // Around an axis what is radial balances itself, and turns nothing.
   if (scene.is_axisymmetric())
-  {
     total.force[0] = total.moment = std::numeric_limits<double>::quiet_NaN();
-    for (auto &[boundary, sum] : by_boundary)
-      sum.force[0] = sum.moment = std::numeric_limits<double>::quiet_NaN();
-  }
 }
 
 template <int dim>
@@ -87,33 +83,35 @@ template <int dim>
 void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
 {
   const unsigned int degree = scene.adaptivity.start_degree;
-  const CellMap<dim> map = map_of<dim>(cell);
-  const auto force_at = [&](const Load<dim> &load, const Point<dim> &x, const double weight)
-  { return weight * scene.turn(x) * load_at<dim>(load, x); };
-  if (face == inside)
+  if (face != inside)
   {
-    const LoadRule<dim> rule = body_force(cell, degree);
-    for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
-    {
-      const Point<dim> &s = rule.quadrature.point(q);
-      const Point<dim> x = map.point(s);
-      add(total,
-          force_at(scene.body_force_in(cell), x,
-                   rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s)))),
-          x);
-    }
+    add_traction(total, cell, face, degree);
     return;
   }
-  const types::boundary_id boundary = cell->face(face)->boundary_id();
+  const CellMap<dim> map = map_of<dim>(cell);
+  const LoadRule<dim> rule = body_force(cell, degree);
+  for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
+  {
+    const Point<dim> &s = rule.quadrature.point(q);
+    const Point<dim> x = map.point(s);
+    const double weight = rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s)));
+    add(total, weight * scene.turn(x) * load_at<dim>(scene.body_force_in(cell), x), x);
+  }
+}
+
+template <int dim>
+void LoadRules<dim>::add_traction(LoadSum &sum, const Cell &cell, const unsigned int face,
+                                  const unsigned int degree) const
+{
+  const CellMap<dim> map = map_of<dim>(cell);
+  const Load<dim> &load = scene.boundaries[cell->face(face)->boundary_id()].traction;
   const LoadRule<1> rule = traction(cell, face, degree);
   for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
   {
     const Point<dim> s = point_on_face<dim>(face, rule.quadrature.point(q));
     const Point<dim> x = map.point(s);
-    const Tensor<1, dim> force = force_at(scene.boundaries[boundary].traction, x,
-                                          rule.quadrature.weight(q) * map.face_measure(face, s));
-    add(total, force, x);
-    add(by_boundary[boundary], force, x);
+    const double weight = rule.quadrature.weight(q) * map.face_measure(face, s);
+    add(sum, weight * scene.turn(x) * load_at<dim>(load, x), x);
   }
 }
 
@@ -277,9 +275,19 @@ bool LoadRules<dim>::are_missing_something(const Tensor<1, dim> &force) const
 }
 
 template <int dim>
-const std::map<types::boundary_id, LoadSum> &LoadRules<dim>::sums_by_boundary() const
+std::map<types::boundary_id, LoadSum>
+LoadRules<dim>::sums_by_boundary(const DoFHandler<dim> &numbering) const
 {
-  return by_boundary;
+  std::map<types::boundary_id, LoadSum> result;
+  for (const auto &cell : numbering.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face))
+      {
+        const types::boundary_id boundary = cell->face(face)->boundary_id();
+        if (scene.boundaries[boundary].has_traction())
+          add_traction(result[boundary], cell, face, cell->get_fe().degree);
+      }
+  return result;
 }
 
 template <int dim>

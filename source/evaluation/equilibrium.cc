@@ -309,7 +309,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
     if (loads[dof] != 0.)
       result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof], nodes.body[dof]});
 
-  for (const auto &[boundary, sum] : solution.spaces->loads->sums_by_boundary())
+  for (const auto &[boundary, sum] : solution.spaces->loads->sums_by_boundary(space.dof_handler()))
     result.tractions.push_back({boundary, sum.force, sum.moment});
 
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)

@@ -246,12 +246,25 @@ void read_direction(const Parameters &parameters, const ExpressionReader<2> &exp
   boundary.contact_direction = direction / direction.norm();
 }
 
+} // namespace
+
+bool says_something(const Parameters &parameters, const std::string &section,
+                    const std::string &entry)
+{
+  if (!parameters.is_named(section, entry))
+    return false;
+  const std::string value = parameters.text(section, entry);
+  return !value.empty() && value != "false" && value != "none";
+}
+
+namespace
+{
 /** u_x = 0, and nothing else can act there. */
 void read_axis(const Parameters &parameters, const std::string &section)
 {
   for (const char *const entry :
        {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Contact"})
-    if (parameters.is_named(section, entry) && !parameters.text(section, entry).empty())
+    if (says_something(parameters, section, entry))
       parameters.reject(section, entry,
                         "is on the axis x = 0 of an axisymmetric body, where u_x = 0 by itself and "
                         "nothing else acts; remove it");

@@ -160,9 +160,13 @@ valid "a disc on a block" "${lid[@]}"
 valid "a disc on a wider block" "${lid[@]}" "Body disc/Radius=0.4" "Body disc/Centre=1.5, 2.4" "Contact lid/Slave=disc.arc"
 valid "bodies of revolution" "Material/Plane=axisymmetric" "Boundary lower.bottom/Displacement=free; 0" "Boundary upper.top/Displacement=free; -0.02"
 valid "--set opens a section" "Boundary lower.left/Traction=1; 0"
+valid "a covered side that says nothing" "Boundary upper.bottom/Symmetry=false" "Boundary upper.bottom/Contact=none"
 valid "friction of two kinds" "Contact joint/Friction coefficient=0.3 + x/10"
 valid "a disc that lies with its flat side on a block" "Body disc/Shape=half disc" "Body disc/Centre=1.5, 2" "Body disc/Radius=0.5" "Body disc/Angle=0" \
   "Contact lid/Between=upper.top, disc.flat" "Boundary disc.arc/Displacement=0; -0.02" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0"
+"$hpvi" --print-parameters "$scenes/bodies.prm" >"$scratch/effective.prm" 2>"$scratch/stderr"
+"$hpvi" --print-parameters "$scratch/effective.prm" 2>"$scratch/stderr" | cmp -s - "$scratch/effective.prm" ||
+  complain bodies.prm "effective parameters do not survive a round trip"
 
 echo "$rows bad inputs, $failures failures"
 [ $failures -eq 0 ]

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A thousand scenes in one process: the memory that it uses does not grow, and each result has the
-// bytes of a fresh process's. ./run long.
+// A thousand scenes in one process, on both paths, one after the other and two at a time, and a load history of 2000
+// steps: the memory that it uses does not grow, and each result has the bytes of a fresh process's. ./run long.
+#include <deal.II/base/mpi.h>
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <malloc.h>
@@ -15,6 +17,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -57,6 +60,29 @@ private:
   std::uint64_t state = 14695981039346656037U;
 };
 
+/** MPI belongs to one thread, and the primal path to MPI. */
+bool takes_primal_path(const unsigned int number)
+{
+  return number % 5 == 0;
+}
+
+/** A box on the primal path, in the plane or in space. */
+template <int dim>
+Scene<dim> primal_scene(const unsigned int number)
+{
+  std::mt19937 random(number);
+  std::vector<std::pair<std::string, std::string>> overrides = {
+      {"Adaptivity/Method", random() % 2 == 0 ? "hup2" : "hap2"},
+      {"Adaptivity/Start degree", "0"},
+      {"Adaptivity/Maximum steps", std::to_string(1 + random() % 2)},
+      {"Adaptivity/Maximum unknowns", "3000"},
+      {"Material/Poisson's ratio", "0." + std::to_string(random() % 5)},
+      {"Boundary bottom/Friction bound", std::to_string(random() % 5) + "*(1 + x)"}};
+  if (dim == 2)
+    overrides.emplace_back("Solver/Path", "primal");
+  return read_scene<dim>(dim == 2 ? "prm/han-6-12.prm" : "prm/slab.prm", overrides);
+}
+
 /** Varied by its number, and small. Some are refused, and some have no equilibrium. */
 Scene<2> scene(const unsigned int number)
 {
@@ -81,31 +107,57 @@ Scene<2> scene(const unsigned int number)
   return read_scene<2>("prm/" + name + ".prm", overrides);
 }
 
-/** Of all numbers that scene @p number gives, and of the words with which it is refused or gives up. */
-std::string result(const unsigned int number)
+/** Digest and count of steps. */
+struct Seen
 {
   Digest digest;
   unsigned int n_steps = 0;
+
+  template <int dim>
+  void add(const StepReport<dim> &step)
+  {
+    ++n_steps;
+    for (const double value :
+         {step.scaled_estimate, step.energies.energy, step.energies.lagrangian, step.energies.norm})
+      digest.add(&value, &value + 1);
+  }
+
+  void add_reduced(const StepReport<2> &step)
+  {
+    add(step);
+    digest.add(step.solution().u.begin(), step.solution().u.end());
+    for (const double value : {step.reduced->condition_raw, step.reduced->condition_scaled})
+      digest.add(&value, &value + 1);
+  }
+};
+
+template <int dim>
+void solve_primal(const unsigned int number, Seen &seen)
+{
+  const Scene<dim> own = primal_scene<dim>(number);
+  AdaptiveSolver<dim>(own, MPI_COMM_SELF).run([&](const StepReport<dim> &step) { seen.add(step); });
+}
+
+/** Of all numbers that scene @p number gives, and of the words with which it is refused or gives up. */
+std::string result(const unsigned int number)
+{
+  Seen seen;
   std::string end = "ok";
   try
   {
-    const Scene<2> own = scene(number);
-    AdaptiveSolver<2>(own).run(
-        [&](const StepReport<2> &step)
-        {
-          ++n_steps;
-          digest.add(step.solution().u.begin(), step.solution().u.end());
-          for (const double value :
-               {step.scaled_estimate, step.energies.energy, step.energies.lagrangian,
-                step.energies.norm, step.reduced->condition_raw, step.reduced->condition_scaled})
-            digest.add(&value, &value + 1);
-        });
+    if (takes_primal_path(number))
+      number % 2 == 0 ? solve_primal<2>(number, seen) : solve_primal<3>(number, seen);
+    else
+    {
+      const Scene<2> own = scene(number);
+      AdaptiveSolver<2>(own).run([&](const StepReport<2> &step) { seen.add_reduced(step); });
+    }
   }
   catch (const std::exception &error)
   {
     end = error.what();
   }
-  return digest.text() + ' ' + std::to_string(n_steps) + ' ' + end;
+  return seen.digest.text() + ' ' + std::to_string(seen.n_steps) + ' ' + end;
 }
 
 /** A process that solves one scene, while this one does something else. */
@@ -152,6 +204,62 @@ double resident_set()
   return resident * sysconf(_SC_PAGESIZE);
 }
 
+/** How many of @p results two threads get otherwise, each with every other scene. */
+unsigned int n_different_in_threads(const std::vector<std::string> &results)
+{
+  unsigned int n_different[2] = {0, 0};
+  const auto work = [&](const unsigned int thread)
+  {
+    for (unsigned int k = thread; k < n_scenes; k += 2)
+      if (!takes_primal_path(k))
+        n_different[thread] += result(k) != results[k];
+  };
+  std::thread other(work, 1);
+  work(0);
+  other.join();
+  return n_different[0] + n_different[1];
+}
+
+/** A block that is pressed and moved to and fro 2000 times, twice: memory after 200 steps and at the end, and the same bytes. */
+bool history_stays()
+{
+  std::string texts[2];
+  bool grows = false;
+  for (std::string &text : texts)
+  {
+    const Scene<2> own = read_scene<2>("prm/fretting.prm",
+                                       {{"Loading/Steps", "2000"},
+                                        {"Loading/Adapt", "first step"},
+                                        {"Geometry/Grading levels", "0"},
+                                        {"Geometry/Subdivisions", "4, 1"},
+                                        {"Adaptivity/Maximum steps", "1"},
+                                        {"Boundary top/Displacement", "0.012*sin(80*pi*t); free"}});
+    Seen seen;
+    double heap = 0, resident = 0;
+    LoadHistory<2>(own).run(
+        [&](const StepReport<2> &step)
+        {
+          seen.add_reduced(step);
+          if (seen.n_steps == 200)
+          {
+            heap = heap_in_use();
+            resident = resident_set();
+          }
+          else if (seen.n_steps == 2000)
+          {
+            std::cout << "history: heap in use grows by " << heap_in_use() - heap
+                      << " bytes, resident set by " << resident_set() - resident << std::endl;
+            grows = grows || heap_in_use() - heap > heap_noise ||
+                    resident_set() - resident > resident_noise;
+          }
+        });
+    text = seen.digest.text() + ' ' + std::to_string(seen.n_steps);
+  }
+  std::cout << "history: " << texts[0] << (texts[0] == texts[1] ? " twice" : ", then " + texts[1])
+            << std::endl;
+  return !grows && texts[0] == texts[1] && texts[0].substr(17) == "2000";
+}
+
 int solve_all()
 {
   std::vector<std::string> results;
@@ -176,6 +284,7 @@ int solve_all()
         const unsigned int number = round % 2 == 1 ? n_scenes - 1 - k : k;
         n_different += result(number) != results[number];
       }
+    n_different += round == 0 ? n_different_in_threads(results) : 0;
     if (round == 0)
     {
       heap = heap_in_use();
@@ -190,13 +299,15 @@ int solve_all()
   std::cout << n_scenes * n_rounds << " scenes solved, " << n_failures << " of " << n_scenes
             << " refused or given up as in a fresh process, " << n_different << " different"
             << (grows ? ", memory grows" : "") << std::endl;
-  return n_different > 0 || grows || n_failures > n_scenes / 2 ? 1 : 0;
+  const bool stays = history_stays();
+  return n_different > 0 || grows || !stays || n_failures > n_scenes / 2 ? 1 : 0;
 }
 } // namespace
 
 /** Without an argument all scenes are solved; with one the scene of that number. */
 int main(int argc, char *argv[])
 {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (argc == 1)
     return solve_all();
   std::cout << result(std::stoul(argv[1])) << std::endl;

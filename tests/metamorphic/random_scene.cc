@@ -276,6 +276,34 @@ void choose_plates(RandomScene &scene, std::mt19937 random)
   }
 }
 
+/** A free side that no plate holds stands on an elastic foundation now and then. */
+void choose_springs(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 4);
+  Dice dice(own);
+  for (Side &side : scene.sides)
+    if (side.displacement[0].empty() && side.displacement[1].empty() && side.contact.empty() &&
+        side.moment.empty() && side.where.empty() && dice.happens(0.1))
+      side.spring = {{dice.positive(scene.young), dice.positive(0.3 * scene.young)}};
+}
+
+/** Friction that is both Coulomb's and Tresca's. */
+void choose_laws(RandomScene &scene, std::mt19937 random)
+{
+  std::mt19937 own(random() + 5);
+  Dice dice(own);
+  if (dice.happens(0.5))
+    return;
+  const std::string law = dice.chosen({"limited", "cohesive"}),
+                    bound = text(0.01 * scene.young * dice.number(0.2, 1));
+  for (Side &side : scene.sides)
+    if (!side.coefficient.empty())
+    {
+      side.law = law;
+      side.bound = bound;
+    }
+}
+
 void choose_initial_strain(RandomScene &scene, std::mt19937 random)
 {
   std::mt19937 own(random() + 3);
@@ -364,6 +392,8 @@ RandomScene::RandomScene(std::mt19937 &random) : sides(4)
   choose_probe(*this, random);
   choose_plates(*this, random);
   choose_initial_strain(*this, random);
+  choose_springs(*this, random);
+  choose_laws(*this, random);
 }
 
 Frame RandomScene::own_frame() const
@@ -415,6 +445,12 @@ bool RandomScene::has(std::string Side::*const entry) const
 bool RandomScene::has_plates() const
 {
   return has(&Side::moment);
+}
+
+bool RandomScene::has_springs() const
+{
+  return std::any_of(sides.begin(), sides.end(),
+                     [](const Side &side) { return !side.spring[0].empty(); });
 }
 
 bool RandomScene::has_initial_strain() const
@@ -501,6 +537,9 @@ Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
     add("Traction", vector_text(side.traction, frame, traction, "0"));
   add("Pressure", frame.function(side.pressure, traction));
   add("Shear", frame.function(side.shear, frame.is_mirrored() ? -traction : traction));
+  if (!side.spring[0].empty())
+    add("Spring", frame.function(side.spring[0], frame.stress / frame.length) + "; " +
+                      frame.function(side.spring[1], frame.stress / frame.length));
   if (!side.moment.empty())
   {
     const double force = traction * frame.length * frame.thickness;
@@ -518,6 +557,7 @@ Section RandomScene::boundary(const unsigned int k, const Frame &frame) const
   }
   add("Friction bound", frame.function(side.bound, traction));
   add("Friction coefficient", frame.function(side.coefficient, 1));
+  add("Friction law", side.law);
   return section;
 }
 

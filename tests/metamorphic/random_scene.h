@@ -20,7 +20,8 @@ struct Side
 {
   std::array<std::string, 2> displacement, traction; ///< in the axes of the body
   std::string pressure, shear;                       ///< along its normal, its tangent
-  std::string contact, gap, bound, coefficient;
+  std::string contact, gap, bound, coefficient, law;
+  std::array<std::string, 2> spring{}; ///< k_n, k_t
   std::optional<double>
       turn; ///< of the direction of contact from the normal, counterclockwise; nothing: is not said
   std::array<std::string, 2> force{}; ///< on a rigid plate, in the axes of the body
@@ -60,6 +61,7 @@ struct RandomScene
   bool is_isotropic() const;
   bool has(std::string Side::*entry) const;
   bool has_plates() const;
+  bool has_springs() const; ///< which stay where they are when all else moves
   bool has_initial_strain() const;
   bool has_direction() const; ///< of contact, which has no bound and no other path then
 

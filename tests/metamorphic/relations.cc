@@ -116,7 +116,7 @@ void Relations::take_the_primal_path()
 {
   const std::string method = scene.settings.at("Adaptivity/Method").substr(0, 3);
   if (scene.is_box && scene.is_isotropic() && scene.is_held() && !scene.has(&Side::coefficient) &&
-      !has_history() && !scene.has_direction() && !scene.has_plates() &&
+      !has_history() && !scene.has_direction() && !scene.has_plates() && !scene.has_springs() &&
       !scene.has_initial_strain() && (method == "hup" || method == "hap") &&
       scene.has_polynomial_data() && scene.settings.at("Solver/Normal contact") == "multiplier")
     vary("the primal path", {{"Solver/Path", "primal"}}, Claim::same_primal);
@@ -136,7 +136,7 @@ void Relations::say_what_says_nothing()
       is_said = true;
     }
     else if (scene.is_held() && side.contact.empty() && side.displacement[0].empty() &&
-             side.displacement[1].empty())
+             side.displacement[1].empty() && side.spring[0].empty())
     {
       side.contact = "unilateral";
       side.gap = "10"; // counts in round-off
@@ -153,7 +153,7 @@ RandomScene Relations::without_friction() const
   RandomScene result = scene;
   for (Side &side : result.sides)
   {
-    side.bound = side.coefficient = "";
+    side.bound = side.coefficient = side.law = "";
     if (side.contact == "tangential")
     {
       side.contact = "";
@@ -196,7 +196,7 @@ void Relations::carry_along()
     if (!side.contact.empty())
       side.gap = (side.gap.empty() ? "" : "(" + side.gap + ") + ") + text(u_n);
   }
-  if (!has_history())
+  if (!has_history() && !scene.has_springs())
     add("supports and foundations that move together", one, other, Claim::same_moved);
 }
 

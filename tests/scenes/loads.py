@@ -50,6 +50,28 @@ subsection Adaptivity
 end
 """
 
+RING = """
+subsection Geometry
+  set Shape = ring sector
+end
+subsection Boundary inner
+  set Pressure = 1 + x
+end
+subsection Boundary start
+  set Symmetry = true
+end
+subsection Boundary end
+  set Symmetry = true
+end
+subsection Body force
+  set Expression = x; y^2
+end
+subsection Adaptivity
+  set Method        = pu
+  set Maximum steps = 4
+end
+"""
+
 
 class Loads(RunTest):
     def run_text(self, text, *settings):
@@ -74,6 +96,17 @@ class Loads(RunTest):
         printed = self.run_text(STRIP, "Loading/Steps=2", "Boundary top/Traction=0; -t")
         self.assertIn("with t = 0.5, loads: force (0 -50), moment 0 about (50 10)", printed)
         self.assertAlmostEqual(self.summary()["loads"]["force"][1], -100, places=9)
+
+    def test_on_curves_balance_supports_in_each_step(self):
+        self.run_text(RING)
+        rows = self.rows("forces.csv")
+        for step in {row["step"] for row in rows}:
+            own = [row for row in rows if row["step"] == step]
+            self.assertEqual([row["name"] for row in own if row["kind"] == "load"], ["inner", "body force"])
+            for force in ("Fx", "Fy", "M"):
+                self.assertAlmostEqual(sum(float(row[force]) for row in own), 0, places=11)
+        body = [float(row["Fx"]) for row in rows if row["name"] == "body force"]
+        self.assertAlmostEqual(body[-1], 7 / 3, places=6)  # int x over the sector
 
     def test_in_space_are_compared(self):
         printed = self.run_text(BOX)

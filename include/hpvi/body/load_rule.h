@@ -2,6 +2,7 @@
 #ifndef hpvi_load_rule_h
 #define hpvi_load_rule_h
 
+#include <deal.II/dofs/dof_handler.h>
 #include <hpvi/body/displacement_cuts.h>
 #include <hpvi/body/load_quadrature.h>
 
@@ -82,8 +83,9 @@ public:
    */
   bool are_missing_something(const dealii::Tensor<1, dim> &force) const;
 
-  /** Of the tractions of each boundary that has any. */
-  const std::map<dealii::types::boundary_id, LoadSum> &sums_by_boundary() const;
+  /** Of the tractions of each boundary that has any, on the cells of @p numbering as the discrete equations have them: curved edges change with them. */
+  std::map<dealii::types::boundary_id, LoadSum>
+  sums_by_boundary(const dealii::DoFHandler<dim> &numbering) const;
 
   /** What both rules differ by where they agree to 1e-9, in all, over LoadSum::absolute. */
   double difference() const;
@@ -111,6 +113,7 @@ private:
   Pieces pieces(const Cell &cell, unsigned int face) const;
   bool is_unresolved(const Pieces &pieces) const;
   void add(const Cell &cell, unsigned int face);
+  void add_traction(LoadSum &sum, const Cell &cell, unsigned int face, unsigned int degree) const;
   void add(LoadSum &sum, const dealii::Tensor<1, dim> &force, const dealii::Point<dim> &x) const;
 
   const Scene<dim> &scene;
@@ -118,7 +121,6 @@ private:
   const unsigned int finer;
   std::map<Place, Pieces> coarse; ///< what varies
   LoadSum total;
-  std::map<dealii::types::boundary_id, LoadSum> by_boundary;
 };
 } // namespace hpvi
 

@@ -19,6 +19,10 @@ std::vector<Entry> boundary_entries(const std::string &boundary);
 /** What a part of a side has beside these. */
 std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides);
 
+/** Is the entry named with more than what it is where nobody names it, as scene.prm names all? */
+bool says_something(const Parameters &parameters, const std::string &section,
+                    const std::string &entry);
+
 /** Takes all that the section of @p boundary says; @p t is the time in a load history. The body must have been read. */
 template <int dim>
 void read_boundary(const Parameters &parameters, std::optional<double> t, const Scene<dim> &scene,
