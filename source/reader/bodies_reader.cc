@@ -3,6 +3,7 @@
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/bodies.h>
@@ -133,7 +134,7 @@ void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
             "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
             "Friction coefficient"})
         if (const std::string section = "Boundary " + scene.boundaries[part.side].name;
-            parameters.is_named(section, entry) && !parameters.text(section, entry).empty())
+            parameters.is_named(section, entry) && !says_nothing(parameters.text(section, entry)))
           parameters.reject(section, entry,
                             "acts nowhere, for " + section_of_pair(part.pair_name) +
                                 " has all of this side; remove it");

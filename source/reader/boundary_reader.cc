@@ -19,6 +19,11 @@ namespace hpvi
 {
 using namespace dealii;
 
+bool says_nothing(const std::string &value)
+{
+  return value.empty() || value == "false" || value == "none";
+}
+
 namespace
 {
 std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
@@ -251,7 +256,7 @@ void read_axis(const Parameters &parameters, const std::string &section)
 {
   for (const char *const entry :
        {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Contact"})
-    if (parameters.is_named(section, entry) && !parameters.text(section, entry).empty())
+    if (parameters.is_named(section, entry) && !says_nothing(parameters.text(section, entry)))
       parameters.reject(section, entry,
                         "is on the axis x = 0 of an axisymmetric body, where u_x = 0 by itself and "
                         "nothing else acts; remove it");

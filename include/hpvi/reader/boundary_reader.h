@@ -19,6 +19,9 @@ std::vector<Entry> boundary_entries(const std::string &boundary);
 /** What a part of a side has beside these. */
 std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides);
 
+/** Is it a value of an entry there as scene.prm has it where the scene does not say any? */
+bool says_nothing(const std::string &value);
+
 /** Takes all that the section of @p boundary says; @p t is the time in a load history. The body must have been read. */
 template <int dim>
 void read_boundary(const Parameters &parameters, std::optional<double> t, const Scene<dim> &scene,
