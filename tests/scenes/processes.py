@@ -82,11 +82,11 @@ class Processes(RunTest):
             self.check_ended(run, number, safe)
             self.assertEqual(run.returncode, 128 + number)
 
-    def resumed(self, n, whole, *settings):
+    def resumed(self, n, whole):
         """Does a copy, on so many processes, end with the energies of the whole run?"""
         out = self.home / f"on-{n}"
         shutil.copytree(self.out, out)
-        line = [PROGRAM, "--resume", out, *(word for setting in settings for word in ("--set", setting))]
+        line = [PROGRAM, "--resume", out]
         done = subprocess.run(line if n == 1 else [*MPIRUN, "-np", str(n), *line], capture_output=True, text=True,
                               env=ENVIRONMENT, timeout=300, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -98,7 +98,8 @@ class Processes(RunTest):
 
     def test_goes_on_on_another_number_of_processes(self):
         self.scene = SCENES / "fretting-dome.prm"
-        settings = ("Solver/Primal tolerance=1e-11", "Loading/Steps=2", "Adaptivity/Maximum unknowns=2000", "Adaptivity/Maximum steps=2")
+        settings = ("Solver/Primal tolerance=1e-11", "Loading/Steps=2", "Adaptivity/Maximum unknowns=2000",
+                    "Adaptivity/Maximum steps=2")
         self.run_scene(*settings, output=self.home / "whole")
         run = subprocess.Popen([*MPIRUN, "-np", "2", *command(self.scene, self.out, *settings)],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=ENVIRONMENT)

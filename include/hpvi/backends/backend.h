@@ -137,7 +137,7 @@ public:
   virtual Warnings warnings(const std::vector<ContactState<dim>> &contact,
                             const Equilibrium<dim> &balance) const = 0;
 
-  /** Cells of a Refinement, and of degrees(), are those of all processes, by global_active_cell_index. */
+  /** Cells of a Refinement, and of degrees(), are those of all processes, by cell_ranks(). */
   virtual void refine(const Refinement &refinement) = 0;
   virtual Degrees degrees() const = 0;
 
