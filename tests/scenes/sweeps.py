@@ -108,31 +108,34 @@ class Sweeps(RunTest):
 
     def test_what_is_done_is_not_done_again(self):
         core = min(os.sched_getaffinity(0))
-        printed = self.sweep(f"{BOUND}=1, 2", preexec_fn=lambda: os.sched_setaffinity(0, {core}))
-        self.assertIn("2 scenes on 1 core\n", printed)
-        first, second = self.out / "Friction bound=1/summary.json", self.out / "Friction bound=2/summary.json"
+        printed = self.sweep(f"{BOUND}=1, 1.5, 2", preexec_fn=lambda: os.sched_setaffinity(0, {core}))
+        self.assertIn("3 scenes on 1 core\n", printed)
+        first, second, third = (self.out / f"Friction bound={value}/summary.json" for value in ("1", "2", "1.5"))
         before = first.stat().st_mtime_ns
         second.write_text(second.read_text().replace('"status": "done"', '"status": "interrupted"'))
+        third.write_text(third.read_text().replace('"program": "hpvi ', '"program": "hpvi 0.'))
         row = self.runs()["Friction bound=1"]
-        self.assertRegex(self.sweep(f"{BOUND}=1, 2, 3"), r"Friction bound=1 .* before\n")
+        printed = self.sweep(f"{BOUND}=1, 1.5, 2, 3")
+        self.assertEqual(re.findall(r"^Friction bound=(\S+) .* before$", printed, re.M), ["1"])
         self.assertEqual(first.stat().st_mtime_ns, before)
         self.assertIn('"status": "done"', second.read_text())
         self.assertEqual(self.runs()["Friction bound=1"], row)
-        self.assertEqual([run["status"] for run in self.runs().values()], ["done"] * 3)
+        self.assertNotIn('"hpvi 0.0', third.read_text())
+        self.assertEqual([run["status"] for run in self.runs().values()], ["done"] * 4)
         self.check_other_results_are_left_alone()
 
     def check_other_results_are_left_alone(self):
         before = (self.out / "sweep.csv").read_bytes()
         for sweep, settings, words in (
-                (f"{BOUND}=1, 2, 3", ("Adaptivity/Maximum steps=2",), "Friction bound=1 has results of another scene"),
-                (f"{BOUND}=1, 3", SHORT, "is of another sweep, with Friction bound=2")):
+                (f"{BOUND}=1, 1.5, 2, 3", ("Adaptivity/Maximum steps=2",), "Friction bound=1 has results of another scene"),
+                (f"{BOUND}=1, 1.5, 3", SHORT, "is of another sweep, with Friction bound=2")):
             line = self.sweep(sweep, settings=settings, status=1)
             self.assertIn(f"output directory '{self.out}' cannot be used: its ", line)
             self.assertIn(words, line)
         self.assertEqual((self.out / "sweep.csv").read_bytes(), before)
         (self.out / "sweep.csv").write_text("mine\n")
-        self.assertIn("no table of a sweep", self.sweep(f"{BOUND}=1, 2, 3", status=1))
-        self.assertEqual(self.names(), [*(f"Friction bound={k}" for k in (1, 2, 3)), "sweep.csv"])
+        self.assertIn("no table of a sweep", self.sweep(f"{BOUND}=1, 1.5, 2, 3", status=1))
+        self.assertEqual(self.names(), [*(f"Friction bound={k}" for k in (1, 1.5, 2, 3)), "sweep.csv"])
 
     def test_one_that_fails_does_not_end_the_others(self):
         line = self.sweep("Boundary top/Traction=0.9*1.75; 0 | 1.1*1.75; 0 | 0.8*1.75; 0", scene=LIMIT, status=2)
