@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What Python sees: classes and their documentation. Everything behind it knows nothing of Python but arrays.
+#include <hpvi/base/input_error.h>
 #include <hpvi/base/version.h>
 #include <hpvi/python/result.h>
 #include <hpvi/python/result_class.h>
@@ -85,6 +86,19 @@ SceneText make_scene(const py::object &file, const py::object &entries)
     if (!some.is_none())
       set_all(scene, some.cast<py::dict>(), "");
   return scene;
+}
+
+/** Notebooks ask for it whenever a scene is shown, which may be in space or not whole yet. */
+py::object picture_or_none(const SceneText &scene)
+{
+  try
+  {
+    return py::str(scene.picture());
+  }
+  catch (const InputError &)
+  {
+    return py::none();
+  }
 }
 
 // ---------------------------------------------------------------- runs
@@ -227,7 +241,7 @@ asked or solved: InputError.)")
       .def("print", &SceneText::print, "All entries with their values, as a scene file.")
       .def("picture", &SceneText::picture,
            "The scene as scalable vector graphics; notebooks show it by themselves.")
-      .def("_repr_svg_", &SceneText::picture)
+      .def("_repr_svg_", &picture_or_none)
       .def("__repr__",
            [](const SceneText &scene)
            {
