@@ -105,6 +105,11 @@ reference_schur_complement(const Scene<dim> &scene, const Triangulation<dim> &tr
   Scene<dim> rough(scene);
   for (BoundaryCondition<dim> &boundary : rough.boundaries)
     boundary.friction = boundary.friction.everywhere();
+  // On the finer mesh the other side of a pair may have more multipliers.
+  for (ContactPair &pair : rough.pairs)
+    pair.slave = std::any_of(coarse.faces().begin(), coarse.faces().end(),
+                             [&](const ContactFace<dim> &face)
+                             { return face.condition->id == pair.parts[1]; });
   const Laboratory<dim> fine(rough, mesh, fine_degrees, tables);
   const ConditionRows &rows = fine.discretisation.contact_rows;
   const FullMatrix<double> T = embedding(coarse, fine.discretisation.spaces->contact_space);

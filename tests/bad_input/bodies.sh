@@ -167,6 +167,8 @@ valid "a disc that lies with its flat side on a block" "Body disc/Shape=half dis
 "$hpvi" --print-parameters "$scenes/bodies.prm" >"$scratch/effective.prm" 2>"$scratch/stderr"
 "$hpvi" --print-parameters "$scratch/effective.prm" 2>"$scratch/stderr" | cmp -s - "$scratch/effective.prm" ||
   complain bodies.prm "effective parameters do not survive a round trip"
+"$hpvi" --inf-sup "$scenes/../../prm/bush.prm" --set "Adaptivity/Maximum steps=2" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  complain bush.prm "the inf-sup constant is not measured where the reference mesh has more multipliers on the other side"
 
 echo "$rows bad inputs, $failures failures"
 [ $failures -eq 0 ]

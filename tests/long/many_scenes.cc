@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <string>
@@ -304,11 +305,17 @@ int solve_all()
 }
 } // namespace
 
-/** Without an argument all scenes are solved; with one the scene of that number. */
+/** Without an argument all is done; with a number the scene of that number is solved, with `history` the load history. */
 int main(int argc, char *argv[])
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  if (argc == 1)
+  const std::string word = argc > 1 ? argv[1] : "";
+  const bool one = argc > 1 && word != "history";
+  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi; // which takes its time
+  if (!one || takes_primal_path(std::stoul(word)))
+    mpi.emplace(argc, argv, 1);
+  if (word == "history")
+    return history_stays() ? 0 : 1;
+  if (!one)
     return solve_all();
-  std::cout << result(std::stoul(argv[1])) << std::endl;
+  std::cout << result(std::stoul(word)) << std::endl;
 }
