@@ -131,7 +131,8 @@ TEST(Warnings, ShippedScenesWhoseStrainsAreNotSmallAreListed)
     const std::string name = file.path().stem().string();
     if (file.path().extension() != ".prm") // a directory of meshes
       continue;
-    if (std::set<std::string>{"block-space", "dome", "foot", "fretting-dome", "slab"}.count(name)) // in space
+    if (std::set<std::string>{"block-space", "dome", "foot", "fretting-dome", "slab"}.count(
+            name)) // in space
       continue;
     const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "2"}});
     std::vector<std::string> last;
