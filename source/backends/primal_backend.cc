@@ -2,6 +2,7 @@
 #include <hpvi/backends/primal_backend.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
 #include <hpvi/body/cell_ranks.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/primal/contact_statics.h>
