@@ -198,10 +198,11 @@ std::vector<DistributedVector> steps_along(const MomentSpace<3> &space,
   return result;
 }
 
-std::string remedy(const Scene<3> &scene)
+/** Friction helps what slides alone. */
+std::string remedy(const Scene<3> &scene, const bool slides)
 {
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
-    if (boundary.has_contact() && boundary.friction)
+    if (slides && boundary.has_contact() && boundary.friction)
       return "add a support, raise " + boundary.friction.entry_to_raise() + " or lower the loads";
   return "add a support or change the loads";
 }
@@ -308,8 +309,11 @@ void ContactStatics::require_equilibrium() const
   std::vector<ContactSpot> spots = on_mesh;
   spots.insert(spots.end(), ends.begin(), ends.end());
   if (const auto separation = separate(Resistance(spots, motions), loads, negligible))
-    throw NumericalFailure("no equilibrium: " + why(spots, *separation) + " at most; " +
-                           remedy(space.scene));
+  {
+    const std::string words = why(spots, *separation);
+    throw NumericalFailure("no equilibrium: " + words + " at most; " +
+                           remedy(space.scene, words.rfind("sliding", 0) == 0));
+  }
 }
 
 std::optional<ContactStatics::Missing> ContactStatics::missing() const

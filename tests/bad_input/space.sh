@@ -148,7 +148,7 @@ unheld() {
   check 2 "no equilibrium: " "${words[@]}" -- "$hpvi" --output "$scratch/unheld" prm/block-space.prm "${arguments[@]}"
 }
 unheld "sliding: the loads push the body along (1, 0, 0) with 2, contact can resist with 1.96 at most" "raise Friction coefficient" -- "Boundary bottom/Friction coefficient=0.49"
-unheld "toppling: the loads turn the body about an axis along (0, 0, -1) through (2, 0, " "raise" -- "Body force/Expression=3; -1; 0" "Boundary bottom/Friction coefficient=5"
+unheld "toppling: the loads turn the body about an axis along (0, 0, -1) through (2, 0, 1) with 2, contact can resist with 0 at most; add a support or change the loads" -- "Body force/Expression=3; -1; 0" "Boundary bottom/Friction coefficient=5"
 unheld "lifting off: the loads push the body along (0, 1, 0) with 4, contact can resist with 0" "add a support" -- "Body force/Expression=0; 1; 0"
 
 invalid "stands beside Contact" -- "Boundary bottom/Displacement=0; free; free"
