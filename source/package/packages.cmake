@@ -31,13 +31,15 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "hp finite elements for elastic contact with friction
- Solves elastic bodies in contact, with Tresca's and Coulomb's friction, by adaptive hp finite elements, driven by a
- parameter file; in the plane the error is guaranteed.")
+Solves elastic bodies in contact, with Tresca's and Coulomb's friction,
+by adaptive hp finite elements, driven by a parameter file; in the plane
+the error is guaranteed.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "hpvi (= ${PROJECT_VERSION}-1), libdeal.ii-dev, libsuitesparse-dev, libmuparser-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "library of hpvi, elastic contact with friction
- Headers, static library and CMake package of hpvi, for programs that solve scenes and read results.")
+Headers, static library and CMake package of hpvi, for programs that
+solve scenes and read results.")
 if(TARGET hpvi_python)
   math(EXPR NEXT_PYTHON "${Python3_VERSION_MINOR} + 1")
 endif()
@@ -46,10 +48,11 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hpvi (= ${PROJECT_VERSION}-1), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${NEXT_PYTHON}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of hpvi, elastic contact with friction
- Solves scenes of hpvi from Python; results are arrays of NumPy, and pictures where matplotlib is.")
+Solves scenes of hpvi from Python; results are arrays of NumPy, and
+pictures where matplotlib is.")
 set(CPACK_DEBIAN_MANUAL_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_DEPENDS libjs-mathjax)
 set(CPACK_COMPONENT_MANUAL_DESCRIPTION "manual and scenes of hpvi, elastic contact with friction
- The manual of hpvi to read offline, and the scenes that it speaks of.")
+The manual of hpvi to read offline, and the scenes that it speaks of.")
 include(CPack)
