@@ -281,7 +281,15 @@ void MomentMatrix<dim>::prepare(const bool anew)
     if (multigrid)
     {
       const Timer timer;
-      multigrid->linearise(states);
+      try
+      {
+        multigrid->linearise(states);
+      }
+      catch (const NumericalFailure &) // of the coarsest matrix, which all processes factorise
+      {
+        give_way();
+        return;
+      }
       n_setups = std::max(n_setups, 1u);
       setup_seconds += timer.wall_time();
       return;
@@ -290,6 +298,20 @@ void MomentMatrix<dim>::prepare(const bool anew)
     factor();
   else if (anew || !amg)
     set_up();
+}
+
+/** The next method takes the place of this one. */
+template <int dim>
+void MomentMatrix<dim>::give_way()
+{
+  if (method == LinearMethod::direct)
+    throw NumericalFailure("neither conjugate gradients with multigrid nor a factorisation solve "
+                           "for the displacement; keep Poisson's ratio away from 1/2, take a mesh "
+                           "of less slender cells or raise Solver/Primal tolerance");
+  fell_back = true;
+  method = method == LinearMethod::multigrid ? LinearMethod::amg : LinearMethod::direct;
+  begin();
+  prepare(/*anew=*/true);
 }
 
 template <int dim>
@@ -366,15 +388,7 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
   const DistributedVector start = v;
   while (!iterate(v, b, tolerance, error))
   {
-    if (method == LinearMethod::direct)
-      throw NumericalFailure(
-          "neither conjugate gradients with multigrid nor a factorisation solve "
-          "for the displacement; keep Poisson's ratio away from 1/2, take a mesh "
-          "of less slender cells or raise Solver/Primal tolerance");
-    fell_back = true;
-    method = method == LinearMethod::multigrid ? LinearMethod::amg : LinearMethod::direct;
-    begin();
-    prepare(/*anew=*/true);
+    give_way();
     v = start;
   }
 }

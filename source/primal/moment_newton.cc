@@ -13,8 +13,8 @@ using namespace dealii;
 
 namespace
 {
-
-/** What conjugate gradients may leave of the error that Newton's method may, in its first step; a tenth of it in each further one. */
+constexpr double edge = 1e-6; ///< the least |z| - 1 in H: coarse meshes have it in single precision
+// Of the error that Newton's method may leave, in its first step; then a tenth in each step.
 constexpr double linear_part = 0.1;
 constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 
@@ -176,7 +176,7 @@ std::vector<MomentState<dim>> MomentNewton<dim>::states(const bool all_held) con
       continue;
     const double size = z[k].norm();
     const ContactVector<dim> n = z[k] / size;
-    const double H = weights[k] * c[k] / std::max(size - 1, 1e-9);
+    const double H = weights[k] * c[k] / std::max(size - 1, edge);
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s && dim == 3; ++t) // in the plane no direction is left
         result[k].stiffness[s][t] = H * ((s == t ? 1. : 0.) - n[s] * n[t]);

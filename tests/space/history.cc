@@ -226,4 +226,16 @@ TEST(History, SlipIsCountedFromTheLoadStepBefore)
                  EXPECT_GT(n_sticking, 0u);
                });
 }
+
+/** A disc at the edge of its limit has a stiffness that single precision does not hold. */
+TEST(History, MultigridKnowsDiscsAtTheEdgeOfSlip)
+{
+  const Scene<3> scene = read_scene<3>(
+      "prm/fretting-dome.prm", {{"Adaptivity/Maximum unknowns", "8000"}, {"Loading/Steps", "4"}});
+  const auto multigrid =
+      evolution<3>(scene, MPI_COMM_SELF,
+                   [](const StepReport<3> &step) { EXPECT_FALSE(step.primal->newton.fell_back); });
+  ASSERT_EQ(multigrid.size(), 4);
+  expect_balance(multigrid);
+}
 } // namespace

@@ -82,6 +82,7 @@ private:
   void begin();
   void assemble();
   void prepare(bool anew);
+  void give_way();
   void set_up();
   void factor();
   void factor_alone();
