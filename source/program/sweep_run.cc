@@ -347,7 +347,7 @@ void sweep(const CommandLine &command_line, const std::function<void()> &start_m
 {
   if (n_started_processes() > 1)
     throw InputError("hpvi: --sweep " + printable(command_line.sweeps.front().path) +
-                     ": solves scenes on the cores of one process; start it without mpirun");
+                     ": solves scenes on the cores of one process; start it as one process");
   Sweep<dim> all(command_line);
   if (command_line.validate || command_line.print_parameters)
     all.say_what_is_read();

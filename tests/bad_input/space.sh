@@ -186,7 +186,7 @@ check 1 "fewer cells" "start fewer of them" -- parallel -np 2 "$hpvi" --output "
 check 1 "Path = reduced" "start one" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm --set Solver/Path=reduced
 check 1 "Normal contact = nodes" "the primal path" "multiplier" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12-unilateral.prm --set Adaptivity/Method=hap2
 check 1 "Method = hpa2" "does not offer" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/han-6-12.prm
-check 1 "--sweep Boundary bottom/Friction bound" "start it without mpirun" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/slab.prm --sweep "Boundary bottom/Friction bound=1, 2"
+check 1 "--sweep Boundary bottom/Friction bound" "start it as one process" -- parallel -np 2 "$hpvi" --output "$scratch/o" prm/slab.prm --sweep "Boundary bottom/Friction bound=1, 2"
 check 1 "Yung" "unknown entry" -- parallel -np 2 "$hpvi" prm/slab.prm --set "Material/Yung=1"
 
 # --- what the process of one point alone finds out, in whichever stage of a step it does
