@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/backends/primal_backend.h>
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
@@ -165,10 +166,7 @@ NewtonSettings PrimalBackend<dim>::first_settings() const
   if (scene.solver.primal_tolerance > 0)
     settings.residual = scene.solver.primal_tolerance;
   else if (error > 0)
-  {
-    settings.residual = round_off;
-    settings.error = 0.5 * algebraic_part * error;
-  }
+    settings = {round_off, 0.5 * algebraic_part * error, settings.maximum_steps};
   return settings;
 }
 
@@ -179,8 +177,7 @@ bool PrimalBackend<dim>::is_exact(NewtonSettings &settings) const
   if (scene.solver.primal_tolerance > 0 || report.residual <= round_off ||
       report.error <= algebraic_part * error)
     return true;
-  settings.residual = round_off;
-  settings.error = 0.5 * algebraic_part * error;
+  settings = {round_off, 0.5 * algebraic_part * error, settings.maximum_steps};
   return false;
 }
 
@@ -321,10 +318,15 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
     result.push_back({WarningKind::cut_off, double(report.steps),
                       "Newton's method did not find stick and slip in " + to_string(report.steps) +
                           " steps, and the augmented Lagrangian took its place"});
-  const std::string linear = linear_names[static_cast<unsigned int>(report.linear)];
+  if (balance.force_imbalance > 1e-2)
+    result.push_back({WarningKind::cut_off, balance.force_imbalance,
+                      "forces are out of balance by " + text(balance.force_imbalance, 2) +
+                          " of their absolute sums; lower Solver/Primal tolerance"});
   if (given_way)
     result.push_back({WarningKind::multigrid, 0.,
-                      "multigrid broke down, and Solver/Linear = " + linear + " took its place"});
+                      std::string("multigrid broke down, and Solver/Linear = ") +
+                          linear_names[static_cast<unsigned int>(report.linear)] +
+                          " took its place"});
   return result;
 }
 

@@ -192,4 +192,16 @@ TEST(Warnings, OfLoadStepsKeepTheWorstOfEachKind)
   EXPECT_EQ(texts(worst), (std::vector<std::string>{"pulls (load step 3)", "strain (load step 1)",
                                                     "1 slips (load step 2)"}));
 }
+/** Who asks for little is told what is left. */
+TEST(Warnings, ForcesThatDoNotBalanceAreNamed)
+{
+  for (const char *const tolerance : {"0.9", "1e-6"})
+  {
+    const Warnings all = by_primal_path(slab({{"Adaptivity/Maximum steps", "1"},
+                                              {"Geometry/Subdivisions", "2, 2, 1"},
+                                              {"Solver/Primal tolerance", tolerance}}));
+    EXPECT_EQ(has(all, WarningKind::cut_off, "forces are out of balance by "),
+              std::string(tolerance) == "0.9");
+  }
+}
 } // namespace
