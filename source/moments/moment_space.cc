@@ -16,11 +16,23 @@ namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+/** Supports are functions, which may fail on one process. */
+template <int dim>
+bool agreed_rests_on_contact(const Scene<dim> &scene, MPI_Comm communicator)
+{
+  bool result = false;
+  together(communicator, [&]() { result = rests_on_contact(scene); });
+  return result;
+}
+} // namespace
+
 template <int dim>
 MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
-    : scene(scene), tables(tables), rests_on_contact(hpvi::rests_on_contact(scene)),
-      dof_handler(mesh)
+    : scene(scene), tables(tables),
+      rests_on_contact(agreed_rests_on_contact(scene, mesh.get_communicator())), dof_handler(mesh)
 {
   number();
   together(communicator(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/moments/rigid_motions.h>
 #include <hpvi/primal/contact_statics.h>
@@ -221,12 +222,16 @@ ContactStatics::ContactStatics(const MomentSpace<3> &space, const DistributedVec
     loads[j] = std::abs(load) > 1e-11 * sizes[j] ? load : 0;
   }
   std::vector<ContactSpot> own, own_ends;
-  for (const MomentFace<3> &face : space.faces)
-  {
-    const auto spots = spots_of(face), corners = ends_of(face);
-    own.insert(own.end(), spots.begin(), spots.end());
-    own_ends.insert(own_ends.end(), corners.begin(), corners.end());
-  }
+  together(space.communicator(), // what limits friction is a function
+           [&]()
+           {
+             for (const MomentFace<3> &face : space.faces)
+             {
+               const auto spots = spots_of(face), corners = ends_of(face);
+               own.insert(own.end(), spots.begin(), spots.end());
+               own_ends.insert(own_ends.end(), corners.begin(), corners.end());
+             }
+           });
   on_mesh = gathered(own, space.communicator());
   ends = gathered(own_ends, space.communicator());
 }
