@@ -171,9 +171,9 @@ CommandLine parse(const int argc, const char *const argv[])
 std::string usage()
 {
   std::ostringstream text;
-  text << "hpvi [options] SCENE.prm\n\n"
-          "Solves the scene with adaptive hp finite elements: an elastic body in contact with\n"
-          "Tresca friction. Prints one row per adaptive step and writes tables and pictures.\n"
+  text << "Usage: hpvi [options] SCENE.prm\n\n"
+          "Solves the scene with adaptive hp finite elements: elastic bodies in contact, with\n"
+          "friction. Prints one row per adaptive step and writes tables and pictures.\n"
           "Exit status: 0 done, 1 bad input, 2 the numerics gave up or something could not be\n"
           "written, 128 + n ended by signal n; what is finished stays in the output directory.\n\n"
        << visible_options();

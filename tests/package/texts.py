@@ -29,6 +29,8 @@ read = re.sub(r".\x08", "", said("mandoc", "-T", "utf8", "-O", "width=1000", tex
 options = re.findall(r"^  (?:-\w \[ )?(--[a-z-]+)", said(program, "--help"), re.MULTILINE)
 entries = re.findall(r"^ *set (.*?) *=", said(program, "--print-parameters"), re.MULTILINE)
 missing = [word for word in options + entries if word not in read]
+if "SYNOPSIS" not in read:
+    sys.exit("the manual page has no synopsis")
 if missing or len(options) < 9 or len(entries) < 100:
     sys.exit(f"the manual page lacks {missing}, of {len(options)} options and {len(entries)} entries")
 if said(program, "--version").split()[1] not in news:
