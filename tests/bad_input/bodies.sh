@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# usage: bodies.sh HPVI
+# usage: bodies.sh HPVI [SERVER]
 #
 # A table of bad input, as rows.sh says: several bodies, pairs of their sides, and what they do not offer.
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# usage: run.sh HPVI
+# usage: run.sh HPVI [SERVER]
 #
 # A table of bad input, as rows.sh says.
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# usage: shapes.sh HPVI
+# usage: shapes.sh HPVI [SERVER]
 #
 # A table of bad input, as rows.sh says: shapes with curves, mesh files, and what these do not offer.
 
