@@ -26,18 +26,28 @@ check() {
   done
 }
 
-invalid() {
-  local words=()
+# overridden STATUS COMMAND... -- WORD... -- ENTRY=VALUE...: that command with these entries overridden.
+overridden() {
+  local status=$1 command=() words=() override
+  shift
+  while [ "$1" != "--" ]; do
+    command+=("$1")
+    shift
+  done
+  shift
   while [ "$1" != "--" ]; do
     words+=("$1")
     shift
   done
   shift
-  local arguments=()
   for override in "$@"; do
-    arguments+=(--set "$override")
+    command+=(--set "$override")
   done
-  check 1 "prm/slab.prm" "${words[@]}" -- "$hpvi" --validate prm/slab.prm "${arguments[@]}"
+  check "$status" "${words[@]}" -- "${command[@]}"
+}
+
+invalid() {
+  overridden 1 "$hpvi" --validate prm/slab.prm -- prm/slab.prm "$@"
 }
 
 "$hpvi" --validate prm/slab.prm >/dev/null || failures=1
@@ -135,17 +145,7 @@ invalid "Gap" "is not finite" -- "Boundary bottom/Contact=unilateral" "Boundary 
 
 # --- what contact alone cannot hold
 unheld() {
-  local words=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
-  local arguments=()
-  for override in "$@"; do
-    arguments+=(--set "$override")
-  done
-  check 2 "no equilibrium: " "${words[@]}" -- "$hpvi" --output "$scratch/unheld" prm/block-space.prm "${arguments[@]}"
+  overridden 2 "$hpvi" --output "$scratch/unheld" prm/block-space.prm -- "no equilibrium: " "$@"
 }
 unheld "sliding: the loads push the body along (1, 0, 0) with 2, contact can resist with 1.96 at most" "raise Friction coefficient" -- "Boundary bottom/Friction coefficient=0.49"
 unheld "toppling: the loads turn the body about an axis along (0, 0, -1) through (2, 0, 1) with 2, contact can resist with 0 at most; add a support or change the loads" -- "Body force/Expression=3; -1; 0" "Boundary bottom/Friction coefficient=5"

@@ -49,12 +49,12 @@ class Program:
     """Runs hpvi in a directory of its own, by its server where there is one."""
 
     def __init__(self, program, library, scratch):
-        self.program, self.library, self.scratch, self.server = str(program), library, scratch, None
+        self.program, self.preload, self.scratch, self.server = str(program), library, scratch, None
         self.environment = {**ENVIRONMENT, "TMPDIR": str(scratch)}
 
     def start(self):
         self.server = subprocess.Popen([self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=self.scratch,
-                                       env={**self.environment, "LD_PRELOAD": str(self.library)})
+                                       env={**self.environment, "LD_PRELOAD": str(self.preload)})
 
     def stop(self):
         if self.server:
@@ -94,7 +94,7 @@ class Program:
         for name, data in files.items():
             (home / name).parent.mkdir(parents=True, exist_ok=True)
             (home / name).write_bytes(data)
-        status, kilobytes, seconds, ended = (self.served if self.library else self.alone)(arguments + ([] if "--inf-sup" in arguments else ["--output", "out"]), home)
+        status, kilobytes, seconds, ended = (self.served if self.preload else self.alone)(arguments + ([] if "--inf-sup" in arguments else ["--output", "out"]), home)
         number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
         run = Run(os.waitstatus_to_exitcode(status), number, kilobytes, seconds, (self.scratch / "stderr").read_bytes(),
                   ended or number in (signal.SIGXCPU, signal.SIGKILL), any(a in ("--validate", "--print-parameters", "--inf-sup") for a in arguments))

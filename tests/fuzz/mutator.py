@@ -95,7 +95,7 @@ class Mutator:
     """One scene more, from @p seed alone."""
 
     def __init__(self, library, seed):
-        self.library, self.random = library, random.Random(seed)
+        self.known, self.random = library, random.Random(seed)
         self.choose = self.random.choice
 
     def happens(self, probability):
@@ -103,7 +103,7 @@ class Mutator:
 
     def make(self, scenes):
         scene = self.choose(scenes)
-        text = self.library.texts[scene]
+        text = self.known.texts[scene]
         self.is_in_space = bool(re.search(r"^\s*set Dimension\s*=\s*3", text, re.M))
         self.lines = text.split("\n")
         self.overrides, self.spoilt = [], set()
@@ -146,7 +146,7 @@ class Mutator:
 
     def value(self, path, old):
         """Another value of an entry, mostly of its own kind."""
-        known = self.library.values.get(kind(path), [""])
+        known = self.known.values.get(kind(path), [""])
         takes_functions = any(re.search(r"\b[xyt]\b", value) for value in known)
         roll = self.random.random()
         if roll < 0.4 and NUMBER.search(old):
@@ -212,7 +212,7 @@ class Mutator:
 
     def add_entry(self):
         """One that the scene may not name yet, where it belongs."""
-        entry = self.choose(self.library.entries)
+        entry = self.choose(self.known.entries)
         section, _, name = entry.rpartition("/")
         there = [line.strip()[len("subsection "):].split("#")[0].strip() for line in self.lines if line.strip().startswith("subsection ")]
         alike = [other for other in there if kind(other + "/") == kind(section + "/")]
@@ -220,7 +220,7 @@ class Mutator:
             return  # of scenes of another kind; a section comes whole
         path = f"{self.choose(alike) if alike else section}/{name}".lstrip("/")
         self.spoilt.add(path)
-        self.overrides.append((path, self.value(path, self.choose(self.library.values[entry]))))
+        self.overrides.append((path, self.value(path, self.choose(self.known.values[entry]))))
 
     def ranges(self):
         """First and last line of each section."""
@@ -235,7 +235,7 @@ class Mutator:
 
     def add_section(self):
         """One of another scene, beside that of this one or in its place."""
-        sections = self.library.sections
+        sections = self.known.sections
         section = self.choose(sections[self.choose(sorted(sections))]).split("\n")
         alike = [(first, last) for first, last in self.ranges() if self.lines[first].split("#")[0].split() == section[0].split("#")[0].split()]
         if alike and self.happens(0.8):
