@@ -13,7 +13,9 @@ import random
 import subprocess
 import sys
 import tempfile
-import unicodedata
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "fuzz"))
+import findings
 
 NUMBERS = """0 -0 1 -1 2 3 0.5 1e-5 1e5 1e30 1e-30 1e100 1e-101 1e200 -1e200 1e308 1.8e308 5e-324 1e-310 1e-400 nan inf
 -inf +1 .5 5. 1e 0x10 1,5 1;5 99999999999 4294967296 -2147483649 1e3 007 1_000 pi E""".split()
@@ -90,17 +92,7 @@ def complaint(run):
         return "something on stderr" if run.stderr else ""
     if run.returncode != 1:
         return f"exit status {run.returncode}"
-    try:
-        line = run.stderr.decode("utf-8")
-    except UnicodeDecodeError:
-        return "stderr is not UTF-8"
-    if not line.endswith("\n") or len(line[:-1].splitlines()) != 1:
-        return "stderr does not hold one line"
-    if any(unicodedata.category(c) in ("Cc", "Zl", "Zp") or "\u202a" <= c <= "\u202e" for c in line[:-1]):
-        return "stderr holds control characters"
-    if len(line) > 1100:
-        return "stderr holds more than a line"
-    return "internal error" if "internal error" in line else ""
+    return findings.of_line(run.stderr)
 
 
 def main():

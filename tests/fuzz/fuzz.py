@@ -180,7 +180,7 @@ def main():
     parser.add_argument("--corpus", type=pathlib.Path)
     options = parser.parse_args()
     scenes = mutator.scenes_of(ROOT)
-    library = mutator.Library(options.program, scenes)
+    library = mutator.Vocabulary(options.program, scenes)
     if options.corpus:
         return write_corpus(options.corpus, library)
     begin, count, statuses, found, slowest, largest = time.monotonic(), 0, collections.Counter(), [], 0., 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Spoilt scenes: Library knows all entries, as the program prints them with their documentation, and what scenes say; Mutator
+"""Spoilt scenes: Vocabulary knows all entries, as the program prints them with their documentation, and what scenes say; Mutator
 makes of a seed one scene more, mostly one that still makes sense."""
 import dataclasses
 import pathlib
@@ -43,7 +43,7 @@ def kind(path):
     return f"{section}/{entry}" if section else entry
 
 
-class Library:
+class Vocabulary:
     """All entries of the program, with words and values that they may have, and the scenes."""
 
     def __init__(self, program, scenes):

@@ -366,7 +366,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
     scenes = mutator.scenes_of(ROOT)
-    library = mutator.Library(options.program, scenes)
+    library = mutator.Vocabulary(options.program, scenes)
     for entry in library.entries:
         unit_of(entry)
     begin, count = time.monotonic(), 0
