@@ -148,6 +148,8 @@ struct SolverSettings
   int multiplier_offset = -2;    ///< the multiplier has degree p_K + offset on a contact edge
   bool condition_number =
       false; ///< report cond(S), raw and scaled: costs an eigenvalue computation
+  unsigned int threads =
+      1; ///< of a step in the plane on one process; 0: all that the process may use
 };
 
 /** Of which steps the files with their number in the name are written. */
@@ -164,6 +166,7 @@ struct OutputSettings
   bool vtu = true;
   bool mesh_picture = true;
   bool contact = true;
+  bool report = false;    ///< report.html at the end
   bool reference = false; ///< reference.dat after the last step
 };
 
@@ -230,8 +233,9 @@ struct Scene
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
-  bool error_bound = true;               ///< compute ErrorBound where there is one
-  bool intervals = true;                 ///< of forces and means, where there is an ErrorBound
+  bool error_bound = true;       ///< compute ErrorBound where there is one
+  bool error_bound_last = false; ///< of the last step alone, and where the tolerance is near
+  bool intervals = true;         ///< of forces and means, where there is an ErrorBound
   bool bound_on_distorted_cells = false; ///< too, where cells are no parallelograms
   SolverSettings solver;
   OutputSettings output;
