@@ -108,12 +108,20 @@ template <int dim>
 void reject_unknowns(const Scene<dim> &scene, const double unknowns, const std::string &entry,
                      const std::string &remedy)
 {
-  if (unknowns > scene.adaptivity.maximum_unknowns)
-    reject(scene, "Geometry", entry,
-           "makes at least " + std::to_string(std::llround(unknowns)) +
-               " free unknowns of degree " + std::to_string(scene.adaptivity.start_degree) +
-               " in the first step, more than Adaptivity/Maximum unknowns = " +
-               std::to_string(scene.adaptivity.maximum_unknowns) + "; " + remedy);
+  if (!(unknowns > scene.adaptivity.maximum_unknowns))
+    return;
+  if (scene.geometry.shape == Shape::bodies) // whose meshes have entries of their own
+    reject(scene, "Adaptivity", "Maximum unknowns",
+           "is less than the bodies have in the first step, at least " +
+               std::to_string(std::llround(unknowns)) + " free unknowns of degree " +
+               std::to_string(scene.adaptivity.start_degree) +
+               "; take coarser meshes, by their Subdivisions, or raise it",
+           std::to_string(scene.adaptivity.maximum_unknowns));
+  reject(scene, "Geometry", entry,
+         "makes at least " + std::to_string(std::llround(unknowns)) + " free unknowns of degree " +
+             std::to_string(scene.adaptivity.start_degree) +
+             " in the first step, more than Adaptivity/Maximum unknowns = " +
+             std::to_string(scene.adaptivity.maximum_unknowns) + "; " + remedy);
 }
 
 /** By p^2 nodes that are a cell's own, and supports that may hold all nodes of the boundary. */

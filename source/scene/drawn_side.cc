@@ -32,11 +32,14 @@ const std::vector<EdgePath> &DrawnSide::edges() const
 
 unsigned int DrawnSide::nearest_edge(const Point<2> &x) const
 {
+  double enough = std::numeric_limits<double>::max(); // centres of discs lie on their edges
+  for (const Disc &disc : discs)
+    enough = std::min(enough, disc.centre.distance(x));
   unsigned int result = 0;
   double least = std::numeric_limits<double>::max();
   for (unsigned int e = 0; e < paths.size(); ++e)
   {
-    if (discs[e].centre.distance(x) - discs[e].radius > least)
+    if (discs[e].centre.distance(x) - discs[e].radius > std::min(enough, least))
       continue;
     if (const double here = paths[e].point(paths[e].nearest(x)).distance(x); here < least)
     {

@@ -37,6 +37,8 @@ base=ring.prm
 invalid "Boundary punch.inner" "this scene has no bodies" "Boundary inner" -- "Boundary punch.inner/Traction=0; 0"
 base=bodies.prm
 
+invalid "Adaptivity/Maximum unknowns = 5" "the bodies" "free unknowns of degree" "Subdivisions" -- "Adaptivity/Maximum unknowns=5"
+
 # --- probes
 invalid "Probe tip/At = 1.5, 1" "lower and upper touch" "On = BODY.side" -- "Probe tip/At=1.5, 1"
 invalid "Probe tip/Size = 0.3" "leaves the body" "is 0.2 away" -- "Probe tip/At=1.5, 1.2" "Probe tip/Size=0.3"
