@@ -13,7 +13,7 @@ namespace hpvi
 /**
  * Geometric multigrid for `A + H` in space by global coarsening: each mesh has all cells of the next one coarsened once,
  * moments of the same degree on its contact faces, and the states of contact that LevelTransfer hands down. A V-cycle
- * smooths by Chebyshev polynomials of degree 4 in single precision. A new state of the contact takes no set-up but
+ * smooths by Chebyshev polynomials of degree 6 in single precision. A new state of the contact takes no set-up but
  * the factorisation of the coarsest mesh.
  */
 class Multigrid
