@@ -2,6 +2,7 @@
 // Whole runs that write every file, short enough for a Debug build: there deal.II's assertions speak.
 #include "discretisation.h"
 
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/output/output.h>
 
@@ -27,22 +28,31 @@ public:
 };
 
 /** Solve, and write what a run of the program writes. */
-void run(const Scene<2> &scene, const fs::path &directory)
+template <int dim>
+void run(const Scene<dim> &scene, const fs::path &directory)
 {
-  AdaptiveSolver<2> solver(scene);
-  Output<2> output(scene, directory.string());
+  Output<dim> output(scene, directory.string());
   std::string last;
-  solver.run(
-      [&](const StepReport<2> &step)
-      {
-        output.write_step(step);
-        last = (step.number < 10 ? "-0" : "-") + std::to_string(step.number);
-        EXPECT_GT(step.energies.norm, 0.);
-      });
+  const auto write = [&](const StepReport<dim> &step)
+  {
+    output.write_step(step);
+    last = (step.number < 10 ? "-0" : "-") + std::to_string(step.number);
+    EXPECT_GT(step.energies.norm, 0.);
+  };
+  if (scene.has_load_history())
+    LoadHistory<dim>(scene).run(write);
+  else
+    AdaptiveSolver<dim>(scene).run(write);
   output.finish();
-  for (const std::string &name : std::vector<std::string>{
-           "solution" + last + ".vtu", "mesh" + last + ".svg", "convergence.csv", "degrees.csv",
-           "forces.csv", "scene.prm", "summary.json"})
+  std::vector<std::string> names = {"solution" + last + ".vtu",
+                                    "convergence.csv",
+                                    "degrees.csv",
+                                    "forces.csv",
+                                    "scene.prm",
+                                    "summary.json"};
+  if (dim == 2)
+    names.push_back("mesh" + last + ".svg");
+  for (const std::string &name : names)
     EXPECT_GT(fs::file_size(directory / name), 20U) << name;
   EXPECT_EQ(fs::exists(directory / ("contact" + last + ".csv")), scene.has_contact());
 }
@@ -125,6 +135,16 @@ std::vector<Case> cases()
                      {"Boundary left/Contact", "unilateral"},
                      {"Boundary left/Gap", "-0.01"},
                      {"Solver/QP solver", "mprgp"}}});
+  for (const std::string scene :
+       {"blocks", "glued", "punch-plate", "sleeve", "ballast", "bimetal", "spruce", "plate-hole",
+        "shrink-fit", "bracket", "retaining", "askew", "propped", "thermal-joint"})
+  {
+    std::string name = scene;
+    std::replace(name.begin(), name.end(), '-', '_');
+    result.push_back({name, scene, {{"Adaptivity/Maximum steps", "2"}}});
+  }
+  result.push_back(
+      {"history", "fretting", {{"Adaptivity/Maximum steps", "2"}, {"Loading/Steps", "4"}}});
   return result;
 }
 
@@ -143,6 +163,18 @@ TEST_P(EveryKind, RunsAndWrites)
 
 INSTANTIATE_TEST_SUITE_P(, EveryKind, ::testing::ValuesIn(cases()),
                          [](const auto &info) { return info.param.name; });
+
+TEST(Smoke, BodiesInSpace)
+{
+  for (const std::string name : {"slab", "foot", "block-space"})
+  {
+    SCOPED_TRACE(name);
+    const Directory directory;
+    run(read_scene<3>("prm/" + name + ".prm",
+                      {{"Adaptivity/Maximum steps", "2"}, {"Adaptivity/Maximum unknowns", "2000"}}),
+        directory.path);
+  }
+}
 
 TEST(Smoke, ReferencesAreWrittenAndRead)
 {
