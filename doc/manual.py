@@ -19,6 +19,8 @@ import shutil
 import subprocess
 import sys
 
+import messages
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "doc/manual"
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
@@ -326,6 +328,7 @@ def main():
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
                  "results", "sweeps", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
+    pages["messages"] = messages.page()
     pages["python"] = session((ROOT / "doc/python.md").read_text())
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \
