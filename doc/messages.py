@@ -427,7 +427,7 @@ PLACEHOLDER = re.compile(r"^@(WARNING|FAILURE) ([^@\n]+)@$\n", re.M)
 
 
 def escaped(text):
-    return re.sub(r"([\\*#@$])", r"\\\1", html.escape(text, quote=False))
+    return re.sub(r"([\\*#@$]|--)", r"\\\1", html.escape(text, quote=False))
 
 
 def with_remedy(text):
@@ -475,7 +475,7 @@ def refused(messages):
         if not chosen:
             continue
         anchor = re.sub(r"\W", "_", name.lower())
-        lines += [f"### {name} {{#messages_{anchor}}}", ""]
+        lines += [f"## {name} {{#messages_{anchor}}}", ""]
         if name in ORDER:
             chosen = sorted(chosen, key=lambda message: (message.entry.startswith(("...", "[")), message.entry))
             lines.append(table(chosen, lambda message: "any" if message.entry in ("", "...") else escaped(message.entry).strip("[]")))
@@ -559,7 +559,7 @@ def complaints():
 def main():
     if sys.argv[1:] == ["--check"]:
         found = complaints()
-        print(*found, sep="\n")
+        print("\n".join(found), end="\n" if found else "")
         sys.exit(1 if found else 0)
     for message in Sources().messages()[0]:
         print(f"{message.kind:<17} {message.section}/{message.entry}: {message.text}")
