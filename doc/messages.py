@@ -33,7 +33,8 @@ PASSED_ON = {
     "checks/shape:check_materials", "adaptivity/load_history:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up",
-    "backends/primal_backend:reach_loads", "backends/reduced_backend:discretise", "program/sweep_run:naming_values"}
+    "backends/primal_backend:reach_loads", "backends/reduced_backend:discretise", "program/sweep_run:naming_values",
+    "output/vtu_reader:require", "program/tell_of_run:report_of"}
 # Functions that return what is refused: section and entry.
 RETURNED = {"scene/orthotropy:flaw": ("Material NAME", "Poisson's ratios")}
 # What wrappers add to what they are given: where, and a literal that is there.
@@ -58,7 +59,7 @@ NAMES = {"name", "mention", "name_of", "listed", "what", "in_words", "words", "p
          "origin", "direction", "describe", "in_quotes"}
 WORDY = re.compile(r"(words|name|entry|remedy|direction|limit|list|place|what|why|boundary|motion|places|function)$")
 PLACE = re.compile(r"^(x|at|where|point|centre|piece|face|vertices)$|\b(at|centre|point|vertices|corners|where|folded)\b|piece|^face|^corner$")
-REMEDY = re.compile(r"\w[^;]*;|this scene has: |\bmake a dealii")
+REMEDY = re.compile(r"; [\w\[\"`-]|this scene has: |\bmake a dealii")
 Token = namedtuple("Token", "kind text line")
 Message = namedtuple("Message", "kind section entry text source")  # kind: refused, failed, unwritten, or a WarningKind
 
