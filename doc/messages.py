@@ -32,7 +32,7 @@ PASSED_ON = {
     "checks/rejection:check_value", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
     "checks/shape:check_materials", "adaptivity/load_history:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
-    "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up",
+    "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
     "backends/primal_backend:reach_loads", "backends/reduced_backend:discretise", "program/sweep_run:naming_values",
     "output/vtu_reader:require", "program/tell_of_run:report_of"}
 # Functions that return what is refused: section and entry.
@@ -223,6 +223,8 @@ class Sources:
         """Where the words of a name are: in its function, in a stream, in a variable, in a constant."""
         if name == "str":
             return self.streamed(code[0].text, noun, place, depth)
+        if name == "message" and len(arguments or ()) < 2:
+            return ""  # of the system
         if arguments is not None:
             return one_of(self.returned(name, noun, depth), "")
         if len(code) > 1 and not self.is_desperate:
@@ -239,10 +241,34 @@ class Sources:
                 continue
             if has_words(text):
                 return text
+        found = self.passed(name, noun, begin, depth)
+        if found:
+            return found
         for other, k, value in self.constants.get(name, []):
             if other.endswith(".h") or (other == noun and self.around(noun, k)[0] == 0):
                 return self.text(cut(value, (",",))[0], other, k, depth + 1)
         return ""
+
+    def passed(self, name, noun, begin, depth):
+        """What callers of the function that begins there, in the same noun, pass on as its argument of that name."""
+        code, function = self.code[noun], self.function_at(noun, begin + 1)
+        texts = []
+        if function in THROWERS or f"{noun}:{function}" in PASSED_ON:
+            return ""
+        for k in range(len(code) - 1):
+            if code[k].text != function or not is_sign(code[k + 1], "("):
+                continue
+            arguments, end = group(code, k + 1)
+            if end < begin < end + 6:  # its definition
+                names = [argument[-1].text for argument in arguments]
+                if name not in names:
+                    return ""
+                place = names.index(name)
+                texts = [self.text(others[place], noun, j, depth + 1) for j in range(len(code) - 1)
+                         if code[j].text == function and is_sign(code[j + 1], "(") and j != k
+                         for others in [group(code, j + 1)[0]] if len(others) > place]
+        texts = [text for text in dict.fromkeys(texts) if has_words(text)]
+        return "[" + " | ".join(texts) + "]" if len(texts) > 1 else "".join(texts)
 
     def streamed(self, name, noun, place, depth):
         """What was written to a stream before it is asked for: since its declaration, but not what has been returned."""
