@@ -19,6 +19,10 @@ import shutil
 import subprocess
 import sys
 
+import messages
+import scenes
+from scenes import assignments
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "doc/manual"
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
@@ -146,27 +150,6 @@ def program_pages(order):
     return pages
 
 
-def assignments(text):
-    """(section, entry, value, comment above) of each `set` of a .prm."""
-    section, comment, found = "", [], []
-    for line in map(str.strip, text.splitlines()):
-        if line.startswith("#"):
-            comment.append(line.lstrip("# "))
-            if line.startswith("# ---"):
-                comment = []  # ends deal.II's headline
-            continue
-        if line.startswith("subsection "):
-            section = re.sub(r"\s*#.*", "", line[len("subsection "):])
-        elif line == "end":
-            section = ""
-        elif line.startswith("set "):
-            name, value = line[4:].split("=", 1)
-            found.append((section, name.strip(), re.sub(r"\s*#.*", "", value).strip(),
-                          " ".join(comment)))
-        comment = []
-    return found
-
-
 def named(section):
     """NAME for what a scene names, or for a side."""
     return re.sub("^(Boundary|Material|Contact|Probe|Body(?! force$)) .*", r"\1 NAME", section)
@@ -250,12 +233,14 @@ def entries_page(program):
 
 def with_results(text, program, directory):
     """What a page asks for is computed: a scene that it says to write is written, `@RUN arguments@` gives way to the
-    command and what it prints, `@RUN 2: arguments@` if it ends with status 2, `@ROWS NAME: columns; k@` to k rows, evenly
-    spaced, of the last contact table of the run NAME, and `@JSON NAME: member@` to that member of its summary.json."""
-    def printed(match):
-        arguments = shlex.split(match[2])
-        scene = directory / arguments[-1]
-        command = [program, *arguments[:-1], arguments[-1] if scene.exists() else ROOT / arguments[-1]]
+    command and what it prints, `@RUN 2: arguments@` if it ends with status 2, `@LINES k from "words": arguments@` to k of
+    these lines, `@ROWS NAME: columns; k@` to k rows, evenly spaced, of the last contact table of the run NAME,
+    `@TABLE NAME/FILE.csv: columns@` to the rows of another one, `@JSON NAME: member@` to that member of its summary.json,
+    `@PICTURE NAME/FILE: words@` to a picture that a command has drawn."""
+    def said(arguments, status):
+        last = arguments[-1]
+        is_own = last.startswith("-") or (directory / last).exists()
+        command = [program, *arguments[:-1], last if is_own else ROOT / last]
         if arguments[0] == "-np":
             command = ["mpirun", "--oversubscribe", "--bind-to", "none", *arguments[:2], program,
                        *arguments[2:-1], command[-1]]
@@ -264,28 +249,48 @@ def with_results(text, program, directory):
                               env={**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
                                    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                                    "OMPI_MCA_mpi_yield_when_idle": "1"})
-        if done.returncode != int(match[1] or 0):
-            sys.exit(f"manual.py: {match[0]} ends with status {done.returncode}\n{done.stdout}")
-        words = done.stdout.replace(f"{ROOT}/", "")
-        return f"```\n$ ./run {match[2]}\n{words}```"
+        if done.returncode != status:
+            sys.exit(f"manual.py: {shlex.join(arguments)} ends with status {done.returncode}\n{done.stdout}")
+        return done.stdout.replace(f"{ROOT}/", "").replace(f"{directory}/", "")
 
-    def rows(match):
-        names = match[2].split(", ")
-        with sorted((directory / "output" / match[1]).glob("contact-*.csv"))[-1].open() as file:
-            table = list(csv.DictReader(file))
-        chosen = [table[round(k * (len(table) - 1) / (int(match[3]) - 1))] for k in range(int(match[3]))]
+    def printed(match):
+        return f"```\n$ ./run {match[2]}\n{said(shlex.split(match[2]), int(match[1] or 0))}```"
+
+    def excerpt(match):
+        lines = said(shlex.split(match[3]), 0).splitlines()
+        begin = next(k for k, line in enumerate(lines) if match[2] in line)
+        return f"```\n$ ./run {match[3]}\n...\n" + "\n".join(lines[begin:begin + int(match[1])]) + "\n...\n```"
+
+    def markdown(names, chosen):
         lines = [names, ["---"] * len(names), *([short(row[name]) for name in names] for row in chosen)]
         return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+    def rows(match):
+        table = table_of(sorted((directory / "output" / match[1]).glob("contact-*.csv"))[-1])
+        return markdown(match[2].split(", "),
+                        [table[round(k * (len(table) - 1) / (int(match[3]) - 1))] for k in range(int(match[3]))])
+
+    def table_of(path):
+        with path.open() as file:
+            return list(csv.DictReader(file))
 
     def member(match):
         summary = json.loads((directory / "output" / match[1] / "summary.json").read_text())
         return f"```{{.json}}\n{json.dumps(summary[match[2]], indent=2)}\n```"
 
+    def picture(match):
+        name = match[1].replace("/", "-")
+        shutil.copy(directory / "output" / match[1], directory.parent / "pages" / name)
+        return f"![{match[2]}]({name})"
+
     directory.mkdir(exist_ok=True)
     for name, scene in re.findall(r"`(\w+\.prm)`:\n\n```\n(.*?)```", text, re.S):
         (directory / name).write_text(scene)
     text = re.sub(r"^@RUN (?:(\d): )?(.*)@$", printed, doxygen_math(text), flags=re.M)
+    text = re.sub(r"^@LINES (\d+) from \"(.*?)\": (.*)@$", excerpt, text, flags=re.M)
     text = re.sub(r"^@ROWS (\w+): (.*); (\d+)@$", rows, text, flags=re.M)
+    text = re.sub(r"^@TABLE (\S+): (.*)@$", lambda m: markdown(m[2].split(", "), table_of(directory / "output" / m[1])), text, flags=re.M)
+    text = re.sub(r"^@PICTURE (\S+): (.*)@$", picture, text, flags=re.M)
     return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
 
 
@@ -324,8 +329,10 @@ def main():
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
-                 "results", "sweeps", "extensions", "columns", "contributing"):
+                 "results", "sweeps", "first-problem", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
+    pages["messages"] = messages.page()
+    pages["scenes"] = scenes.page("gallery/", " {#scenes}")
     pages["python"] = session((ROOT / "doc/python.md").read_text())
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
         doxygen_math((PAGES / "tutorial.md").read_text()) + \
@@ -342,6 +349,7 @@ def main():
     (output / "Doxyfile").write_text(settings)
     run("doxygen", output / "Doxyfile", cwd=output)
     (output / "html/mathjax").symlink_to(MATHJAX)
+    shutil.copytree(ROOT / "doc/gallery", output / "html/gallery")
     print(f"the manual is {os.path.relpath(output / 'html/index.html')}")
 
 

@@ -159,7 +159,8 @@ void check_plate(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary
                     m < dim ? "Displacement" : "Rotation"},
           std::pair{boundary.plate->force[m], m < dim ? "Force" : "Moment"}})
       if (!(std::abs(value) <= largest_magnitude))
-        reject(scene, section, entry, "is not a number up to 1e100 that can be squared",
+        reject(scene, section, entry,
+               "is not a number up to 1e100 that can be squared; choose other units",
                to_string(value));
 }
 

@@ -73,4 +73,4 @@ date = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], capture_
 compress("hpvi.1.gz", manual_page())
 compress("changelog.gz", news)
 compress("changelog.Debian.gz", f"hpvi ({version}-1) unstable; urgency=low\n\n  * Version {version}: see changelog.gz.\n\n"
-                                f" -- The hpvi authors <hpvi@example.org>  {email.utils.formatdate(int(date))}\n")
+                                f" -- hpvi developers <hpvi@example.org>  {email.utils.formatdate(int(date))}\n")

@@ -19,9 +19,10 @@ foreach(component ${CPACK_COMPONENTS_ALL})
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/package/hpvi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/doc/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc/html COMPONENT manual OPTIONAL)
-install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc COMPONENT manual)
+# prm/README.md shows pictures of the sources; the manual has that page, too.
+install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc COMPONENT manual PATTERN README.md EXCLUDE)
 
-set(CPACK_PACKAGE_CONTACT "The hpvi authors <hpvi@example.org>")
+set(CPACK_PACKAGE_CONTACT "hpvi developers <hpvi@example.org>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -32,8 +33,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "hp finite elements for elastic contact with friction
 Solves elastic bodies in contact, with Tresca's and Coulomb's friction,
-by adaptive hp finite elements, driven by a parameter file; in the plane
-the error is guaranteed.")
+by adaptive hp finite elements, driven by a parameter file; with Tresca's
+in the plane the error is guaranteed.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "hpvi (= ${PROJECT_VERSION}-1), libdeal.ii-dev, libsuitesparse-dev, libmuparser-dev, zlib1g-dev")

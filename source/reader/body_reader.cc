@@ -139,7 +139,7 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
       continue;
     if (!surfaces.empty() && parameters.text(section, "Where").empty())
       parameters.reject(section, "Where",
-                        "is missing, and the mesh has no surface of this name, it has " +
+                        "is missing, and the mesh has no surface of this name; it has " +
                             listed(surfaces, "and"));
     wheres.back() = read_where(parameters, section, sample_body(scene.geometry));
     has_where = true;

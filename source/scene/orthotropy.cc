@@ -86,7 +86,7 @@ std::optional<std::string> Orthotropy::flaw(const PlaneModel plane) const
   if (!(determinant > 0))
     return "is not positive definite: 1 - nu12^2 E2/E1 - nu13^2 E3/E1 - nu23^2 E3/E2 - 2 nu12 nu23 "
            "nu13 E3/E1 = " +
-           text(determinant) + " must be positive";
+           text(determinant) + " must be positive; the material would give energy away";
   return std::nullopt;
 }
 

@@ -11,7 +11,7 @@
 
 namespace hpvi
 {
-/** As in "hpvi 0.1.0 (Release build), deal.II 9.4.1". */
+/** As in "hpvi 0.2.0 (Release build), deal.II 9.4.1". */
 std::string version_line();
 
 /** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
