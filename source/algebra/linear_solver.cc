@@ -14,6 +14,7 @@
 // solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.
 #include <cholmod.h>
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/algebra/supernodes.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
@@ -274,7 +275,14 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
   cholmod_sparse *const whole = sum.matrix ? sum.matrix : &matrix;
   if (!L)
     analyse(whole, kept, more_bytes);
-  cholmod_factorize(whole, L, &common);
+  SparseMatrix ordered(common);
+  ordered.matrix = cholmod_ptranspose(whole, /*values=*/1, permutation.data(), nullptr, 0, &common);
+  check();
+  if (L->xtype == CHOLMOD_PATTERN)
+    cholmod_change_factor(CHOLMOD_REAL, /*to_ll=*/true, /*to_super=*/true, /*to_packed=*/true,
+                          /*to_monotonic=*/true, L, &common);
+  check();
+  L->minor = factor_supernodes(*ordered.matrix, *L) ? L->n : 0;
   check();
   if (!order.empty())
     C = trailing_block(order.size());
