@@ -6,6 +6,7 @@
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/common_table.h>
+#include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/team.h>
 
@@ -139,7 +140,7 @@ SymmetricMatrix grid(const unsigned int n)
         A.value.push_back(-1. / distance);
       }
     A.row.push_back(j);
-    A.value.push_back(2.5 + 0.001 * (j % 7));
+    A.value.push_back(4. + 0.001 * (j % 7));
     A.column_start.push_back(A.row.size());
   }
   return A;
@@ -213,7 +214,9 @@ std::vector<double> numbers(const std::string &name, Overrides overrides,
           append(step.bound->squares, result);
         }
         for (const Resultant<2> &force : step.forces)
-          append({force.force[0].value, force.force[1].value, force.force[0].half_width}, result);
+          append(std::vector<double>{force.force[0].value, force.force[1].value,
+                                     force.force[0].best()},
+                 result);
       });
   return result;
 }
@@ -293,29 +296,35 @@ TEST(ThreadsAtTheEnd, EndWhenTimeIsOver)
   EXPECT_EQ(why, "Maximum seconds");
 }
 
-/** A load that is refused at one point, in the cells of a helper as in one's own. */
+/** A load that is refused in all cells by the indicator: that of the first one is told. */
 TEST(ThreadsAtTheEnd, RefuseTheSamePoint)
 {
   std::vector<std::string> messages;
   for (const unsigned int n_threads : {1U, 3U})
+  {
+    Scene<2> scene = shipped_scene("han-6-12", {{"Solver/Threads", std::to_string(n_threads)},
+                                                {"Geometry/Subdivisions", "8, 8"}});
+    std::atomic<bool> is_refused(false);
+    scene.body_force[1] = expression<2>(std::function<double(const dealii::Point<2> &)>(
+        [&](const dealii::Point<2> &x)
+        {
+          if (is_refused)
+            throw InputError("not at " + text(x[0]) + ", " + text(x[1]));
+          return 0.01;
+        }));
+    const auto about_to = [&](const Progress &progress)
+    { is_refused = progress.stage.rfind("estimating", 0) == 0; };
     try
     {
-      Scene<2> scene = shipped_scene("han-6-12", {{"Solver/Threads", std::to_string(n_threads)}});
-      std::atomic<unsigned int> n_asked(0);
-      scene.body_force[1] = expression<2>(std::function<double(const dealii::Point<2> &)>(
-          [](const dealii::Point<2> &x)
-          {
-            if (std::abs(x[0] - x[1]) < 0.02 && std::abs(x[0] - 3) < 0.7)
-              throw InputError("not at " + std::to_string(x[0]));
-            return 0.01;
-          }));
-      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});
+      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {}, about_to);
       messages.emplace_back("none");
     }
     catch (const InputError &error)
     {
       messages.emplace_back(error.what());
     }
+    EXPECT_EQ(team_size(), 1U);
+  }
   EXPECT_EQ(messages[0], messages[1]);
   EXPECT_NE(messages[0], "none");
 }
