@@ -5,14 +5,29 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace hpvi
 {
+namespace
+{
+/** All cores, or as many as OMP_NUM_THREADS says, by which other programs go, too. */
+unsigned int n_offered()
+{
+  const char *const value = std::getenv("OMP_NUM_THREADS");
+  const unsigned long n = value ? std::strtoul(value, nullptr, 10) : 0;
+  return n > 0 ? std::min<unsigned long>(n, n_usable_cores()) : n_usable_cores();
+}
+} // namespace
+
 template <int dim>
 unsigned int n_threads(const Scene<dim> &scene, const unsigned int n_processes)
 {
   if (takes_primal_path(scene, n_processes) || mapping_is_limited())
     return 1;
-  return scene.solver.threads > 0 ? scene.solver.threads : n_usable_cores();
+  constexpr unsigned int most = 64; // dense algebra has no room for some hundred
+  return std::min(most, scene.solver.threads > 0 ? scene.solver.threads : n_offered());
 }
 
 template <int dim>

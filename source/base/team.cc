@@ -2,6 +2,7 @@
 #include <hpvi/base/team.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -33,10 +34,11 @@ struct Team::Helpers
 {
   std::mutex mutex; ///< of all that follows
   std::condition_variable begun, finished;
-  Job *job = nullptr;
+  std::vector<Job *> jobs; ///< that are not done; those that parts of others have begun come last
   bool is_over = false;
   std::vector<std::thread> threads;
 
+  Job *open_job() const;
   void take_parts(Job &of, std::unique_lock<std::mutex> &lock);
   void help();
   void end();
@@ -46,7 +48,16 @@ namespace
 {
 thread_local Team::Helpers *serving = nullptr; ///< the calling thread
 thread_local bool has_team = false;            ///< has it one, or is it of one?
+std::atomic<bool> are_cores_taken(false);      ///< by the team of any thread
 } // namespace
+
+/** The innermost with parts that nobody has taken; null: none. */
+Job *Team::Helpers::open_job() const
+{
+  const auto found =
+      std::find_if(jobs.rbegin(), jobs.rend(), [](const Job *job) { return job->has_more(); });
+  return found == jobs.rend() ? nullptr : *found;
+}
 
 /** With the mutex held, but for the work itself. */
 void Team::Helpers::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
@@ -79,14 +90,15 @@ void Team::Helpers::help()
 {
   const OneThread one_thread;
   has_team = true;
+  serving = this;
   std::unique_lock<std::mutex> lock(mutex);
   for (;;)
   {
-    begun.wait(lock, [&]() { return is_over || (job && job->has_more()); });
+    begun.wait(lock, [&]() { return is_over || open_job(); });
     if (is_over)
       return;
-    take_parts(*job, lock);
-    finished.notify_one();
+    take_parts(*open_job(), lock);
+    finished.notify_all();
   }
 }
 
@@ -106,6 +118,12 @@ Team::Team(const unsigned int n_threads)
   if (n_threads < 2 || has_team)
     return;
   helpers = std::make_unique<Helpers>();
+  helpers->threads.reserve(n_threads - 1);
+  if (are_cores_taken.exchange(true))
+  {
+    helpers.reset();
+    return;
+  }
   try
   {
     for (unsigned int k = 1; k < n_threads; ++k)
@@ -125,21 +143,12 @@ Team::~Team()
   serving = nullptr;
   has_team = false;
   helpers->end();
+  are_cores_taken = false;
 }
 
 unsigned int team_size()
 {
   return serving ? 1 + serving->threads.size() : 1;
-}
-
-Alone::Alone() : before(serving)
-{
-  serving = nullptr;
-}
-
-Alone::~Alone()
-{
-  serving = before;
 }
 
 void in_parts(const unsigned int n, const unsigned int at_once,
@@ -152,14 +161,13 @@ void in_parts(const unsigned int n, const unsigned int at_once,
     return;
   }
   Team::Helpers &helpers = *serving;
-  const Alone alone;
   Job job{n, at_once, work};
   std::unique_lock<std::mutex> lock(helpers.mutex);
-  helpers.job = &job;
+  helpers.jobs.push_back(&job);
   helpers.begun.notify_all();
-  helpers.take_parts(job, lock);
+  helpers.take_parts(job, lock); // the first one without letting others come before
   helpers.finished.wait(lock, [&]() { return job.n_at_work == 0; });
-  helpers.job = nullptr;
+  helpers.jobs.erase(std::find(helpers.jobs.begin(), helpers.jobs.end(), &job));
   if (job.failure)
     std::rethrow_exception(job.failure);
 }

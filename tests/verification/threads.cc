@@ -38,7 +38,7 @@ TEST(Team, DoesAllWorkOnce)
   EXPECT_EQ(team_size(), 1U);
 }
 
-/** It is several threads that work, and parts within parts are worked on alone. */
+/** It is several threads that work. */
 TEST(Team, WorksTogether)
 {
   const Team team(3);
@@ -50,12 +50,74 @@ TEST(Team, WorksTogether)
           [&](unsigned int)
           {
             const Team of_a_helper(2);
-            EXPECT_EQ(team_size(), 1U);
+            EXPECT_EQ(team_size(), 3U);
             ++n_there;
             while (n_there < 3 && std::chrono::steady_clock::now() < patience)
               std::this_thread::yield();
           });
   EXPECT_EQ(n_there, 3U);
+}
+
+/** Who has done a part helps with what is inside of another: none of these would end without. */
+TEST(Team, HelpsInsideOfParts)
+{
+  const Team team(3);
+  for (unsigned int repetition = 0; repetition < 20; ++repetition)
+  {
+    std::atomic<unsigned int> n_there(0), n_done(0);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    for_all(2, 1,
+            [&](const unsigned int part)
+            {
+              if (part == 1)
+                return for_all(30, 2, [&](unsigned int) { ++n_done; });
+              for_all(3, 1,
+                      [&](unsigned int)
+                      {
+                        ++n_there;
+                        while (n_there < 3 && std::chrono::steady_clock::now() < patience)
+                          std::this_thread::yield();
+                        for_all(10, 1, [&](unsigned int) { ++n_done; });
+                      });
+            });
+    EXPECT_EQ(n_there, 3U);
+    EXPECT_EQ(n_done, 60U);
+    try
+    {
+      for_all(4, 1,
+              [&](const unsigned int part)
+              {
+                for_all(9, 1,
+                        [&](const unsigned int k)
+                        {
+                          if (part >= 2 && k >= 3)
+                            throw NumericalFailure(std::to_string(part) + std::to_string(k));
+                        });
+              });
+      ADD_FAILURE() << "nothing was thrown";
+    }
+    catch (const NumericalFailure &failure)
+    {
+      EXPECT_EQ(failure.what(), std::string("23"));
+    }
+  }
+}
+
+/** Two threads do not share the cores twice. */
+TEST(Team, IsOneAtATime)
+{
+  const Team team(2);
+  std::thread other(
+      []()
+      {
+        const Team another(2);
+        EXPECT_EQ(team_size(), 1U);
+        unsigned int sum = 0;
+        for_all(100, 1, [&](const unsigned int k) { sum += k; });
+        EXPECT_EQ(sum, 4950U);
+      });
+  other.join();
+  EXPECT_EQ(team_size(), 2U);
 }
 
 /** Whoever is first to throw, what the first part in order has thrown goes on; then it works as before. */

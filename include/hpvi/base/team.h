@@ -11,7 +11,8 @@ namespace hpvi
 {
 /**
  * Threads that help the one which makes this with in_parts(), as long as this lives. Each has dense algebra on one thread.
- * A team that is made where there is one already, or by a helper, has none of its own: the outer one serves.
+ * A team that is made where there is one already, or by a helper, has none of its own: the outer one serves. There is one at a time in a
+ * process: where several threads make teams, the others work alone meanwhile.
  */
 class Team
 {
@@ -33,24 +34,11 @@ private:
 /** Of the team that serves the calling thread, itself among them; 1 without one. */
 unsigned int team_size();
 
-/** The calling thread works alone as long as this lives: where what it calls shall not divide its work once more, or must not. */
-class Alone
-{
-public:
-  Alone();
-  ~Alone();
-
-  Alone(const Alone &) = delete;
-  Alone &operator=(const Alone &) = delete;
-
-private:
-  Team::Helpers *const before;
-};
-
 /**
  * work(begin, end) for parts of 0, ..., n - 1 that follow on one another, each of @p at_once, the last of what is left; by all threads of the
- * team, each taking the first part that is left. Parts do not depend on the number of threads: where results of one part do not depend on
- * another, nothing does. Throws what the first of all parts that threw has thrown; parts behind it may not have been worked on.
+ * team, each taking the first part that is left, the calling one the very first. A part may call it, too: whoever has nothing to do helps.
+ * Parts do not depend on the number of threads: where results of one part do not depend on another, nothing does. Throws what the first of
+ * all parts that threw has thrown; parts behind it may not have been worked on.
  */
 void in_parts(unsigned int n, unsigned int at_once,
               const std::function<void(unsigned int begin, unsigned int end)> &work);
