@@ -46,7 +46,7 @@ EXAMPLES = {
     ("Solver", "QP warm start"): "false", ("Solver", "QP tolerance"): "1e-10",
     ("Solver", "QP maximum multiplications"): "1000", ("Solver", "Diagonal scaling"): "false",
     ("Solver", "Coulomb solver"): "fixed point", ("Solver", "Multiplier degree offset"): "-3",
-    ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
+    ("Solver", "Condition number"): "true", ("Solver", "Threads"): "2", ("Output", "VTU"): "false",
     ("Output", "Steps"): "last", ("Output", "Mesh picture"): "false",
     ("Output", "Contact tables"): "false",
     ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",

@@ -12,7 +12,7 @@
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/mean_intervals.h>
 #include <hpvi/adaptivity/thickness.h>
-#include <hpvi/base/one_thread.h>
+#include <hpvi/backends/threads.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/scene/data_scale.h>
 
@@ -324,7 +324,7 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState<dim>
                                     MPI_Comm communicator)
     : AdaptiveSolver(scene, communicator)
 {
-  const OneThread one_thread; // as in run(): other numbers of threads round otherwise
+  const Team team = team_of(stages->scene, communicator); // as in run()
   stages->hear([](const Progress &) {});
   state.require_scene(scene, hpvi::n_processes(communicator));
   // Where a load step has ended nothing is left to mark, and element matrices are the next one's.
@@ -360,7 +360,7 @@ std::optional<ReducedPart<dim>> AdaptiveSolver<dim>::reduced() const
 template <int dim>
 void AdaptiveSolver<dim>::prepare(const Announce &about_to)
 {
-  const OneThread one_thread;
+  const Team team = team_of(stages->scene, stages->backend->communicator);
   stages->hear(about_to);
   stages->backend->discretise();
 }
@@ -374,7 +374,7 @@ template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const Announce &about_to)
 {
-  const OneThread one_thread;
+  const Team team = team_of(stages->scene, stages->backend->communicator);
   stages->hear(about_to);
   for (bool finished = false; !finished;)
   {

@@ -205,7 +205,7 @@ bool decides(const std::string &section, const std::string &entry)
                      (entry.rfind("Maximum ", 0) == 0 || entry.rfind("Tolerance", 0) == 0) &&
                      entry != "Maximum degree";
   return !limit && section != "Output" && section != "Error" && section != "Units" &&
-         entry != "Title";
+         entry != "Title" && entry != "Threads";
 }
 } // namespace
 

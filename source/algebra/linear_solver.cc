@@ -14,9 +14,11 @@
 // solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.
 #include <cholmod.h>
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/algebra/supernodes.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
+#include <hpvi/base/team.h>
 
 #include <algorithm>
 #include <string>
@@ -28,7 +30,7 @@ using namespace dealii;
 /** CHOLMOD's objects, released with their owner, and the trailing block of the factor. */
 struct LinearSolver::Factor
 {
-  cholmod_common common;
+  cholmod_common common, other; ///< the other for what is done beside the analysis
   cholmod_factor *L = nullptr;
   std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
   LAPACKFullMatrix<double> C;   ///< its copies would forget that it is a triangle
@@ -37,7 +39,8 @@ struct LinearSolver::Factor
   Factor()
   {
     cholmod_start(&common);
-    common.print = 0;
+    cholmod_start(&other);
+    common.print = other.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.final_ll = true;
   }
@@ -46,15 +49,21 @@ struct LinearSolver::Factor
   {
     cholmod_free_factor(&L, &common);
     cholmod_finish(&common);
+    cholmod_finish(&other);
   }
 
   Factor(const Factor &) = delete;
   Factor &operator=(const Factor &) = delete;
 
-  void analyse(cholmod_sparse *matrix, const std::vector<unsigned int> &kept, double more_bytes);
+  void order_unknowns(cholmod_sparse *matrix, const std::vector<unsigned int> &kept);
+  void analyse(cholmod_sparse *matrix, double more_bytes);
   void compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept, double more_bytes,
                const std::vector<Stabilisation> &stabilisation);
-  void check() const;
+  void check(const cholmod_common &of) const;
+  void check() const
+  {
+    check(common);
+  }
   LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
   Vector<double> solve(int system, const Vector<double> &right_hand_side);
 };
@@ -86,8 +95,8 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 // kept, then these. Dense blocks of columns, supernodes, make the factorisation one of dense
 // algebra. Its size is known after the symbolic analysis, and is compared with what memory is left
 // before anything is allocated. Another matrix on the same mesh needs none of that again.
-void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const std::vector<unsigned int> &kept,
-                                   const double more_bytes)
+void LinearSolver::Factor::order_unknowns(cholmod_sparse *matrix,
+                                          const std::vector<unsigned int> &kept)
 {
   const std::size_t n = matrix->nrow;
   std::vector<int> groups(n, 0);
@@ -99,7 +108,10 @@ void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const std::vector<uns
   check();
   for (std::size_t k = n - kept.size(); k < n; ++k)
     order.push_back(std::lower_bound(kept.begin(), kept.end(), permutation[k]) - kept.begin());
+}
 
+void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const double more_bytes)
+{
   // The order is taken as it is: a postordering could move kept unknowns away from the end.
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
@@ -117,28 +129,27 @@ void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const std::vector<uns
 //
 // A factorisation fails in few ways, each with its own remedy. A pivot that is not positive says
 // that the body can move without strain.
-/** Throws NumericalFailure unless CHOLMOD's last work succeeded. */
-void LinearSolver::Factor::check() const
+/** Throws NumericalFailure unless the last work of CHOLMOD with it succeeded. */
+void LinearSolver::Factor::check(const cholmod_common &of) const
 {
   const std::string remedy =
       "; lower Adaptivity/Maximum unknowns or take fewer Geometry/Subdivisions";
   if (L && L->minor < L->n)
     throw NumericalFailure("the stiffness matrix is not positive definite: a rigid-body motion is "
                            "free or elements are degenerate");
-  if (common.status == CHOLMOD_TOO_LARGE)
+  if (of.status == CHOLMOD_TOO_LARGE)
     throw NumericalFailure("the factor of the stiffness matrix (" +
                            std::to_string(permutation.size()) +
                            " unknowns) has more entries than its indices can count" + remedy);
-  if (common.status == CHOLMOD_OUT_OF_MEMORY)
+  if (of.status == CHOLMOD_OUT_OF_MEMORY)
     throw MemoryFailure(
         "the factorisation of " + std::to_string(permutation.size()) +
-        " unknowns is out of memory: it holds " + bytes_text(common.memory_inuse) +
+        " unknowns is out of memory: it holds " + bytes_text(of.memory_inuse) +
         (L ? " and asked for up to " + bytes_text(sizeof(double) * double(L->xsize)) : "") +
         remedy + " or allow more memory");
-  if (common.status != CHOLMOD_OK)
+  if (of.status != CHOLMOD_OK)
     throw NumericalFailure("the factorisation of " + std::to_string(permutation.size()) +
-                           " unknowns failed: CHOLMOD's status is " +
-                           std::to_string(common.status));
+                           " unknowns failed: CHOLMOD's status is " + std::to_string(of.status));
 }
 
 // @sect3{The trailing block}
@@ -272,9 +283,25 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
     check();
   }
   cholmod_sparse *const whole = sum.matrix ? sum.matrix : &matrix;
-  if (!L)
-    analyse(whole, kept, more_bytes);
-  cholmod_factorize(whole, L, &common);
+  SparseMatrix ordered(other);
+  const bool is_new = !L;
+  if (is_new)
+    order_unknowns(whole, kept);
+  for_all(2, 1,
+          [&](const unsigned int k)
+          {
+            if (k == 1)
+              ordered.matrix =
+                  cholmod_ptranspose(whole, /*values=*/1, permutation.data(), nullptr, 0, &other);
+            else if (is_new)
+              analyse(whole, more_bytes);
+          });
+  check(other);
+  if (L->xtype == CHOLMOD_PATTERN)
+    cholmod_change_factor(CHOLMOD_REAL, /*to_ll=*/true, /*to_super=*/true, /*to_packed=*/true,
+                          /*to_monotonic=*/true, L, &common);
+  check();
+  L->minor = factor_supernodes(*ordered.matrix, *L) ? L->n : 0;
   check();
   if (!order.empty())
     C = trailing_block(order.size());

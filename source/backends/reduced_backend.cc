@@ -229,6 +229,7 @@ void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
 {
   solution = std::make_unique<const Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
   values_at_points = std::make_unique<const SolutionField<dim>>(*solution);
+  known_forces.reset();
 }
 
 /** The next step begins where this one ends. */
@@ -258,8 +259,7 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
   StageTimer timer(times.bound);
-  const ErrorBound bound =
-      error_bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
+  const ErrorBound bound = bound_beside_forces(own_stress);
   result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
   result.imbalance = bound.imbalance;
   if (result.missing.empty())

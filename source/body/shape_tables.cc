@@ -6,6 +6,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/lapack_templates.h>
+#include <hpvi/base/common_table.h>
 #include <hpvi/body/shape_tables.h>
 
 #include <cmath>
@@ -132,17 +133,12 @@ const ShapeTable<dim> &ShapeTables<dim>::in_cell(const unsigned int degree,
                                                  const unsigned int n_gauss,
                                                  const bool second_derivatives) const
 {
-  const std::array<unsigned int, 4> key{{degree, whole_cell, second_derivatives, n_gauss}};
-  auto found = tables.find(key);
-  if (found == tables.end())
+  const auto make = [&]()
   {
     const QGauss<dim> gauss(n_gauss);
-    found = tables
-                .emplace(key, tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(),
-                                            second_derivatives))
-                .first;
-  }
-  return found->second;
+    return tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(), second_derivatives);
+  };
+  return common_value(tables, {{degree, whole_cell, second_derivatives, n_gauss}}, make);
 }
 
 template <int dim>
@@ -157,9 +153,7 @@ const ShapeTable<dim> &
 ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
                           const unsigned int subface_no, const unsigned int n_gauss) const
 {
-  const std::array<unsigned int, 4> key{{degree, face_no, subface_no, n_gauss}};
-  auto found = tables.find(key);
-  if (found == tables.end())
+  const auto make = [&]()
   {
     const QGauss<dim - 1> gauss(n_gauss);
     const auto hypercube = ReferenceCells::get_hypercube<dim>();
@@ -168,14 +162,20 @@ ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
       QProjector<dim>::project_to_face(hypercube, gauss, face_no, points);
     else
       QProjector<dim>::project_to_subface(hypercube, gauss, face_no, subface_no, points);
-    found = tables.emplace(key, tabulate<dim>(degree, points, gauss.get_weights(), false)).first;
-  }
-  return found->second;
+    return tabulate<dim>(degree, points, gauss.get_weights(), false);
+  };
+  return common_value(tables, {{degree, face_no, subface_no, n_gauss}}, make);
 }
 
 template <int dim>
 const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highest) const
 {
+  {
+    const ReadsCommonTables reading;
+    if (finite_elements.size() >= highest)
+      return finite_elements;
+  }
+  const WritesCommonTables writing;
   while (finite_elements.size() < highest)
     finite_elements.push_back(FESystem<dim>(FE_Q<dim>(finite_elements.size() + 1), dim));
   return finite_elements;
@@ -204,10 +204,11 @@ void number_edges(const FiniteElement<dim> &fe, LocalNumbering &numbering)
 template <int dim>
 const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) const
 {
-  auto found = numberings.find(degree);
-  if (found == numberings.end())
+  const auto make = [&]()
   {
-    const FiniteElement<dim> &fe = elements(degree)[degree - 1];
+    elements(degree);
+    const ReadsCommonTables reading; // of the collection, which may grow
+    const FiniteElement<dim> &fe = finite_elements[degree - 1];
     LocalNumbering numbering;
     numbering.n_boundary = fe.n_dofs_per_cell() - fe.template n_dofs_per_object<dim>();
     for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
@@ -217,9 +218,9 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
     }
     if (dim == 2)
       number_edges(fe, numbering);
-    found = numberings.emplace(degree, std::move(numbering)).first;
-  }
-  return found->second;
+    return numbering;
+  };
+  return common_value(numberings, degree, make);
 }
 
 namespace
@@ -262,11 +263,9 @@ const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int
                                                               const unsigned int target_degree,
                                                               const unsigned int part) const
 {
-  const auto [found, is_new] = interpolations.try_emplace(
-      std::array<unsigned int, 4>{{source_degree, trace_degree, target_degree, part}});
-  EdgeInterpolation &result = found->second;
-  if (is_new)
+  const auto make = [&]()
   {
+    EdgeInterpolation result;
     const std::vector<Point<1>> x = QGaussLobatto<1>(source_degree + 1).get_points();
     const std::vector<Point<1>> targets = QGaussLobatto<1>(target_degree + 1).get_points();
     result.nodes = select_nodes(x, trace_degree + 1);
@@ -283,42 +282,39 @@ const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int
         result.weights(i, j) = product;
       }
     }
-  }
-  return result;
+    return result;
+  };
+  return common_value(interpolations, {{source_degree, trace_degree, target_degree, part}}, make);
 }
 
 template <int dim>
 const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
 {
-  return gauss_rules.try_emplace(n_gauss, n_gauss).first->second;
+  return common_value(gauss_rules, n_gauss, [&]() { return QGauss<1>(n_gauss); });
 }
 
 template <int dim>
 const QGaussLobatto<1> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
 {
-  return gauss_lobatto_rules.try_emplace(n_points, n_points).first->second;
+  return common_value(gauss_lobatto_rules, n_points, [&]() { return QGaussLobatto<1>(n_points); });
 }
 
 template <int dim>
 const std::vector<Polynomials::Polynomial<double>> &
 ShapeTables<dim>::gauss_lagrange(const unsigned int n_gauss) const
 {
-  auto found = lagrange_bases.find(n_gauss);
-  if (found == lagrange_bases.end())
-    found = lagrange_bases
-                .emplace(n_gauss,
-                         Polynomials::generate_complete_Lagrange_basis(gauss(n_gauss).get_points()))
-                .first;
-  return found->second;
+  return common_value(
+      lagrange_bases, n_gauss,
+      [&]() { return Polynomials::generate_complete_Lagrange_basis(gauss(n_gauss).get_points()); });
 }
 
 template <int dim>
 const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigned int n_multipliers,
                                         const unsigned int n_gauss) const
 {
-  EdgeTable &table = edge_tables[{{degree, n_multipliers, n_gauss}}];
-  if (table.shapes.m() == 0)
+  const auto make = [&]()
   {
+    EdgeTable table;
     std::vector<Point<1>> nodes;
     for (const Point<1> &s : gauss_lobatto(degree + 1).get_points())
       nodes.emplace_back(s);
@@ -334,17 +330,18 @@ const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigne
       for (unsigned int i = 0; i < n_multipliers; ++i)
         table.multipliers(q, i) = multipliers[i].value(s);
     }
-  }
-  return table;
+    return table;
+  };
+  return common_value(edge_tables, {{degree, n_multipliers, n_gauss}}, make);
 }
 
 template <int dim>
 const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned int degree,
                                                                const double slope) const
 {
-  FullMatrix<double> &N = moment_nodes[{degree, slope}];
-  if (N.m() == 0)
+  const auto make = [&]()
   {
+    FullMatrix<double> N;
     const unsigned int n = degree - 1;
     const EdgeTable &table = edge(degree, n, degree);
     FullMatrix<double> inner(n, n), inverse(n, n);
@@ -371,8 +368,9 @@ const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned in
         N(j, n) -= inverse(j, i) * ends(i, 0);
         N(j, n + 1) -= inverse(j, i) * ends(i, 1);
       }
-  }
-  return N;
+    return N;
+  };
+  return common_value(moment_nodes, {degree, slope}, make);
 }
 
 std::vector<double> evaluate(const FullMatrix<double> &table,

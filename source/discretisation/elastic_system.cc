@@ -4,6 +4,7 @@
 // local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
+#include <hpvi/base/team.h>
 #include <hpvi/body/plates.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/initial_stress.h>
@@ -121,49 +122,38 @@ unsigned int ElasticSystem<dim>::Contribution::add_target(const unsigned int unk
 // The factorisation wants the upper triangle by compressed columns. It is made directly: for each
 // column all cells that know it are visited, and an array remembers where each row of the column
 // has gone. There is no sparsity pattern, no search in rows, and no entry that is zero.
-/** Column by column, so that one marker array finds equal entries of neighbouring cells. */
-template <int dim>
-void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
+namespace
 {
-  const unsigned int n = f.size();
-  // Where each unknown stands in the contributions: a list per unknown, one after the other.
-  struct Place
-  {
-    const Contribution *contribution;
-    unsigned int local;
-  };
-  std::vector<unsigned int> first(n + 1, 0);
-  std::size_t n_entries = 0, most_targets = 0;
-  for (const Contribution &contribution : contributions)
-  {
-    most_targets = std::max(most_targets, contribution.targets.size());
-    for (const unsigned int target : contribution.targets)
-      ++first[target + 1];
-    n_entries += contribution.targets.size() * (contribution.targets.size() + 1) / 2;
-  }
-  A.reserve(n_entries); // more than there will be: what no entry touches costs nothing
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Place> places(first.back());
-  std::vector<unsigned int> next(first);
-  for (const Contribution &contribution : contributions)
-    for (unsigned int i = 0; i < contribution.targets.size(); ++i)
-      places[next[contribution.targets[i]]++] = {&contribution, i};
+/** Where an unknown stands in what a cell adds. */
+struct Place
+{
+  const unsigned int *targets;
+  unsigned int n_targets;
+  const double *values; ///< its column
+};
 
-  A.column_start.reserve(n + 1);
-  std::vector<int> position(n, -1);
-  std::vector<unsigned int> upper(most_targets + 1); // which targets are rows of the column
-  for (unsigned int column = 0; column < n; ++column)
+/** Places by unknown, one after the other. */
+struct Places
+{
+  std::vector<unsigned int> first;
+  std::vector<Place> all;
+  std::size_t most_targets;
+};
+
+/** Appends some columns, one by one, so that one marker array finds equal entries of neighbouring cells. */
+void add_columns(const Places &places, const unsigned int begin, const unsigned int end,
+                 std::vector<int> &position, SymmetricMatrix &A)
+{
+  std::vector<unsigned int> upper(places.most_targets + 1); // which targets are rows of the column
+  for (unsigned int column = begin; column < end; ++column)
   {
     const int start = A.row.size();
-    for (unsigned int place = first[column]; place < first[column + 1]; ++place)
+    for (unsigned int place = places.first[column]; place < places.first[column + 1]; ++place)
     {
-      const Contribution &contribution = *places[place].contribution;
-      const double *const values =
-          contribution.values + std::size_t(places[place].local) * contribution.targets.size();
+      const auto [targets, n_targets, values] = places.all[place];
       // Half of all targets are, in no order that a processor could guess: they are selected without a branch.
-      const unsigned int *const targets = contribution.targets.data();
       unsigned int n_upper = 0;
-      for (unsigned int i = 0; i < contribution.targets.size(); ++i)
+      for (unsigned int i = 0; i < n_targets; ++i)
       {
         upper[n_upper] = i;
         n_upper += targets[i] <= column;
@@ -182,6 +172,62 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
     }
     A.column_start.push_back(A.row.size());
   }
+}
+
+/** The same of all @p n columns by several threads, each with its own; then they are put together. */
+void add_columns_together(const Places &places, const unsigned int n, SymmetricMatrix &A)
+{
+  const unsigned int at_once = std::max(512U, (n + 63) / 64), n_parts = (n + at_once - 1) / at_once;
+  std::vector<SymmetricMatrix> parts(n_parts);
+  for_all(n_parts, 1,
+          [&](const unsigned int k)
+          {
+            std::vector<int> position(n, -1);
+            add_columns(places, k * at_once, std::min(n, (k + 1) * at_once), position, parts[k]);
+          });
+  std::vector<std::size_t> first(1, 0);
+  for (const SymmetricMatrix &part : parts)
+    first.push_back(first.back() + part.row.size());
+  A.resize(first.back());
+  A.column_start.resize(n + 1);
+  for_all(n_parts, 1,
+          [&](const unsigned int k)
+          {
+            std::copy(parts[k].row.begin(), parts[k].row.end(), A.row.begin() + first[k]);
+            std::copy(parts[k].value.begin(), parts[k].value.end(), A.value.begin() + first[k]);
+            for (unsigned int column = 1; column <= parts[k].n(); ++column)
+              A.column_start[k * at_once + column] = first[k] + parts[k].column_start[column];
+          });
+}
+} // namespace
+
+template <int dim>
+void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
+{
+  const unsigned int n = f.size();
+  Places places{std::vector<unsigned int>(n + 1, 0), {}, 0};
+  std::size_t n_entries = 0;
+  for (const Contribution &contribution : contributions)
+  {
+    places.most_targets = std::max(places.most_targets, contribution.targets.size());
+    for (const unsigned int target : contribution.targets)
+      ++places.first[target + 1];
+    n_entries += contribution.targets.size() * (contribution.targets.size() + 1) / 2;
+  }
+  std::partial_sum(places.first.begin(), places.first.end(), places.first.begin());
+  places.all.resize(places.first.back());
+  std::vector<unsigned int> next(places.first);
+  for (const Contribution &contribution : contributions)
+    for (unsigned int i = 0; i < contribution.targets.size(); ++i)
+      places.all[next[contribution.targets[i]]++] = {
+          contribution.targets.data(), static_cast<unsigned int>(contribution.targets.size()),
+          contribution.values + std::size_t(i) * contribution.targets.size()};
+  if (team_size() > 1)
+    return add_columns_together(places, n, A);
+  A.reserve(n_entries); // more than there will be: what no entry touches costs nothing
+  A.column_start.reserve(n + 1);
+  std::vector<int> position(n, -1);
+  add_columns(places, 0, n, position, A);
 }
 
 // @sect3{Loads}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
+#include <hpvi/base/team.h>
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/springs.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 namespace hpvi
 {
@@ -25,7 +27,16 @@ void multiply(const char *transpose, const unsigned int rows, const unsigned int
   gemm(transpose, "N", &m, &n, &k, &one, A, &lda, B.data(), &k, &zero, C.data(), &m);
 }
 
-/** The cells of one material, one degree and one quadrature, some of them at a time: one matrix product serves all. */
+/** Some cells of one batch: one matrix product serves all. */
+template <int dim>
+struct Part
+{
+  std::vector<unsigned int> cells;
+  std::vector<CellMap<dim>> maps;
+  std::vector<double> forces, energies; ///< by cell; forces component by component
+};
+
+/** The cells of one material, one degree and one quadrature. */
 template <int dim>
 class Batch
 {
@@ -40,41 +51,40 @@ public:
       modes = oscillating_modes(table, degree);
   }
 
-  void add(const unsigned int cell, const CellMap<dim> &map, const Vector<double> &u,
-           InternalForces &sum)
+  /** Of some cells. */
+  void set(const Vector<double> &u, Part<dim> &part) const
   {
-    const auto dofs = space.cell_dofs(cell);
-    const std::size_t first = coefficients.size(), n = table.n_shapes;
-    coefficients.resize(first + dim * n);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      coefficients[first + numbering.component[i] * n + numbering.shape[i]] = u[dofs[i]];
-    cells.push_back(cell);
-    maps.push_back(map);
-    if (cells.size() == 64)
-      flush(sum);
-  }
-
-  void flush(InternalForces &sum)
-  {
+    const std::size_t n = table.n_shapes;
     // deal.II's matrix by rows is its transpose by columns.
     const double *const D = &table.derivatives(0, 0);
-    const unsigned int n = table.n_shapes, columns = dim * cells.size();
-    if (columns == 0)
-      return;
-    multiply("T", n_rows, columns, n, D, n, coefficients, values);
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      sum.energy_product += strains_to_stresses(maps[k], &values[std::size_t(k) * dim * n_rows]);
-    multiply("N", n, columns, n_rows, D, n, values, coefficients);
-    for (unsigned int k = 0; k < cells.size(); ++k)
+    std::vector<double> values;
+    part.forces.resize(part.cells.size() * dim * n);
+    for (unsigned int k = 0; k < part.cells.size(); ++k)
     {
-      const auto dofs = space.cell_dofs(cells[k]);
-      const double *const local = &coefficients[std::size_t(k) * dim * n];
+      const auto dofs = space.cell_dofs(part.cells[k]);
+      double *const local = &part.forces[k * dim * n];
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        local[numbering.component[i] * n + numbering.shape[i]] = u[dofs[i]];
+    }
+    const unsigned int columns = dim * part.cells.size();
+    multiply("T", n_rows, columns, n, D, n, part.forces, values);
+    for (unsigned int k = 0; k < part.cells.size(); ++k)
+      part.energies.push_back(
+          strains_to_stresses(part.maps[k], &values[std::size_t(k) * dim * n_rows]));
+    multiply("N", n, columns, n_rows, D, n, values, part.forces);
+  }
+
+  void add(const Part<dim> &part, InternalForces &sum) const
+  {
+    const std::size_t n = table.n_shapes;
+    for (unsigned int k = 0; k < part.cells.size(); ++k)
+    {
+      const auto dofs = space.cell_dofs(part.cells[k]);
+      const double *const local = &part.forces[k * dim * n];
+      sum.energy_product += part.energies[k];
       for (unsigned int i = 0; i < dofs.size(); ++i)
         sum.forces[dofs[i]] += local[numbering.component[i] * n + numbering.shape[i]];
     }
-    cells.clear();
-    maps.clear();
-    coefficients.clear();
   }
 
 private:
@@ -135,9 +145,6 @@ private:
   const LocalNumbering &numbering;
   const unsigned int n_rows; ///< of the table of derivatives, points times dim
   FullMatrix<double> modes;  ///< that are projected away
-  std::vector<unsigned int> cells;
-  std::vector<CellMap<dim>> maps;
-  std::vector<double> coefficients, values; ///< by columns: cell after cell, component by component
 };
 } // namespace
 
@@ -191,7 +198,8 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
 {
   InternalForces result;
   result.forces.reinit(space.n_dofs());
-  std::map<std::array<unsigned int, 3>, Batch<dim>> batches;
+  std::map<std::array<unsigned int, 3>, std::pair<Batch<dim>, Part<dim>>> batches;
+  std::vector<std::pair<const Batch<dim> *, Part<dim>>> parts; // in the order of the sum
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
     {
@@ -205,15 +213,25 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
                              tables.gradients(p, n_gauss), u, result);
         continue;
       }
-      const auto batch =
-          batches
-              .try_emplace({{cell->material_id(), p, n_gauss}}, scene.material_of(cell), space,
-                           tables, p, n_gauss, volume)
-              .first;
-      batch->second.add(index, map, u, result);
+      const std::array<unsigned int, 3> key{{cell->material_id(), p, n_gauss}};
+      auto found = batches.find(key);
+      if (found == batches.end())
+        found = batches
+                    .emplace(key, std::make_pair(Batch<dim>(scene.material_of(cell), space, tables,
+                                                            p, n_gauss, volume),
+                                                 Part<dim>()))
+                    .first;
+      auto &[batch, part] = found->second;
+      part.cells.push_back(index);
+      part.maps.push_back(map);
+      if (part.cells.size() == 64)
+        parts.emplace_back(&batch, std::exchange(part, {}));
     }
-  for (auto &batch : batches)
-    batch.second.flush(result);
+  for (auto &[key, last] : batches)
+    parts.emplace_back(&last.first, std::move(last.second));
+  for_all(parts.size(), 1, [&](const unsigned int k) { parts[k].first->set(u, parts[k].second); });
+  for (const auto &[batch, part] : parts)
+    batch->add(part, result);
   result.energy_product += add_spring_forces(spring_faces(scene, space, tables), u, result.forces);
   return result;
 }

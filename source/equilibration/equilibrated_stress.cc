@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/team.h>
 #include <hpvi/discretisation/springs.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/equilibration/patches.h>
 #include <hpvi/equilibration/traction_system.h>
 
 #include <algorithm>
@@ -24,6 +26,49 @@ void add_spring_squares(const Solution<2> &start, const Solution<2> &measured,
   for (const SpringFace &face :
        spring_faces(measured.scene, measured.displacement_space, measured.tables))
     squares[face.cell] += add_spring_forces({face}, change, forces);
+}
+
+/** The parts of a hat function: cell, and number in it. */
+using Hats = std::vector<std::pair<unsigned int, unsigned int>>;
+
+/** Not by number: patches of one shape share their factor. */
+Hats by_shape(Hats hats, const VertexPatches &vertex_patches)
+{
+  std::stable_sort(hats.begin(), hats.end(),
+                   [&](const auto &a, const auto &b)
+                   {
+                     return vertex_patches.cells()[a.first].hats[a.second].values >
+                            vertex_patches.cells()[b.first].hats[b.second].values;
+                   });
+  return hats;
+}
+
+/** Those along which a hat function does not vanish, with their @p sums. */
+std::vector<PatchEdge> edges_of(const Hats &hats, const VertexPatches &vertex_patches,
+                                const BoundaryTractions &boundary,
+                                std::vector<std::array<std::vector<double>, 2>> &sums)
+{
+  std::vector<PatchEdge> result;
+  for (const auto &[index, hat] : hats)
+  {
+    const VertexPatches::Cell &cell = vertex_patches.cells()[index];
+    const std::array<double, 4> &psi = cell.hats[hat].values;
+    for (unsigned int face = 0; face < 4; ++face)
+    {
+      const unsigned int e = cell.edges[face];
+      const bool reversed = cell.parts[face] == reversed_edge;
+      const bool first = psi[GeometryInfo<2>::face_to_cell_vertices(face, reversed)] != 0;
+      const StressEdge &edge = vertex_patches.edges()[e];
+      if ((first || psi[GeometryInfo<2>::face_to_cell_vertices(face, !reversed)] !=
+                        0) && // linear along an edge that hangs here
+          std::none_of(result.begin(), result.end(),
+                       [&](const PatchEdge &other) { return other.index == e; }))
+        result.push_back({e, &edge,
+                          edge.at_boundary() ? &boundary.of_hats(e)[first ? 0 : 1] : nullptr,
+                          &sums[e]});
+    }
+  }
+  return result;
 }
 } // namespace
 
@@ -110,48 +155,38 @@ void EquilibratedStress::set_tractions(const bool has_long_cells)
   defect = defect == 0 ? 0. : defect / largest;
 }
 
+/** Some hundred at a time, which is enough for all threads and little to keep. */
 void EquilibratedStress::solve_patches()
 {
-  std::vector<PatchCell> patch;
-  std::vector<PatchEdge> edges;
-  for (const auto &[vertex, hats] : vertex_patches.patches())
+  constexpr unsigned int at_once = 512;
+  const auto &all = vertex_patches.patches();
+  std::vector<Patch> patches;
+  std::vector<const Hats *> hats;
+  for (auto vertex = all.begin(); vertex != all.end();)
   {
-    patch.clear();
-    edges.clear();
-    auto ordered = hats; // by shape, not by number: patches of one shape share their factor
-    std::stable_sort(ordered.begin(), ordered.end(),
-                     [&](const auto &a, const auto &b)
-                     {
-                       return vertex_patches.cells()[a.first].hats[a.second].values >
-                              vertex_patches.cells()[b.first].hats[b.second].values;
-                     });
-    for (const auto &[index, hat] : ordered)
+    patches.clear();
+    hats.clear();
+    for (; vertex != all.end() && patches.size() < at_once; ++vertex)
     {
-      patch.push_back(patch_cell(index, hat));
-      const VertexPatches::Cell &cell = vertex_patches.cells()[index];
-      const std::array<double, 4> &psi = cell.hats[hat].values;
-      for (unsigned int face = 0; face < 4; ++face)
+      patches.push_back({vertex->first, {}, {}});
+      hats.push_back(&vertex->second);
+    }
+    for_all(patches.size(), 16,
+            [&](const unsigned int k)
+            {
+              const Hats ordered = by_shape(*hats[k], vertex_patches);
+              for (const auto &[cell, hat] : ordered)
+                patches[k].cells.push_back(patch_cell(cell, hat));
+              patches[k].edges = edges_of(ordered, vertex_patches, boundary, sums);
+            });
+    const std::vector<PatchDefect> missed = hpvi::solve_patches(patches, cache);
+    for (unsigned int k = 0; k < patches.size(); ++k)
+      if (const double most = std::max(missed[k].equilibrium, missed[k].corners); !(most <= defect))
       {
-        const unsigned int e = cell.edges[face];
-        const bool reversed = cell.parts[face] == reversed_edge;
-        const bool first = psi[GeometryInfo<2>::face_to_cell_vertices(face, reversed)] != 0;
-        const StressEdge &edge = vertex_patches.edges()[e];
-        if ((first || psi[GeometryInfo<2>::face_to_cell_vertices(face, !reversed)] !=
-                          0) && // linear along an edge that hangs here
-            std::none_of(edges.begin(), edges.end(),
-                         [&](const PatchEdge &other) { return other.index == e; }))
-          edges.push_back({e, &edge,
-                           edge.at_boundary() ? &boundary.of_hats(e)[first ? 0 : 1] : nullptr,
-                           &sums[e]});
+        defect = most;
+        worst_vertex = patches[k].vertex;
+        is_worst_in_corners = missed[k].corners > missed[k].equilibrium;
       }
-    }
-    const PatchDefect missed = solve_patch(patch, edges, cache);
-    if (const double most = std::max(missed.equilibrium, missed.corners); !(most <= defect))
-    {
-      defect = most;
-      worst_vertex = vertex;
-      is_worst_in_corners = missed.corners > missed.equilibrium;
-    }
   }
 }
 
@@ -239,8 +274,10 @@ void EquilibratedStress::measure()
 {
   if (plain_stresses)
     squares = plain_stresses->squares([&](const unsigned int cell) { return data_of(cell); });
-  for (unsigned int cell = 0; macro_stresses && cell < squares.size(); ++cell)
-    squares[cell] = macro_stresses->square(cell, macro_tractions(cell));
+  else
+    for_all(squares.size(), 8,
+            [&](const unsigned int cell)
+            { squares[cell] = macro_stresses->square(cell, macro_tractions(cell)); });
 }
 
 void EquilibratedStress::measure_from(const Solution<2> &other)

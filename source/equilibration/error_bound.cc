@@ -18,6 +18,7 @@
 #include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/team.h>
 #include <hpvi/base/text.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
@@ -345,20 +346,28 @@ try
   result.own_stress = own_stress;
   const auto made = nearest_stress(solution, discretisation, std::move(factor), result.own_stress);
   const EquilibratedStress &stress = made->stress;
-  const ContactCorrection<2> correction(solution, discretisation, made->friction, made->pressure,
-                                        &bubbles);
-  const DataError data(solution, stress);
+  const auto correct = [&](EdgeBubbles<2> *const with, std::optional<ContactCorrection<2>> &result)
+  { result.emplace(solution, discretisation, made->friction, made->pressure, with); };
+  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
+  std::optional<ContactCorrection<2>> corrected, within_space;
+  std::optional<DataError> missed;
+  for_all(is_moved ? 3 : 2, 1,
+          [&](const unsigned int k)
+          {
+            if (k == 0)
+              correct(&bubbles, corrected);
+            else if (k == 1)
+              missed.emplace(solution, stress);
+            else
+              correct(nullptr, within_space);
+          });
+  const ContactCorrection<2> &correction = *corrected;
+  const DataError &data = *missed;
   set_squares(result, solution, stress, correction, data);
   set_norms(result, stress, correction, data);
   set_radius(result, stress, correction, data);
   result.tractions = edge_tractions(stress);
-  if (solution.scene.has_unilateral_contact() || solution.scene.has_pairs())
-    set_energy(
-        result, solution, discretisation, stress,
-        ContactCorrection<2>(solution, discretisation, made->friction, made->pressure, nullptr),
-        data);
-  else
-    set_energy(result, solution, discretisation, stress, correction, data);
+  set_energy(result, solution, discretisation, stress, is_moved ? *within_space : correction, data);
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, correction, data);
   if (result.flaw.empty())

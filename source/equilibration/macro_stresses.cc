@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/common_table.h>
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/equilibration/macro_stresses.h>
@@ -198,18 +199,9 @@ std::array<double, 2> missed(const Fields &fields, const TriangleTable &table,
   }
   return result;
 }
-} // namespace
-
-MacroStresses::MacroStresses(const Solution<2> &solution, const VertexPatches &patches,
-                             EquilibrationCache &cache)
-    : solution(solution), patches(patches), cache(cache), cells(patches.cells().size())
-{
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
-    set_cell(cell);
-}
 
 /** Congruent cells of one material share an element. */
-const MacroStressElement &MacroStresses::element(const unsigned int cell) const
+EquilibrationCache::Signature class_of(const VertexPatches &patches, const unsigned int cell)
 {
   const auto &iterator = patches.cells()[cell].iterator;
   unsigned int m = 0;
@@ -223,18 +215,38 @@ const MacroStressElement &MacroStresses::element(const unsigned int cell) const
   for (const Point<2> &v : vertices)
     for (unsigned int d = 0; d < 2; ++d)
       key.push_back(std::lround((v[d] - vertices[0][d]) / size * 1e11));
-  auto &[result, is_used] = cache.macro_elements[key];
-  is_used = true;
-  if (!result)
-    result = std::make_unique<const MacroStressElement>(cache.triangles.triangle(m - 1), vertices,
-                                                        solution.scene.material_of(iterator));
-  return *result;
+  return key;
+}
+} // namespace
+
+MacroStresses::MacroStresses(const Solution<2> &solution, const VertexPatches &patches,
+                             EquilibrationCache &cache)
+    : solution(solution), patches(patches), cache(cache), cells(patches.cells().size())
+{
+  std::vector<EquilibrationCache::Signature> keys(cells.size());
+  for_all(cells.size(), 32, [&](const unsigned int cell) { keys[cell] = class_of(patches, cell); });
+  using Kept = decltype(cache.macro_elements)::mapped_type;
+  const auto elements = ordered_values(
+      cache.macro_elements, keys,
+      [&](const unsigned int cell)
+      {
+        const auto &iterator = patches.cells()[cell].iterator;
+        return Kept{std::make_unique<const MacroStressElement>(
+                        cache.triangles.triangle(keys[cell][0] - 1), map_of<2>(iterator).vertices(),
+                        solution.scene.material_of(iterator)),
+                    false};
+      });
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+  {
+    elements[cell]->is_used = true;
+    cells[cell].element = elements[cell]->value.get();
+  }
+  for_all(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
 }
 
 void MacroStresses::set_cell(const unsigned int index)
 {
   Cell &cell = cells[index];
-  cell.element = &element(index);
   const auto &iterator = patches.cells()[index].iterator;
   const CellMap<2> map = map_of<2>(iterator);
   cell.h = MacroStressElement::size(map.vertices());

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/common_table.h>
 #include <hpvi/equilibration/initial_modes.h>
 #include <hpvi/equilibration/parallelogram_stresses.h>
+#include <hpvi/equilibration/stable_modes.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace hpvi
 {
@@ -17,26 +20,6 @@ std::array<double, 4> bilinear(const std::array<double, 4> &v)
 {
   return {{(v[0] + v[1] + v[2] + v[3]) / 4, (-v[0] + v[1] - v[2] + v[3]) / 4,
            (-v[0] - v[1] + v[2] + v[3]) / 4, (v[0] - v[1] - v[2] + v[3]) / 4}};
-}
-
-/** The stress of a displacement whose discrete equations know but the projection of div u (Volume::projected). */
-Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, const Tensor<2, 2> &B,
-                                      const Material &material)
-{
-  const HookesLaw<2> law(material);
-  const Tensor<2, 2> to_trace = transpose(B) * B, unit = invert(to_trace);
-  for (unsigned int i = 0; i < sigma.n; ++i)
-    for (unsigned int j = 0; j < sigma.n; ++j)
-      if (i + j >= p)
-      {
-        const double trace = sigma(0, i, j) * to_trace[0][0] + sigma(1, i, j) * to_trace[1][1] +
-                             2 * sigma(2, i, j) * to_trace[0][1];
-        const double pressure = law.volumetric_stress(trace);
-        sigma(0, i, j) -= pressure * unit[0][0];
-        sigma(1, i, j) -= pressure * unit[1][1];
-        sigma(2, i, j) -= pressure * unit[0][1];
-      }
-  return sigma;
 }
 } // namespace
 
@@ -56,31 +39,46 @@ Tensor<2, 2> ParallelogramStresses::frame(const unsigned int cell) const
   return J / std::sqrt(determinant(J));
 }
 
+/** Elements are found in order, for the first cell of each class makes its element; what is long is done by all threads. */
 void ParallelogramStresses::set_cells(const std::vector<unsigned int> &marked)
 {
   cells.resize(marked.size());
-  for (unsigned int index = 0; index < cells.size(); ++index)
+  std::vector<EquilibrationCache::Signature> keys(cells.size());
+  const auto place = [&](const unsigned int index)
   {
     Cell &cell = cells[index];
     const auto &iterator = patches.cells()[index].iterator;
-    const CellMap<2> map = map_of<2>(iterator);
     cell.B = frame(index);
-    cell.h = std::sqrt(determinant(map.jacobian({0.5, 0.5}))) / 2;
+    cell.h = std::sqrt(determinant(map_of<2>(iterator).jacobian({0.5, 0.5}))) / 2;
     unsigned int m = 0;
     for (const unsigned int edge : patches.cells()[index].edges)
       m = std::max(m, patches.edges()[edge].degree);
-    EquilibrationCache::Signature key = {m, iterator->material_id(), marked[index]};
+    keys[index] = {m, iterator->material_id(), marked[index]};
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        key.push_back(std::lround(1e11 * cell.B[i][j]));
-    auto &element = cache.elements[key];
-    if (!element)
-      element = std::make_unique<const StressElement>(
-          m, cell.B, solution.scene.material_of(iterator), marked[index]);
-    cell.element = element.get();
+        keys[index].push_back(std::lround(1e11 * cell.B[i][j]));
+  };
+  for_all(cells.size(), 32, place);
+  const auto elements =
+      ordered_values(cache.elements, keys,
+                     [&](const unsigned int index)
+                     {
+                       const Material &material =
+                           solution.scene.material_of(patches.cells()[index].iterator);
+                       return std::make_unique<const StressElement>(keys[index][0], cells[index].B,
+                                                                    material, marked[index]);
+                     });
+  const auto fill = [&](const unsigned int index)
+  {
+    cells[index].element = elements[index]->get();
     set_stress(index, solution);
     if (solution.scene.has_body_force())
       set_force(index);
+  };
+  for_all(cells.size(), 16, fill);
+  for (unsigned int index = 0; index < cells.size(); ++index)
+  {
+    Cell &cell = cells[index];
     Batch &batch = batches[cell.element];
     cell.place = batch.cells.size();
     cell.first_hat = batch.n_hats;
@@ -263,28 +261,38 @@ void ParallelogramStresses::add_to_hats(const std::vector<unsigned int> &some_ce
 void ParallelogramStresses::set_data()
 {
   constexpr unsigned int at_once = 64;
-  std::vector<unsigned int> some_cells;
-  std::vector<double> r;
+  std::vector<std::tuple<const StressElement *, Batch *, unsigned int>>
+      parts; // and their first cells
   for (auto &[element, batch] : batches)
   {
-    const std::size_t n = element->n_data, column = n * n_bilinear;
-    batch.r.reserve(n * batch.cells.size());
-    batch.gradients.reserve(std::size_t(element->n_edges) * batch.n_hats);
-    batch.defects.reserve(std::size_t(element->n_conditions()) * batch.n_hats);
+    batch.r.resize(std::size_t(element->n_data) * batch.cells.size());
+    batch.gradients.resize(std::size_t(element->n_edges) * batch.n_hats);
+    batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_hats);
     for (unsigned int first = 0; first < batch.cells.size(); first += at_once)
-    {
-      const auto begin = batch.cells.begin() + first;
-      some_cells.assign(begin, begin + std::min<std::size_t>(at_once, batch.cells.end() - begin));
-      r.resize(column * some_cells.size());
-      for (unsigned int k = 0; k < some_cells.size(); ++k)
-      {
-        set_data(some_cells[k], &r[column * k]);
-        batch.r.insert(batch.r.end(), &r[column * k], &r[column * k] + n);
-      }
-      add_to_hats(some_cells, element->edge_energy(), r, batch.gradients);
-      add_to_hats(some_cells, element->conditions(), r, batch.defects);
-    }
+      parts.emplace_back(element, &batch, first);
   }
+  const auto set_part = [&](const unsigned int number)
+  {
+    const auto &[element, batch, first] = parts[number];
+    const std::size_t n = element->n_data, column = n * n_bilinear;
+    const auto begin = batch->cells.begin() + first;
+    const std::vector<unsigned int> some_cells(
+        begin, begin + std::min<std::size_t>(at_once, batch->cells.end() - begin));
+    std::vector<double> r(column * some_cells.size()), by_hats;
+    for (unsigned int k = 0; k < some_cells.size(); ++k)
+    {
+      set_data(some_cells[k], &r[column * k]);
+      std::copy(&r[column * k], &r[column * k] + n, &batch->r[n * (first + k)]);
+    }
+    const std::size_t first_hat = cells[some_cells[0]].first_hat;
+    add_to_hats(some_cells, element->edge_energy(), r, by_hats);
+    std::copy(by_hats.begin(), by_hats.end(), &batch->gradients[first_hat * element->n_edges]);
+    by_hats.clear();
+    add_to_hats(some_cells, element->conditions(), r, by_hats);
+    std::copy(by_hats.begin(), by_hats.end(),
+              batch->defects.begin() + first_hat * element->n_conditions());
+  };
+  for_all(parts.size(), 1, set_part);
 }
 
 /** Of sigma with divergence -F. */
@@ -347,18 +355,23 @@ std::vector<double> ParallelogramStresses::data(const unsigned int index) const
 
 void ParallelogramStresses::measure_from(const Solution<2> &other)
 {
-  for (unsigned int index = 0; index < cells.size(); ++index)
-  {
-    set_stress(index, other);
-    set_own_data(index);
-  }
+  for_all(cells.size(), 16,
+          [&](const unsigned int index)
+          {
+            set_stress(index, other);
+            set_own_data(index);
+          });
 }
 
 std::vector<double> ParallelogramStresses::squares(const WithTractions &with_tractions) const
 {
   std::vector<double> result(cells.size());
-  for (const auto &[element, batch] : batches)
+  std::vector<const std::pair<const StressElement *const, Batch> *> all;
+  for (const auto &of_element : batches)
+    all.push_back(&of_element);
+  const auto measure = [&](const unsigned int number)
   {
+    const auto &[element, batch] = *all[number];
     std::vector<double> R;
     R.reserve(std::size_t(element->n_data) * batch.cells.size());
     for (const unsigned int index : batch.cells)
@@ -373,7 +386,8 @@ std::vector<double> ParallelogramStresses::squares(const WithTractions &with_tra
       result[batch.cells[k]] =
           std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
     }
-  }
+  };
+  for_all(all.size(), 1, measure);
   return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/equilibration/patches.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +17,11 @@ constexpr unsigned int none = numbers::invalid_unsigned_int;
 /** Pivots of conditions that others imply, relative to the largest. */
 constexpr double dependent = 1e-11;
 
-/** One component of the traction on an edge as data of a cell: `r_row += weight R t`. */
-struct Block
-{
-  unsigned int row;                 ///< among the data of the edges
-  unsigned int n;                   ///< coefficients
-  double weight;                    ///< of the component in the direction of the data
-  const FullMatrix<double> *R;      ///< to a half of the edge; null: the whole
-  unsigned int unknown;             ///< the first, or none
-  const std::vector<double> *known; ///< coefficients, where there is no unknown
-};
+} // namespace
 
 /** `target += scale B' data` with the part of B that is a block. */
-void add_transposed(const Block &b, const double *const data, const double scale,
-                    double *const target)
+void PatchProblem::add_transposed(const Block &b, const double *const data, const double scale,
+                                  double *const target)
 {
   for (unsigned int i = 0; i < b.n; ++i)
   {
@@ -41,52 +32,20 @@ void add_transposed(const Block &b, const double *const data, const double scale
   }
 }
 
-class PatchProblem
+PatchProblem::PatchProblem(const Patch &patch, EquilibrationCache &cache)
+    : cells(patch.cells), edges(patch.edges), cache(cache), first_unknown(edges.size())
 {
-public:
-  PatchProblem(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
-               EquilibrationCache &cache)
-      : cells(cells), edges(edges), cache(cache), first_unknown(edges.size())
-  {
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      for (unsigned int c = 0; c < 2; ++c)
-      {
-        const StressEdge::Component &component = edges[e].edge->components[c];
-        first_unknown[e][c] = component.is_unknown ? n : none;
-        n += component.is_unknown ? component.n : 0;
-      }
-    blocks.reserve(cells.size());
-    for (const PatchCell &cell : cells)
-      blocks.push_back(blocks_of(cell));
-  }
-
-  PatchDefect solve();
-
-private:
-  unsigned int place(unsigned int edge) const;
-  std::vector<Block> blocks_of(const PatchCell &cell) const;
-  void add_places(const PatchCell &cell, EquilibrationCache::Signature &key) const;
-  EquilibrationCache::Signature signature() const;
-  EquilibrationCache::Signature form(const std::vector<unsigned int> &present) const;
-  void factorise(PatchFactor &factor) const;
-  std::vector<unsigned int> independent_conditions(const PatchFactor &factor) const;
-  bool choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const;
-  void add_energy(const PatchCell &cell, const std::vector<Block> &parts, double scale,
-                  PatchFactor &factor) const;
-  void add_conditions(const PatchCell &cell, const std::vector<Block> &parts, unsigned int first,
-                      PatchFactor &factor) const;
-  void add_data(const PatchCell &cell, const std::vector<Block> &parts, double scale,
-                std::vector<double> &g, std::vector<double> &right) const;
-  std::vector<double> minimise(const PatchFactor &factor, std::vector<double> x,
-                               std::vector<double> &right) const;
-
-  const std::vector<PatchCell> &cells;
-  const std::vector<PatchEdge> &edges;
-  EquilibrationCache &cache;
-  std::vector<std::array<unsigned int, 2>> first_unknown; ///< by edge of the patch and component
-  std::vector<std::vector<Block>> blocks;                 ///< by cell
-  unsigned int n = 0;
-};
+  for (unsigned int e = 0; e < edges.size(); ++e)
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      const StressEdge::Component &component = edges[e].edge->components[c];
+      first_unknown[e][c] = component.is_unknown ? n : none;
+      n += component.is_unknown ? component.n : 0;
+    }
+  blocks.reserve(cells.size());
+  for (const PatchCell &cell : cells)
+    blocks.push_back(blocks_of(cell));
+}
 
 /** Of an edge of the mesh among those of the patch, or none. */
 unsigned int PatchProblem::place(const unsigned int edge) const
@@ -97,7 +56,7 @@ unsigned int PatchProblem::place(const unsigned int edge) const
   return none;
 }
 
-std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
+std::vector<PatchProblem::Block> PatchProblem::blocks_of(const PatchCell &cell) const
 {
   std::vector<Block> result;
   result.reserve(8);
@@ -206,10 +165,9 @@ void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block
   }
 }
 
-/** What tells which conditions imply the others: the signature without degrees, those of p = 2 excepted. */
-EquilibrationCache::Signature PatchProblem::form(const std::vector<unsigned int> &present) const
+EquilibrationCache::Signature PatchProblem::form(const PatchFactor &factor) const
 {
-  EquilibrationCache::Signature key(present.begin(), present.end());
+  EquilibrationCache::Signature key(factor.present.begin(), factor.present.end());
   for (const PatchEdge &edge : edges)
     for (const StressEdge::Component &component : edge.edge->components)
       key.push_back(component.is_unknown ? -1 - long(std::min(component.n, 4U)) : -1);
@@ -218,7 +176,6 @@ EquilibrationCache::Signature PatchProblem::form(const std::vector<unsigned int>
   return key;
 }
 
-/** Places of as many conditions as `C'H^-1 C` has rank: patches have motions and corners in common. */
 std::vector<unsigned int> PatchProblem::independent_conditions(const PatchFactor &factor) const
 {
   const unsigned int m = factor.present.size();
@@ -228,7 +185,6 @@ std::vector<unsigned int> PatchProblem::independent_conditions(const PatchFactor
   return PivotedCholesky(m, S, dependent).order;
 }
 
-/** `W = L^-1 C` of some conditions and the factor of W'W; false: they depend on one another. */
 bool PatchProblem::choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const
 {
   const unsigned int rank = conditions.size();
@@ -254,8 +210,7 @@ bool PatchProblem::choose(const std::vector<unsigned int> &conditions, PatchFact
   return least * least > 0.1 * dependent * largest * largest;
 }
 
-/** H and C, and the conditions that imply all. */
-void PatchProblem::factorise(PatchFactor &factor) const
+void PatchProblem::set_matrices(PatchFactor &factor) const
 {
   factor.H.assign(std::size_t(n) * n, 0.);
   unsigned int first = 0;
@@ -270,11 +225,12 @@ void PatchProblem::factorise(PatchFactor &factor) const
     first += cells[k].element.n_conditions;
   }
   require_regular(cholesky(n, factor.H.data(), n), tractions);
-  const auto [known, is_new] = cache.independent_conditions.try_emplace(form(factor.present));
-  if (!is_new && choose(known->second, factor))
-    return;
-  known->second = independent_conditions(factor);
-  require_regular(choose(known->second, factor), tractions);
+}
+
+void PatchProblem::renew(std::vector<unsigned int> &conditions, PatchFactor &factor) const
+{
+  conditions = independent_conditions(factor);
+  require_regular(choose(conditions, factor), tractions);
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
@@ -338,26 +294,13 @@ std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vecto
   return x;
 }
 
-PatchDefect PatchProblem::solve()
+PatchDefect PatchProblem::solve(const PatchFactor &factor)
 {
-  const auto [found, is_new] = cache.patches.try_emplace(signature());
-  found->second.is_used = true;
-  PatchFactor &factor = found->second.value;
-  if (is_new)
-    factorise(factor);
   std::vector<double> g(n), right;
   right.reserve(8 * cells.size());
   for (unsigned int k = 0; k < cells.size(); ++k)
     add_data(cells[k], blocks[k], cells[k].area / cells[0].area, g, right);
-  const std::vector<double> x = minimise(factor, std::move(g), right);
-  for (unsigned int e = 0; e < edges.size(); ++e)
-    for (unsigned int c = 0; c < 2; ++c)
-    {
-      const unsigned int first = first_unknown[e][c];
-      std::vector<double> &sum = (*edges[e].sum)[c];
-      for (unsigned int i = 0; first != none && i < sum.size(); ++i)
-        sum[i] += x[first + i];
-    }
+  x = minimise(factor, std::move(g), right);
   PatchDefect result;
   auto value = right.begin();
   for (const PatchCell &cell : cells)
@@ -368,7 +311,18 @@ PatchDefect PatchProblem::solve()
     }
   return result;
 }
-} // namespace
+
+void PatchProblem::add_tractions() const
+{
+  for (unsigned int e = 0; e < edges.size(); ++e)
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      const unsigned int first = first_unknown[e][c];
+      std::vector<double> &sum = (*edges[e].sum)[c];
+      for (unsigned int i = 0; first != none && i < sum.size(); ++i)
+        sum[i] += x[first + i];
+    }
+}
 
 TractionEnergy traction_energy(const StressElement &element)
 {
@@ -387,11 +341,5 @@ TractionEnergy traction_energy(const MacroStressElement &element)
           MacroStressElement::n_conditions,
           {element.edge_energy().data(), element.n_edges},
           {element.conditions().data(), element.n_edges}};
-}
-
-PatchDefect solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
-                        EquilibrationCache &cache)
-{
-  return PatchProblem(cells, edges, cache).solve();
 }
 } // namespace hpvi

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/base/team.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/body/plates.h>
@@ -12,8 +13,11 @@
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <vector>
 
 namespace hpvi
 {
@@ -127,19 +131,13 @@ Equilibrium<dim> balance_of(const Resultants<dim> &sums, const Scene<dim> &scene
   }
   return result;
 }
-} // namespace
 
-namespace
-{
 /** What an axisymmetric body has not is no zero. */
 void forget_radial(BoundaryForce<2> &force)
 {
   force.force[0] = force.moment = std::numeric_limits<double>::quiet_NaN();
 }
-} // namespace
 
-namespace
-{
 /** What is loaded where: tractions boundary by boundary, and of @p loads what they leave, which is the body force. */
 template <int dim>
 std::vector<BoundaryForce<dim>>
@@ -248,21 +246,45 @@ void carry_to_masters(const AffineConstraints<double> &hanging, Vector<double> &
       forces[dof] = 0.;
     }
 }
+/** What balances at nodes: forces of the strained body, and how hanging nodes depend on others. */
+struct Balance
+{
+  Vector<double> internal;
+  AffineConstraints<double> hanging;
+
+  /** @p beside: what may be done meanwhile. */
+  template <int dim>
+  explicit Balance(
+      const Solution<dim> &of, const std::function<void()> &beside = []() {})
+  {
+    const DisplacementSpace<dim> &space = of.displacement_space;
+    const auto part = [&](const unsigned int k)
+    {
+      if (k == 0)
+      {
+        constrain_hanging_nodes(space.numbering(), of.tables, hanging);
+        hanging.close();
+      }
+      else if (k == 1)
+        internal = internal_forces(of.scene, space, of.tables, of.u).forces;
+      else
+        beside();
+    };
+    for_all(3, 1, part);
+  }
+};
+
 /** `a(u_N, v_i) + b(v_i, z_N) - L(v_i)`: what supports do, on nodes that do not hang. */
 template <int dim>
-Vector<double> support_reactions(const Solution<dim> &solution, const Vector<double> &loads)
+Vector<double> support_reactions(const Solution<dim> &solution, const Vector<double> &loads,
+                                 const Balance &balance)
 {
-  const DisplacementSpace<dim> &space = solution.displacement_space;
-  const ShapeTables<dim> &tables = solution.tables;
-  Vector<double> reactions = internal_forces(solution.scene, space, tables, solution.u).forces;
+  Vector<double> reactions = balance.internal;
   reactions -= loads;
   for (const BoundaryCondition<dim> &boundary : solution.scene.boundaries)
     if (boundary.has_contact() && solution.z.size() > 0)
       reactions += solution.spaces->contact_operator.forces(solution.z, boundary.id);
-  AffineConstraints<double> hanging;
-  constrain_hanging_nodes(space.numbering(), tables, hanging);
-  hanging.close();
-  carry_to_masters(hanging, reactions);
+  carry_to_masters(balance.hanging, reactions);
   return reactions;
 }
 } // namespace
@@ -271,7 +293,7 @@ template <int dim>
 ReactionWork reaction_work(const Solution<dim> &solution, const Vector<double> &loads,
                            const Vector<double> &v)
 {
-  const Vector<double> reactions = support_reactions(solution, loads);
+  const Vector<double> reactions = support_reactions(solution, loads, Balance(solution));
   ReactionWork work;
   for (const SupportedNode<dim> &node :
        supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
@@ -296,7 +318,15 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
   const ShapeTables<dim> &tables = solution.tables;
-  const Nodes<dim> nodes(space, solution.scene.geometry);
+  std::optional<Nodes<dim>> all_nodes;
+  std::vector<SupportedNode<dim>> supported;
+  const Balance balance(solution,
+                        [&]()
+                        {
+                          all_nodes.emplace(space, solution.scene.geometry);
+                          supported = supported_nodes(solution.scene, space.numbering(), tables);
+                        });
+  const Nodes<dim> &nodes = *all_nodes;
   NodalForces<dim> result;
   // What presses a plate is the force that the plate exerts, and initial strains balance themselves.
   Vector<double> loads = system.loads(), reacting(loads);
@@ -341,8 +371,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
         }
     }
 
-  const Vector<double> reactions = support_reactions(solution, reacting);
-  const auto supported = supported_nodes(solution.scene, space.numbering(), tables);
+  const Vector<double> reactions = support_reactions(solution, reacting, balance);
   for (const Plate &plate : plates_of(solution.scene, supported))
   {
     const auto q = plate.amounts(solution.u);

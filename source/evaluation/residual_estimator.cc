@@ -15,6 +15,7 @@
 // practice: where $p$ is high the indicator overestimates, by a factor that grows with $p$.
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/base/team.h>
 #include <hpvi/body/load_quadrature.h>
 #include <hpvi/body/second_derivatives.h>
 #include <hpvi/evaluation/contact_residuals.h>
@@ -46,7 +47,15 @@ public:
 private:
   void add_volume(const Cell &cell);
   bool sees_jump(const Cell &cell, unsigned int face) const;
-  void add_jump(const Cell &cell, unsigned int face);
+  double jump(const Cell &cell, unsigned int face) const;
+  void add_jump(const Cell &cell, const Cell &neighbor, double square)
+  {
+    const unsigned int one = cell->active_cell_index(), other = neighbor->active_cell_index();
+    const double shared = 2 / (1 / softness[one] + 1 / softness[other]);
+    for (const Cell &side : {cell, neighbor})
+      if (const unsigned int own = side->active_cell_index(); side->is_locally_owned())
+        result.jumps[own] += sizes[own] / degrees[own] * shared * square;
+  }
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const FieldFace<dim> &face);
   void add_opposite(const FieldFace<dim> &face);
@@ -57,13 +66,11 @@ private:
     { return tractions(cell, table, normals); };
   }
 
-  /** Outer normals and weights times ds at the points of a table on a face. */
-  struct FacePoints
+  FacePoints<dim> face_points(const Cell &cell, const unsigned int face,
+                              const ShapeTable<dim> &table) const
   {
-    std::vector<Tensor<1, dim>> normals;
-    std::vector<double> weights;
-  };
-  FacePoints face_points(const Cell &cell, unsigned int face, const ShapeTable<dim> &table) const;
+    return hpvi::face_points(maps[cell->active_cell_index()], face, table, scene.is_axisymmetric());
+  }
   std::vector<Tensor<1, dim>> tractions(const Cell &cell, const ShapeTable<dim> &table,
                                         const std::vector<Tensor<1, dim>> &normals) const;
   /** Of u_N in an axisymmetric body, where they strain, else none. */
@@ -162,26 +169,6 @@ void Residuals<dim>::add_volume(const Cell &cell)
   result.volume[index] = sizes[index] / degrees[index] * weight(index) * sum;
 }
 
-template <int dim>
-typename Residuals<dim>::FacePoints Residuals<dim>::face_points(const Cell &cell,
-                                                                const unsigned int face,
-                                                                const ShapeTable<dim> &table) const
-{
-  const CellMap<dim> &map = maps[cell->active_cell_index()];
-  FacePoints result;
-  for (unsigned int q = 0; q < table.points.size(); ++q)
-  {
-    const bool is_known = q > 0 && map.is_affine();
-    const double measure =
-        is_known ? result.weights[0] / table.weights[0] : map.face_measure(face, table.points[q]);
-    result.normals.push_back(is_known ? result.normals[0] : map.normal(face, table.points[q]));
-    result.weights.push_back(table.weights[q] * measure);
-  }
-  for (unsigned int q = 0; q < result.weights.size() && scene.is_axisymmetric(); ++q)
-    result.weights[q] *= full_turn(map.point(table.points[q]));
-  return result;
-}
-
 // @sect3{Tractions}
 //
 // All residuals on edges are differences of tractions, $\sigma(u_N)\nu$ on one side against
@@ -231,8 +218,9 @@ bool Residuals<dim>::sees_jump(const Cell &cell, const unsigned int face) const
           cell->active_cell_index() < neighbor->active_cell_index());
 }
 
+/** Its square over the face. */
 template <int dim>
-void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
+double Residuals<dim>::jump(const Cell &cell, const unsigned int face) const
 {
   const Cell neighbor = cell->neighbor(face);
   const unsigned int index = cell->active_cell_index(), other = neighbor->active_cell_index();
@@ -249,7 +237,7 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
     other_table = &tables.face(degrees[other], cell->neighbor_of_neighbor(face), n_gauss);
 
   const ShapeTable<dim> &table = tables.face(degrees[index], face, n_gauss);
-  const FacePoints points = face_points(cell, face, table);
+  const FacePoints<dim> points = face_points(cell, face, table);
   const std::vector<unsigned int> places =
       shared_points(maps[index], table, maps[other], *other_table);
   std::vector<Tensor<1, dim>> normals(points.normals.size());
@@ -260,10 +248,7 @@ void Residuals<dim>::add_jump(const Cell &cell, const unsigned int face)
   double sum = 0;
   for (unsigned int q = 0; q < own.size(); ++q)
     sum += points.weights[q] * (0.5 * (own[q] - opposite[places[q]])).norm_square();
-  const double shared = 2 / (1 / softness[index] + 1 / softness[other]);
-  for (const Cell &side : {cell, neighbor})
-    if (const unsigned int own_index = side->active_cell_index(); side->is_locally_owned())
-      result.jumps[own_index] += sizes[own_index] / degrees[own_index] * shared * sum;
+  return sum;
 }
 
 // @sect3{Under loads}
@@ -278,7 +263,7 @@ void Residuals<dim>::add_boundary(const Cell &cell, const unsigned int face)
     return;
   const unsigned int index = cell->active_cell_index();
   const ShapeTable<dim> &table = tables.face(degrees[index], face, degrees[index] + 1);
-  const FacePoints points = face_points(cell, face, table);
+  const FacePoints<dim> points = face_points(cell, face, table);
   const auto own = tractions(cell, table, points.normals);
   const std::vector<double> u = evaluate(table.values, coefficients[index]);
   double sum = 0;
@@ -359,22 +344,30 @@ void Residuals<dim>::add_opposite(const FieldFace<dim> &face)
 template <int dim>
 ErrorEstimate Residuals<dim>::compute()
 {
+  std::vector<Cell> cells; // that this process knows
   for (const Cell &cell : field.dof_handler.active_cell_iterators())
+    if (!cell->is_artificial())
+      cells.push_back(cell);
+  constexpr double unseen = -1;
+  std::vector<std::array<double, GeometryInfo<dim>::faces_per_cell>> jumps(cells.size());
+  const auto look_at = [&](const unsigned int k)
   {
-    if (cell->is_artificial())
-      continue;
+    const Cell &cell = cells[k];
+    jumps[k].fill(unseen);
     if (cell->is_locally_owned())
       add_volume(cell);
     for (const unsigned int face : cell->face_indices())
       if (!cell->at_boundary(face))
-      {
-        if (sees_jump(cell, face))
-          add_jump(cell, face);
-      }
+        jumps[k][face] = sees_jump(cell, face) ? jump(cell, face) : unseen;
       else if (cell->is_locally_owned() &&
                !scene.boundaries[cell->face(face)->boundary_id()].has_contact())
         add_boundary(cell, face);
-  }
+  };
+  for_all(cells.size(), 8, look_at);
+  for (unsigned int k = 0; k < cells.size(); ++k) // in order, for they belong to two cells
+    for (const unsigned int face : cells[k]->face_indices())
+      if (jumps[k][face] != unseen)
+        add_jump(cells[k], cells[k]->neighbor(face), jumps[k][face]);
   for (const FieldFace<dim> &face : field.faces())
     add_contact(face);
   if (scene.has_pairs()) // where edges reach beyond the other body they are free

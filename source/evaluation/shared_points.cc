@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/evaluation/shared_points.h>
+#include <hpvi/scene/scene.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -8,6 +9,24 @@
 namespace hpvi
 {
 using namespace dealii;
+
+template <int dim>
+FacePoints<dim> face_points(const CellMap<dim> &map, const unsigned int face,
+                            const ShapeTable<dim> &table, const bool is_axisymmetric)
+{
+  FacePoints<dim> result;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const bool is_known = q > 0 && map.is_affine();
+    const double measure =
+        is_known ? result.weights[0] / table.weights[0] : map.face_measure(face, table.points[q]);
+    result.normals.push_back(is_known ? result.normals[0] : map.normal(face, table.points[q]));
+    result.weights.push_back(table.weights[q] * measure);
+  }
+  for (unsigned int q = 0; q < result.weights.size() && is_axisymmetric; ++q)
+    result.weights[q] *= full_turn(map.point(table.points[q]));
+  return result;
+}
 
 template <int dim>
 std::vector<unsigned int> shared_points(const CellMap<dim> &map, const ShapeTable<dim> &table,
@@ -49,6 +68,8 @@ unsigned int shared_subface(const CellMap<dim> &map, const unsigned int face,
   return known;
 }
 
+template FacePoints<2> face_points(const CellMap<2> &, unsigned int, const ShapeTable<2> &, bool);
+template FacePoints<3> face_points(const CellMap<3> &, unsigned int, const ShapeTable<3> &, bool);
 template unsigned int shared_subface(const CellMap<2> &, unsigned int, const CellMap<2> &,
                                      unsigned int, unsigned int);
 template unsigned int shared_subface(const CellMap<3> &, unsigned int, const CellMap<3> &,

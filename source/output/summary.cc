@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/backends/threads.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 #include <hpvi/input/parameters.h>
@@ -162,6 +163,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"normal_contact", known(normal_contact)},
       {"linear", known(linear)},
       {"processes", text(processes)},
+      {"threads", text(n_threads(scene, processes))},
       {"loads", loads_json(loads)},
       {"steps", text(steps)},
       {"final", steps == 0 ? "null" : json_object(last_row)},

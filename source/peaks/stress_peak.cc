@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
+#include <hpvi/base/team.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/contact_traces.h>
 #include <hpvi/evaluation/probe_value.h>
@@ -70,9 +71,15 @@ std::vector<StressSample<dim>> own_stress_samples(const Field<dim> &field)
   for (const FieldFace<dim> &face : field.faces())
     if (const StressSample<dim> sample = largest_pressure(face, field); sample.value > 0)
       result.push_back(sample);
+  std::vector<typename Field<dim>::Cell> cells;
   for (const auto &cell : field.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      result.push_back(largest_von_mises<dim>(cell, field));
+      cells.push_back(cell);
+  const std::size_t first = result.size();
+  result.resize(first + cells.size());
+  for_all(cells.size(), 16,
+          [&](const unsigned int k)
+          { result[first + k] = largest_von_mises<dim>(cells[k], field); });
   return result;
 }
 

@@ -124,6 +124,7 @@ void Sweep<dim>::read()
     auto overrides = command_line.overrides;
     overrides.insert(overrides.end(), swept[k].overrides.begin(), swept[k].overrides.end());
     scenes[k].emplace(read_scene<dim>(command_line.scene_file, overrides, SceneUse::solve));
+    scenes[k]->solver.threads = 1;                                    // a core for each scene
     resultant_in_words(*scenes[k], takes_primal_path(*scenes[k], 1)); // refuses loads, too
   };
   on_threads(n_threads, swept.size(),

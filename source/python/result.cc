@@ -93,13 +93,21 @@ private:
   std::unique_lock<std::recursive_mutex> lock;
 };
 
+/** On one thread: those of Python may have a scene each. */
+template <int dim>
+std::shared_ptr<const Scene<dim>> scene_of(const SceneText &text)
+{
+  auto scene = std::make_shared<Scene<dim>>(read_scene<dim>(text.file, text.entries));
+  scene->solver.threads = 1;
+  return scene;
+}
+
 template <int dim>
 class RunOf : public Result
 {
 public:
   explicit RunOf(const SceneText &text)
-      : scene_read(std::make_shared<const Scene<dim>>(read_scene<dim>(text.file, text.entries))),
-        scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
+      : scene_read(scene_of<dim>(text)), scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
   {
     length_unit = scene.length_unit;
     stress_unit = scene.stress_unit;

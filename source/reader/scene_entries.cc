@@ -233,6 +233,12 @@ void add_program_entries(std::vector<Entry> &entries)
         "S is singular; refused but by --inf-sup, which measures the constant."},
        {"Solver", "Condition number", "false", boolean, yes_no,
         "Report the condition number of S, raw and scaled; costs an eigenvalue computation."},
+       {"Solver", "Threads", "0", matching(Patterns::Integer(0, 64)), "an integer from 0 to 64",
+        "On how many threads a step is computed; 0: all cores that the process may use, or as many "
+        "as OMP_NUM_THREADS says. Results "
+        "are the same to the last bit, whatever the number. Without effect, which is one, on the "
+        "primal path, in space and on several processes, in sweeps and in Python, which have a "
+        "core for each scene, and where ulimit says how much memory may be mapped."},
        {"Output", "Steps", "all", one_of(output_steps_names), "all or last",
         "Of which steps the files with a number in their name are kept: all, or the last one, and "
         "of "

@@ -2,6 +2,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_tools.h>
+#include <hpvi/base/common_table.h>
 #include <hpvi/stresses/legendre.h>
 
 #include <cmath>
@@ -61,31 +62,31 @@ double legendre::evaluate(const std::vector<double> &coefficients, const double 
 const FullMatrix<double> &LegendreTables::projection(const unsigned int n,
                                                      const unsigned int n_gauss) const
 {
-  FullMatrix<double> &result = projections[{{n, n_gauss}}];
-  if (result.m() == 0)
+  const auto make = [&]()
   {
     const QGauss<1> gauss(n_gauss);
-    result.reinit(n, n_gauss);
+    FullMatrix<double> result(n, n_gauss);
     for (unsigned int q = 0; q < n_gauss; ++q)
     {
       const std::vector<double> L = legendre::values(n, 2 * gauss.point(q)[0] - 1);
       for (unsigned int i = 0; i < n; ++i)
         result(i, q) = 2 * gauss.weight(q) * L[i];
     }
-  }
-  return result;
+    return result;
+  };
+  return common_value(projections, {{n, n_gauss}}, make);
 }
 
 const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsigned int part) const
 {
-  FullMatrix<double> &result = parts[{{n, part}}];
-  if (result.m() == 0 && part == 2)
+  const auto turned = [&]()
   {
-    result.reinit(n, n);
+    FullMatrix<double> result(n, n);
     for (unsigned int i = 0; i < n; ++i)
       result(i, i) = i % 2 ? -1. : 1.;
-  }
-  if (result.m() == 0)
+    return result;
+  };
+  const auto half = [&]()
   {
     const QGauss<1> gauss(n + 1);
     const FullMatrix<double> &project = projection(n, n + 1);
@@ -96,16 +97,17 @@ const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsig
       for (unsigned int i = 0; i < n; ++i)
         whole(q, i) = L[i];
     }
-    result.reinit(n, n);
+    FullMatrix<double> result(n, n);
     project.mmult(result, whole);
-  }
-  return result;
+    return result;
+  };
+  const std::array<unsigned int, 2> key{{n, part}};
+  return part == 2 ? common_value(parts, key, turned) : common_value(parts, key, half);
 }
 
 const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) const
 {
-  FullMatrix<double> &result = nodal[degree];
-  if (result.m() == 0)
+  const auto make = [&]()
   {
     const unsigned int n = degree + 1;
     const QGauss<1> gauss(n);
@@ -115,10 +117,11 @@ const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) 
     for (unsigned int q = 0; q < n; ++q)
       for (unsigned int i = 0; i < n; ++i)
         lagrange(q, i) = basis[i].value(gauss.point(q)[0]);
-    result.reinit(n, n);
+    FullMatrix<double> result(n, n);
     projection(n, n).mmult(result, lagrange);
-  }
-  return result;
+    return result;
+  };
+  return common_value(nodal, degree, make);
 }
 
 FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> &coefficients,
@@ -126,9 +129,9 @@ FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> 
                                                       const unsigned int degree) const
 {
   const unsigned int n = degree + 1;
-  std::vector<unsigned int> &lexicographic = numberings[degree];
-  if (lexicographic.empty())
-    lexicographic = FETools::hierarchic_to_lexicographic_numbering<2>(degree);
+  const std::vector<unsigned int> &lexicographic =
+      common_value(numberings, degree,
+                   [&]() { return FETools::hierarchic_to_lexicographic_numbering<2>(degree); });
   FullMatrix<double> values(n, n), half(n, n), result(n, n);
   for (unsigned int i = 0; i < n * n; ++i)
     values(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/common_table.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/triangle_stress.h>
 
@@ -306,12 +307,13 @@ TriangleTable::TriangleTable(const unsigned int degree, const unsigned int n_gau
 
 const TriangleStress &TriangleStresses::triangle(const unsigned int degree) const
 {
-  return triangles.try_emplace(degree, degree).first->second;
+  return common_value(triangles, degree, [&]() { return TriangleStress(degree); });
 }
 
 const TriangleTable &TriangleStresses::table(const unsigned int degree,
                                              const unsigned int n_gauss) const
 {
-  return tables.try_emplace({{degree, n_gauss}}, degree, n_gauss).first->second;
+  return common_value(tables, {{degree, n_gauss}},
+                      [&]() { return TriangleTable(degree, n_gauss); });
 }
 } // namespace hpvi

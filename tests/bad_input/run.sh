@@ -497,6 +497,9 @@ invalid "Solver/QP solver = newton" "mprgp or active set" -- "Solver/QP solver=n
 invalid "Solver/QP warm start = maybe" "true or false" -- "Solver/QP warm start=maybe"
 invalid "Solver/Multiplier degree offset = 0" "makes S singular" "give -2" -- "Solver/Multiplier degree offset=0"
 invalid "Solver/Multiplier degree offset = 7" "-20 to -1" -- "Solver/Multiplier degree offset=7"
+for value in -1 2000 all 1.5; do
+  invalid "Solver/Threads = $value" "integer from 0 to 64" -- "Solver/Threads=$value"
+done
 invalid "Start degree = 3" "multiplier has degree p - 5" "at least 5" -- \
   "Solver/Multiplier degree offset=-5" "Adaptivity/Start degree=3"
 

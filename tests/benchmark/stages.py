@@ -41,6 +41,7 @@ def main():
     arguments = parser.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     steps = "Adaptivity/Maximum steps=100"
+    one_thread = "Solver/Threads=1"
     for scene, settings in (
             ("han-6-12", ("Adaptivity/Method=hpa2", "Adaptivity/Maximum unknowns=20000",
                           "Adaptivity/Smoothness reading=joint")),
@@ -49,7 +50,7 @@ def main():
             ("han-6-12-unilateral", ("Adaptivity/Maximum unknowns=50000",)),
             ("hertz", ("Adaptivity/Maximum unknowns=50000",)),
             ("resting", ("Adaptivity/Maximum unknowns=50000",))):
-        runs = [run(arguments.program, f"prm/{scene}.prm", settings + (steps,))
+        runs = [run(arguments.program, f"prm/{scene}.prm", settings + (steps, one_thread))
                 for _ in range(arguments.runs)]
         factor = statistics.median(seconds["factor"] for seconds, _ in runs)
         print(f"{scene}, {', '.join(settings)}: {runs[0][1]} unknowns at the end, "

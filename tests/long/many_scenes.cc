@@ -101,6 +101,7 @@ Scene<2> scene(const unsigned int number)
       {"Adaptivity/Maximum unknowns", "1000"},
       {"Material/Poisson's ratio", "0." + std::to_string(random() % 5)},
       {"Solver/QP solver", chosen({"mprgp", "active set"})},
+      {"Solver/Threads", chosen({"1", "2", "3"})},
       {"Solver/Condition number", chosen({"true", "false"})}};
   if (!has_own_bound)
     overrides.emplace_back("Boundary bottom/Friction bound",

@@ -44,7 +44,6 @@ private:
     std::vector<double> gradients, defects; ///< by hat
   };
 
-  const MacroStressElement &element(unsigned int cell) const;
   void set_cell(unsigned int cell);
   void set_hats(unsigned int cell, const MacroStressElement::Data &by_vertex);
 

@@ -57,14 +57,6 @@ struct PatchDefect
 {
   double equilibrium = 0, corners = 0;
 };
-
-/**
- * Tractions on the edges of a patch such that `sum_K h_K^2 r_K' G_K r_K` is least subject to
- * `N_K' r_K = 0` in each cell, where r_K are the data of @p cells and the tractions; given ones, and unknown ones
- * once found, are added to the sums of @p edges, which ascend. Returns the largest |N'r| that are left.
- */
-PatchDefect solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
-                        EquilibrationCache &cache);
 } // namespace hpvi
 
 #endif

@@ -16,7 +16,7 @@ struct WorstCondition
 };
 
 /**
- * The problem of solve_patch() for all cells and edges of a mesh at once, with one sparse factorisation: the nearest
+ * The problem of a patch, PatchProblem, for all cells and edges of a mesh at once, with one sparse factorisation: the nearest
  * stress to sigma(u_N), without hat functions. @p cells have the data of sigma(u_N) itself, @p edges stand in the order of
  * VertexPatches. Throws NumericalFailure.
  */

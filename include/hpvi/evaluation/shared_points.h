@@ -9,6 +9,19 @@
 
 namespace hpvi
 {
+/** Outer normals, and weights times ds, at the points of a table on a face. */
+template <int dim>
+struct FacePoints
+{
+  std::vector<dealii::Tensor<1, dim>> normals;
+  std::vector<double> weights;
+};
+
+/** Of an axisymmetric body weights are those of the full turn. */
+template <int dim>
+FacePoints<dim> face_points(const CellMap<dim> &map, unsigned int face,
+                            const ShapeTable<dim> &table, bool is_axisymmetric);
+
 /**
  * The number of each point of @p table among those of @p other, which lie at the same places: in space two cells may look at a
  * face from corners of their own.

@@ -76,6 +76,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
   visit("Solver", "Check uniqueness", solver.check_uniqueness);
   visit("Solver", "Condition number", solver.condition_number);
+  visit("Solver", "Threads", solver.threads);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);
   if (in_plane)

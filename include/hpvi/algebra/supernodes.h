@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_supernodes_h
+#define hpvi_supernodes_h
+
+#include <cholmod.h>
+
+namespace hpvi
+{
+/**
+ * The numbers of the supernodal factor L of a matrix whose lower triangle @p A is in the order of L, columns that CHOLMOD has analysed: L
+ * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the team, what is above them
+ * supernode by supernode with all; each sum in CHOLMOD's order and by the same calls of BLAS, so that numbers are CHOLMOD's to the last bit.
+ * Returns false where A is not positive definite.
+ */
+bool factor_supernodes(const cholmod_sparse &A, cholmod_factor &L);
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_team_h
+#define hpvi_team_h
+
+#include <hpvi/base/one_thread.h>
+
+#include <functional>
+#include <memory>
+
+namespace hpvi
+{
+/**
+ * Threads that help the one which makes this with in_parts(), as long as this lives. Each has dense algebra on one thread.
+ * A team that is made where there is one already, or by a helper, has none of its own: the outer one serves. There is one at a time in a
+ * process: where several threads make teams, the others work alone meanwhile.
+ */
+class Team
+{
+public:
+  /** @p n_threads: the calling one among them; fewer where the system gives no more. */
+  explicit Team(unsigned int n_threads);
+  ~Team();
+
+  Team(const Team &) = delete;
+  Team &operator=(const Team &) = delete;
+
+  struct Helpers;
+
+private:
+  const OneThread one_thread;
+  std::unique_ptr<Helpers> helpers;
+};
+
+/** Of the team that serves the calling thread, itself among them; 1 without one. */
+unsigned int team_size();
+
+/**
+ * work(begin, end) for parts of 0, ..., n - 1 that follow on one another, each of @p at_once, the last of what is left; by all threads of the
+ * team, each taking the first part that is left, the calling one the very first. A part may call it, too: whoever has nothing to do helps.
+ * Parts do not depend on the number of threads: where results of one part do not depend on another, nothing does. Throws what the first of
+ * all parts that threw has thrown; parts behind it may not have been worked on.
+ */
+void in_parts(unsigned int n, unsigned int at_once,
+              const std::function<void(unsigned int begin, unsigned int end)> &work);
+
+/** work(k) for k = 0, ..., n - 1, likewise. */
+template <class Work>
+void for_all(const unsigned int n, const unsigned int at_once, const Work &work)
+{
+  in_parts(n, at_once,
+           [&work](const unsigned int begin, const unsigned int end)
+           {
+             for (unsigned int k = begin; k < end; ++k)
+               work(k);
+           });
+}
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/team.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace hpvi
+{
+namespace
+{
+/** One call of in_parts(). */
+struct Job
+{
+  const unsigned int n, at_once;
+  const std::function<void(unsigned int, unsigned int)> &work;
+  unsigned int next = 0, n_at_work = 0;
+  unsigned int first_failed = -1; ///< where the part begins that threw
+  std::exception_ptr failure{};   ///< what it threw
+
+  bool has_more() const
+  {
+    return next < n && !failure;
+  }
+};
+} // namespace
+
+struct Team::Helpers
+{
+  std::mutex mutex; ///< of all that follows
+  std::condition_variable begun, finished;
+  std::vector<Job *> jobs; ///< that are not done; those that parts of others have begun come last
+  bool is_over = false;
+  std::vector<std::thread> threads;
+
+  Job *open_job() const;
+  void take_parts(Job &of, std::unique_lock<std::mutex> &lock);
+  void help();
+  void end();
+};
+
+namespace
+{
+thread_local Team::Helpers *serving = nullptr; ///< the calling thread
+thread_local bool has_team = false;            ///< has it one, or is it of one?
+std::atomic<bool> are_cores_taken(false);      ///< by the team of any thread
+} // namespace
+
+/** The innermost with parts that nobody has taken; null: none. */
+Job *Team::Helpers::open_job() const
+{
+  const auto found =
+      std::find_if(jobs.rbegin(), jobs.rend(), [](const Job *job) { return job->has_more(); });
+  return found == jobs.rend() ? nullptr : *found;
+}
+
+/** With the mutex held, but for the work itself. */
+void Team::Helpers::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
+{
+  for (++of.n_at_work; of.has_more();)
+  {
+    const unsigned int begin = of.next, end = of.next + std::min(of.at_once, of.n - of.next);
+    of.next = end;
+    lock.unlock();
+    std::exception_ptr thrown;
+    try
+    {
+      of.work(begin, end);
+    }
+    catch (...)
+    {
+      thrown = std::current_exception();
+    }
+    lock.lock();
+    if (thrown && begin < of.first_failed)
+    {
+      of.first_failed = begin;
+      of.failure = thrown;
+    }
+  }
+  --of.n_at_work;
+}
+
+void Team::Helpers::help()
+{
+  const OneThread one_thread;
+  has_team = true;
+  serving = this;
+  std::unique_lock<std::mutex> lock(mutex);
+  for (;;)
+  {
+    begun.wait(lock, [&]() { return is_over || open_job(); });
+    if (is_over)
+      return;
+    take_parts(*open_job(), lock);
+    finished.notify_all();
+  }
+}
+
+void Team::Helpers::end()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    is_over = true;
+  }
+  begun.notify_all();
+  for (std::thread &thread : threads)
+    thread.join();
+}
+
+Team::Team(const unsigned int n_threads)
+{
+  if (n_threads < 2 || has_team)
+    return;
+  helpers = std::make_unique<Helpers>();
+  helpers->threads.reserve(n_threads - 1);
+  if (are_cores_taken.exchange(true))
+  {
+    helpers.reset();
+    return;
+  }
+  try
+  {
+    for (unsigned int k = 1; k < n_threads; ++k)
+      helpers->threads.emplace_back([this]() { helpers->help(); });
+  }
+  catch (const std::system_error &) // those that there are do it all
+  {
+  }
+  serving = helpers.get();
+  has_team = true;
+}
+
+Team::~Team()
+{
+  if (!helpers)
+    return;
+  serving = nullptr;
+  has_team = false;
+  helpers->end();
+  are_cores_taken = false;
+}
+
+unsigned int team_size()
+{
+  return serving ? 1 + serving->threads.size() : 1;
+}
+
+void in_parts(const unsigned int n, const unsigned int at_once,
+              const std::function<void(unsigned int, unsigned int)> &work)
+{
+  if (!serving || n <= at_once) // of one part the inner loops may be divided
+  {
+    for (unsigned int begin = 0; begin < n; begin += std::min(at_once, n - begin))
+      work(begin, begin + std::min(at_once, n - begin));
+    return;
+  }
+  Team::Helpers &helpers = *serving;
+  Job job{n, at_once, work};
+  std::unique_lock<std::mutex> lock(helpers.mutex);
+  helpers.jobs.push_back(&job);
+  helpers.begun.notify_all();
+  helpers.take_parts(job, lock); // the first one without letting others come before
+  helpers.finished.wait(lock, [&]() { return job.n_at_work == 0; });
+  helpers.jobs.erase(std::find(helpers.jobs.begin(), helpers.jobs.end(), &job));
+  if (job.failure)
+    std::rethrow_exception(job.failure);
+}
+} // namespace hpvi

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One scene on several threads: the same numbers to the last bit, and the same ways to end.
+#include "discretisation.h"
+
+#include <gtest/gtest.h>
+#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/algebra/linear_solver.h>
+#include <hpvi/base/common_table.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/team.h>
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace
+{
+using namespace verification;
+
+TEST(Team, DoesAllWorkOnce)
+{
+  for (const unsigned int n_threads : {1U, 2U, 5U})
+  {
+    const Team team(n_threads);
+    EXPECT_EQ(team_size(), n_threads);
+    for (const unsigned int n : {0U, 1U, 7U, 1000U})
+      for (const unsigned int at_once : {1U, 3U, 2000U})
+      {
+        std::vector<unsigned int> times(n, 0);
+        for_all(n, at_once, [&](const unsigned int k) { ++times[k]; });
+        EXPECT_EQ(times, std::vector<unsigned int>(n, 1));
+      }
+  }
+  EXPECT_EQ(team_size(), 1U);
+}
+
+/** It is several threads that work. */
+TEST(Team, WorksTogether)
+{
+  const Team team(3);
+  const Team none(7); // the outer one serves
+  EXPECT_EQ(team_size(), 3U);
+  std::atomic<unsigned int> n_there(0);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  for_all(3, 1,
+          [&](unsigned int)
+          {
+            const Team of_a_helper(2);
+            EXPECT_EQ(team_size(), 3U);
+            ++n_there;
+            while (n_there < 3 && std::chrono::steady_clock::now() < patience)
+              std::this_thread::yield();
+          });
+  EXPECT_EQ(n_there, 3U);
+}
+
+/** Who has done a part helps with what is inside of another: none of these would end without. */
+TEST(Team, HelpsInsideOfParts)
+{
+  const Team team(3);
+  for (unsigned int repetition = 0; repetition < 20; ++repetition)
+  {
+    std::atomic<unsigned int> n_there(0), n_done(0);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    for_all(2, 1,
+            [&](const unsigned int part)
+            {
+              if (part == 1)
+                return for_all(30, 2, [&](unsigned int) { ++n_done; });
+              for_all(3, 1,
+                      [&](unsigned int)
+                      {
+                        ++n_there;
+                        while (n_there < 3 && std::chrono::steady_clock::now() < patience)
+                          std::this_thread::yield();
+                        for_all(10, 1, [&](unsigned int) { ++n_done; });
+                      });
+            });
+    EXPECT_EQ(n_there, 3U);
+    EXPECT_EQ(n_done, 60U);
+    try
+    {
+      for_all(4, 1,
+              [&](const unsigned int part)
+              {
+                for_all(9, 1,
+                        [&](const unsigned int k)
+                        {
+                          if (part >= 2 && k >= 3)
+                            throw NumericalFailure(std::to_string(part) + std::to_string(k));
+                        });
+              });
+      ADD_FAILURE() << "nothing was thrown";
+    }
+    catch (const NumericalFailure &failure)
+    {
+      EXPECT_EQ(failure.what(), std::string("23"));
+    }
+  }
+}
+
+/** Two threads do not share the cores twice. */
+TEST(Team, IsOneAtATime)
+{
+  const Team team(2);
+  std::thread other(
+      []()
+      {
+        const Team another(2);
+        EXPECT_EQ(team_size(), 1U);
+        unsigned int sum = 0;
+        for_all(100, 1, [&](const unsigned int k) { sum += k; });
+        EXPECT_EQ(sum, 4950U);
+      });
+  other.join();
+  EXPECT_EQ(team_size(), 2U);
+}
+
+/** Whoever is first to throw, what the first part in order has thrown goes on; then it works as before. */
+TEST(Team, ThrowsWhatTheFirstThrew)
+{
+  for (const unsigned int n_threads : {1U, 2U, 3U})
+  {
+    const Team team(n_threads);
+    for (unsigned int repetition = 0; repetition < 50; ++repetition)
+    {
+      const auto work = [&](const unsigned int k)
+      {
+        if (k == 11)
+          std::this_thread::yield();
+        if (k == 11 || k == 12 || k == 17)
+          throw NumericalFailure("part " + std::to_string(k));
+      };
+      try
+      {
+        for_all(40, 1, work);
+        ADD_FAILURE() << "nothing was thrown";
+      }
+      catch (const NumericalFailure &failure)
+      {
+        EXPECT_EQ(failure.what(), std::string("part 11"));
+      }
+    }
+    unsigned int sum = 0;
+    for_all(1, 1, [&](unsigned int) { ++sum; });
+    EXPECT_EQ(sum, 1U);
+  }
+}
+
+TEST(CommonTable, MakesWhatIsMissing)
+{
+  const Team team(3);
+  std::map<unsigned int, double> squares;
+  for_all(2000, 7,
+          [&](const unsigned int k)
+          {
+            const unsigned int key = k % 50;
+            EXPECT_EQ(common_value(squares, key, [&]() { return double(key) * key; }), key * key);
+          });
+  EXPECT_EQ(squares.size(), 50U);
+}
+
+/** By the first place of each key; and none is left where making one fails. */
+TEST(CommonTable, KeepsTheOrder)
+{
+  const std::vector<unsigned int> keys = {3, 1, 3, 2, 1, 5};
+  for (const unsigned int n_threads : {1U, 3U})
+  {
+    const Team team(n_threads);
+    std::map<unsigned int, unsigned int> places = {{2, 77}};
+    const auto values = ordered_values(places, keys, [](const unsigned int k) { return k; });
+    const std::vector<unsigned int> expected = {0, 1, 0, 77, 1, 5};
+    for (unsigned int k = 0; k < keys.size(); ++k)
+      EXPECT_EQ(*values[k], expected[k]);
+    std::map<unsigned int, unsigned int> others = {{2, 77}};
+    EXPECT_THROW(ordered_values(others, keys,
+                                [](const unsigned int k) -> unsigned int
+                                {
+                                  if (k == 5)
+                                    throw NumericalFailure("no");
+                                  return k;
+                                }),
+                 NumericalFailure);
+    EXPECT_EQ(others.size(), 1U);
+  }
+}
+
+/** Of a grid of n x n unknowns, each coupled to its neighbours and to those two away. */
+SymmetricMatrix grid(const unsigned int n)
+{
+  SymmetricMatrix A;
+  for (unsigned int j = 0; j < n * n; ++j)
+  {
+    for (const unsigned int distance : {2 * n, n + 1, n, n - 1, 2U, 1U})
+      if (distance <= j)
+      {
+        A.row.push_back(j - distance);
+        A.value.push_back(-1. / distance);
+      }
+    A.row.push_back(j);
+    A.value.push_back(4. + 0.001 * (j % 7));
+    A.column_start.push_back(A.row.size());
+  }
+  return A;
+}
+
+TEST(Supernodes, AreTheSameOnAnyThreads)
+{
+  const SymmetricMatrix A = grid(60);
+  std::vector<unsigned int> kept;
+  for (unsigned int k = 5; k < A.n(); k += 40)
+    kept.push_back(k);
+  dealii::Vector<double> f(A.n()), residual;
+  for (unsigned int k = 0; k < A.n(); ++k)
+    f[k] = 1. + k % 3;
+  std::vector<std::vector<double>> results;
+  for (const unsigned int n_threads : {1U, 2U, 3U})
+  {
+    const Team team(n_threads);
+    const LinearSolver solver(A, kept);
+    const dealii::Vector<double> x = solver.solve(f);
+    residual = f;
+    for (unsigned int column = 0; column < A.n(); ++column)
+      for (int k = A.column_start[column]; k < A.column_start[column + 1]; ++k)
+      {
+        residual[A.row[k]] -= A.value[k] * x[column];
+        if (A.row[k] != int(column))
+          residual[column] -= A.value[k] * x[A.row[k]];
+      }
+    EXPECT_LT(residual.linfty_norm(), 1e-11);
+    results.emplace_back(x.begin(), x.end());
+    const auto &C = solver.kept_factor();
+    for (unsigned int j = 0; j < kept.size(); ++j)
+      for (unsigned int i = j; i < kept.size(); ++i)
+        results.back().push_back(C(i, j));
+    EXPECT_EQ(results.back(), results.front());
+    SymmetricMatrix indefinite = A;
+    indefinite.value[indefinite.column_start[1801] - 1] = -1.;
+    EXPECT_THROW(LinearSolver(indefinite, kept), NumericalFailure);
+  }
+}
+
+void append(const std::vector<double> &values, std::vector<double> &to)
+{
+  for (const double value : values)
+    to.push_back(std::isnan(value) ? -12345. : value); // equal to itself
+}
+
+/** Every number of every step. */
+std::vector<double> numbers(const std::string &name, Overrides overrides,
+                            const unsigned int n_threads)
+{
+  overrides.emplace_back("Solver/Threads", std::to_string(n_threads));
+  const Scene<2> scene = shipped_scene(name, overrides);
+  std::vector<double> result;
+  LoadHistory<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        const Solution<2> &solution = step.solution();
+        append(std::vector<double>(solution.u.begin(), solution.u.end()), result);
+        append(std::vector<double>(solution.z.begin(), solution.z.end()), result);
+        append({step.scaled_estimate, step.energies.energy, step.energies.lagrangian,
+                step.energies.norm, step.errors.energy, step.bound_imbalance},
+               result);
+        for (const auto *part : {&step.estimate.volume, &step.estimate.jumps,
+                                 &step.estimate.neumann, &step.estimate.contact})
+          append(*part, result);
+        if (step.bound)
+        {
+          append({step.bound->total, step.bound->energy, step.bound->theta, step.bound->radius},
+                 result);
+          append(step.bound->squares, result);
+        }
+        for (const Resultant<2> &force : step.forces)
+          append(std::vector<double>{force.force[0].value, force.force[1].value,
+                                     force.force[0].best()},
+                 result);
+      });
+  return result;
+}
+
+struct Kind
+{
+  std::string name;
+  Overrides overrides;
+};
+
+class ThreadsOfAScene : public ::testing::TestWithParam<Kind>
+{
+};
+
+TEST_P(ThreadsOfAScene, GiveTheSameNumbers)
+{
+  const auto &[name, overrides] = GetParam();
+  const std::vector<double> alone = numbers(name, overrides, 1);
+  EXPECT_GT(alone.size(), 1000U);
+  for (const unsigned int n_threads : {2U, 3U})
+    EXPECT_EQ(numbers(name, overrides, n_threads), alone) << n_threads << " threads";
+}
+
+const auto steps(const char *const n)
+{
+  return std::make_pair(std::string("Adaptivity/Maximum steps"), std::string(n));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfAllKinds, ThreadsOfAScene,
+    ::testing::Values(Kind{"han-6-12", {steps("11")}}, Kind{"han-6-13", {steps("9")}},
+                      Kind{"resting", {steps("6")}}, Kind{"ssnv128", {steps("7")}},
+                      Kind{"plane-strain", {steps("6")}}, Kind{"stack", {steps("4")}},
+                      Kind{"bolt", {steps("3")}}, Kind{"press-ring", {steps("4")}},
+                      Kind{"press-ring-axi", {steps("4")}}, Kind{"punch-plate", {steps("5")}},
+                      Kind{"bimetal", {steps("4")}},
+                      Kind{"fretting", {steps("2"), {"Loading/Steps", "2"}}}),
+    [](const auto &kind)
+    {
+      std::string name = kind.param.name;
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name;
+    });
+
+/** Whoever listens may give up at any stage, and nothing stays behind. */
+TEST(ThreadsAtTheEnd, EndWhenTheListenerHasEnough)
+{
+  const Scene<2> scene =
+      shipped_scene("han-6-12", {{"Solver/Threads", "3"}, {"Adaptivity/Maximum steps", "6"}});
+  for (const unsigned int last : {3U, 20U, 30U})
+  {
+    unsigned int n_heard = 0;
+    EXPECT_THROW(AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {},
+                                              [&](const Progress &)
+                                              {
+                                                if (++n_heard == last)
+                                                  throw NumericalFailure("enough");
+                                              }),
+                 NumericalFailure);
+    EXPECT_EQ(team_size(), 1U);
+  }
+}
+
+TEST(ThreadsAtTheEnd, EndWhenTimeIsOver)
+{
+  unsigned int n_steps = 0;
+  std::string why;
+  AdaptiveSolver<2>(
+      shipped_scene("han-6-12", {{"Solver/Threads", "3"}, {"Adaptivity/Maximum seconds", "0.001"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            ++n_steps;
+            why = step.stopped_by;
+          });
+  EXPECT_EQ(n_steps, 1U);
+  EXPECT_EQ(why, "Maximum seconds");
+}
+
+/** A load that is refused in all cells by the indicator: that of the first one is told. */
+TEST(ThreadsAtTheEnd, RefuseTheSamePoint)
+{
+  std::vector<std::string> messages;
+  for (const unsigned int n_threads : {1U, 3U})
+  {
+    Scene<2> scene = shipped_scene("han-6-12", {{"Solver/Threads", std::to_string(n_threads)},
+                                                {"Geometry/Subdivisions", "8, 8"}});
+    std::atomic<bool> is_refused(false);
+    scene.body_force[1] = expression<2>(std::function<double(const dealii::Point<2> &)>(
+        [&](const dealii::Point<2> &x)
+        {
+          if (is_refused)
+            throw InputError("not at " + text(x[0]) + ", " + text(x[1]));
+          return 0.01;
+        }));
+    const auto about_to = [&](const Progress &progress)
+    { is_refused = progress.stage.rfind("estimating", 0) == 0; };
+    try
+    {
+      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {}, about_to);
+      messages.emplace_back("none");
+    }
+    catch (const InputError &error)
+    {
+      messages.emplace_back(error.what());
+    }
+    EXPECT_EQ(team_size(), 1U);
+  }
+  EXPECT_EQ(messages[0], messages[1]);
+  EXPECT_NE(messages[0], "none");
+}
+} // namespace
