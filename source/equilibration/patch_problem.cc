@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/equilibration/patch_workspace.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,19 +18,8 @@ constexpr unsigned int none = numbers::invalid_unsigned_int;
 /** Pivots of conditions that others imply, relative to the largest. */
 constexpr double dependent = 1e-11;
 
-/** One component of the traction on an edge as data of a cell: `r_row += weight R t`. */
-struct Block
-{
-  unsigned int row;                 ///< among the data of the edges
-  unsigned int n;                   ///< coefficients
-  double weight;                    ///< of the component in the direction of the data
-  const FullMatrix<double> *R;      ///< to a half of the edge; null: the whole
-  unsigned int unknown;             ///< the first, or none
-  const std::vector<double> *known; ///< coefficients, where there is no unknown
-};
-
 /** `target += scale B' data` with the part of B that is a block. */
-void add_transposed(const Block &b, const double *const data, const double scale,
+void add_transposed(const TractionBlock &b, const double *const data, const double scale,
                     double *const target)
 {
   for (unsigned int i = 0; i < b.n; ++i)
@@ -45,9 +35,11 @@ class PatchProblem
 {
 public:
   PatchProblem(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
-               EquilibrationCache &cache)
-      : cells(cells), edges(edges), cache(cache), first_unknown(edges.size())
+               EquilibrationCache &cache, PatchWorkspace &own)
+      : cells(cells), edges(edges), cache(cache), own(own), first_unknown(own.first_unknown),
+        blocks(own.blocks)
   {
+    first_unknown.resize(edges.size());
     for (unsigned int e = 0; e < edges.size(); ++e)
       for (unsigned int c = 0; c < 2; ++c)
       {
@@ -55,36 +47,38 @@ public:
         first_unknown[e][c] = component.is_unknown ? n : none;
         n += component.is_unknown ? component.n : 0;
       }
-    blocks.reserve(cells.size());
-    for (const PatchCell &cell : cells)
-      blocks.push_back(blocks_of(cell));
+    if (blocks.size() < cells.size())
+      blocks.resize(cells.size());
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      set_blocks(cells[k], blocks[k]);
   }
 
   PatchDefect solve();
 
 private:
   unsigned int place(unsigned int edge) const;
-  std::vector<Block> blocks_of(const PatchCell &cell) const;
+  void set_blocks(const PatchCell &cell, std::vector<TractionBlock> &result) const;
   void add_places(const PatchCell &cell, EquilibrationCache::Signature &key) const;
-  EquilibrationCache::Signature signature() const;
+  const EquilibrationCache::Signature &signature() const;
   EquilibrationCache::Signature form(const std::vector<unsigned int> &present) const;
   void factorise(PatchFactor &factor) const;
   std::vector<unsigned int> independent_conditions(const PatchFactor &factor) const;
   bool choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const;
-  void add_energy(const PatchCell &cell, const std::vector<Block> &parts, double scale,
+  void add_energy(const PatchCell &cell, const std::vector<TractionBlock> &parts, double scale,
                   PatchFactor &factor) const;
-  void add_conditions(const PatchCell &cell, const std::vector<Block> &parts, unsigned int first,
-                      PatchFactor &factor) const;
-  void add_data(const PatchCell &cell, const std::vector<Block> &parts, double scale,
+  void add_conditions(const PatchCell &cell, const std::vector<TractionBlock> &parts,
+                      unsigned int first, PatchFactor &factor) const;
+  void add_data(const PatchCell &cell, const std::vector<TractionBlock> &parts, double scale,
                 std::vector<double> &g, std::vector<double> &right) const;
-  std::vector<double> minimise(const PatchFactor &factor, std::vector<double> x,
-                               std::vector<double> &right) const;
+  void minimise(const PatchFactor &factor, std::vector<double> &x,
+                std::vector<double> &right) const;
 
   const std::vector<PatchCell> &cells;
   const std::vector<PatchEdge> &edges;
   EquilibrationCache &cache;
-  std::vector<std::array<unsigned int, 2>> first_unknown; ///< by edge of the patch and component
-  std::vector<std::vector<Block>> blocks;                 ///< by cell
+  PatchWorkspace &own;
+  std::vector<std::array<unsigned int, 2>> &first_unknown;
+  std::vector<std::vector<TractionBlock>> &blocks;
   unsigned int n = 0;
 };
 
@@ -97,10 +91,9 @@ unsigned int PatchProblem::place(const unsigned int edge) const
   return none;
 }
 
-std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
+void PatchProblem::set_blocks(const PatchCell &cell, std::vector<TractionBlock> &result) const
 {
-  std::vector<Block> result;
-  result.reserve(8);
+  result.clear();
   for (unsigned int face = 0; face < 4; ++face)
   {
     const unsigned int e = place(cell.cell->edges[face]);
@@ -120,7 +113,6 @@ std::vector<Block> PatchProblem::blocks_of(const PatchCell &cell) const
                           first_unknown[e][c], edges[e].known ? &(*edges[e].known)[c] : nullptr});
       }
   }
-  return result;
 }
 
 /** Which edges of the patch a cell has, and which part of them. */
@@ -135,10 +127,10 @@ void PatchProblem::add_places(const PatchCell &cell, EquilibrationCache::Signatu
 }
 
 /** Two patches of the same signature have the same matrices. */
-EquilibrationCache::Signature PatchProblem::signature() const
+const EquilibrationCache::Signature &PatchProblem::signature() const
 {
-  EquilibrationCache::Signature key;
-  key.reserve(4 * edges.size() + 6 * cells.size());
+  EquilibrationCache::Signature &key = own.signature;
+  key.clear();
   for (const PatchEdge &edge : edges)
     for (const StressEdge::Component &component : edge.edge->components)
     {
@@ -155,13 +147,13 @@ EquilibrationCache::Signature PatchProblem::signature() const
 }
 
 /** Adds `scale B' G B` to H, where B takes unknowns to data. */
-void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &parts,
+void PatchProblem::add_energy(const PatchCell &cell, const std::vector<TractionBlock> &parts,
                               const double scale, PatchFactor &factor) const
 {
   const TractionEnergy &element = cell.element;
   std::vector<double> first, second;
-  for (const Block &b : parts)
-    for (const Block &d : parts)
+  for (const TractionBlock &b : parts)
+    for (const TractionBlock &d : parts)
     {
       if (b.unknown == none || d.unknown == none || d.unknown > b.unknown)
         continue; // the lower triangle is enough
@@ -187,7 +179,7 @@ void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &p
 }
 
 /** Appends those columns of `B' N` that are not empty: a corner away from the vertex sees no unknown. */
-void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block> &parts,
+void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<TractionBlock> &parts,
                                   const unsigned int first, PatchFactor &factor) const
 {
   const TractionEnergy &element = cell.element;
@@ -196,7 +188,7 @@ void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block
   {
     const double *const N = element.N.entries + std::size_t(k) * element.N.stride;
     std::fill(column.begin(), column.end(), 0.);
-    for (const Block &b : parts)
+    for (const TractionBlock &b : parts)
       if (b.unknown != none)
         add_transposed(b, N, 1., &column[b.unknown]);
     if (std::all_of(column.begin(), column.end(), [](const double entry) { return entry == 0.; }))
@@ -278,15 +270,17 @@ void PatchProblem::factorise(PatchFactor &factor) const
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
-void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &parts,
+void PatchProblem::add_data(const PatchCell &cell, const std::vector<TractionBlock> &parts,
                             const double scale, std::vector<double> &g,
                             std::vector<double> &right) const
 {
   const TractionEnergy &element = cell.element;
   const unsigned int n_edges = element.n_edges(), n_conditions = element.n_conditions;
   const double *gradient = cell.gradient, *defect = cell.defect;
-  std::vector<double> known, changed_gradient, changed_defect;
-  for (const Block &b : parts)
+  std::vector<double> &known = own.known, &changed_gradient = own.changed_gradient,
+                      &changed_defect = own.changed_defect;
+  known.clear();
+  for (const TractionBlock &b : parts)
     if (b.unknown == none)
       for (unsigned int i = 0; i < b.n; ++i)
         if ((*b.known)[i] != 0.) // edges of the boundary do not hang, and run the other way at most
@@ -305,16 +299,16 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
     gradient = changed_gradient.data();
     defect = changed_defect.data();
   }
-  for (const Block &b : parts)
+  for (const TractionBlock &b : parts)
     if (b.unknown != none)
       add_transposed(b, gradient, scale, &g[b.unknown]);
   for (unsigned int k = 0; k < n_conditions; ++k)
     right.push_back(-defect[k]);
 }
 
-/** Minimises energy subject to the chosen conditions; right := what all of them miss. */
-std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vector<double> x,
-                                           std::vector<double> &right) const
+/** x, the gradient, := what minimises energy subject to the chosen conditions; right := what all of them miss. */
+void PatchProblem::minimise(const PatchFactor &factor, std::vector<double> &x,
+                            std::vector<double> &right) const
 {
   const unsigned int m = factor.present.size(), rank = factor.chosen.size();
   for (double &value : x)
@@ -322,7 +316,8 @@ std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vecto
   solve_triangular('N', n, 1, {factor.H.data(), n}, x.data(), n);
   for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
   {
-    std::vector<double> mu(rank);
+    std::vector<double> &mu = own.mu;
+    mu.resize(rank);
     for (unsigned int i = 0; i < rank; ++i)
       mu[i] = right[factor.present[factor.chosen[i]]];
     multiply('T', 'N', rank, 1, n, -1., {factor.W.data(), n}, {x.data(), n}, 1., mu.data(), rank);
@@ -331,11 +326,11 @@ std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vecto
     multiply('N', 'N', n, 1, rank, 1., {factor.W.data(), n}, {mu.data(), rank}, 1., x.data(), n);
   }
   solve_triangular('T', n, 1, {factor.H.data(), n}, x.data(), n);
-  std::vector<double> met(m);
+  std::vector<double> &met = own.met;
+  met.assign(m, 0.);
   multiply('T', 'N', m, 1, n, 1., {factor.conditions.data(), n}, {x.data(), n}, 0., met.data(), m);
   for (unsigned int k = 0; k < m; ++k)
     right[factor.present[k]] -= met[k];
-  return x;
 }
 
 PatchDefect PatchProblem::solve()
@@ -345,11 +340,12 @@ PatchDefect PatchProblem::solve()
   PatchFactor &factor = found->second.value;
   if (is_new)
     factorise(factor);
-  std::vector<double> g(n), right;
-  right.reserve(8 * cells.size());
+  std::vector<double> &x = own.g, &right = own.right;
+  x.assign(n, 0.);
+  right.clear();
   for (unsigned int k = 0; k < cells.size(); ++k)
-    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, g, right);
-  const std::vector<double> x = minimise(factor, std::move(g), right);
+    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, x, right);
+  minimise(factor, x, right);
   for (unsigned int e = 0; e < edges.size(); ++e)
     for (unsigned int c = 0; c < 2; ++c)
     {
@@ -392,6 +388,7 @@ TractionEnergy traction_energy(const MacroStressElement &element)
 PatchDefect solve_patch(const std::vector<PatchCell> &cells, const std::vector<PatchEdge> &edges,
                         EquilibrationCache &cache)
 {
-  return PatchProblem(cells, edges, cache).solve();
+  static thread_local PatchWorkspace workspace;
+  return PatchProblem(cells, edges, cache, workspace).solve();
 }
 } // namespace hpvi
