@@ -8,11 +8,14 @@
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/all_cells.h>
 #include <hpvi/adaptivity/column_width.h>
+#include <hpvi/adaptivity/conclusion.h>
+#include <hpvi/adaptivity/late_bound.h>
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/mean_intervals.h>
 #include <hpvi/adaptivity/thickness.h>
 #include <hpvi/backends/threads.h>
+#include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/scene/data_scale.h>
 
@@ -21,28 +24,10 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/** What the processes have had so far, their sum [bytes]. */
-double peak_memory(MPI_Comm communicator)
-{
-  Utilities::System::MemoryStats memory;
-  Utilities::System::get_memory_stats(memory);
-  return Utilities::MPI::sum(1024. * memory.VmHWM, communicator);
-}
-
-/** Part of a whole that may be zero, which has no parts. */
-double ratio(const double part, const double whole)
-{
-  return part == 0 ? 0. : part / whole;
-}
-} // namespace
 
 // @sect3{What the stages share}
 //
@@ -58,6 +43,7 @@ struct AdaptiveSolver<dim>::Stages
   DataScale data;
   ErrorEstimate estimate; ///< of the current step, as the next
   BoundOfStep bound;
+  bool is_bound_open = false;         ///< it may still be asked for
   History<dim> history;               ///< of the finished steps
   std::vector<MeshMarks> refinements; ///< from the coarse mesh to that of the current step
 
@@ -69,12 +55,14 @@ struct AdaptiveSolver<dim>::Stages
 
   void hear(const Announce &about_to);
   void measure(double own_stress);
+  bool asks_for_bound(const StepReport<dim> &step) const;
+  void close_bound();
   Refinement mark() const;
   PastStep<dim> past_step(const EstimateNorms &norms, const Energies &energies) const;
   StepReport<dim> report();
   std::string end_of_run(const Refinement &refinement) const;
   void add_results(StepReport<dim> &step);
-  void conclude(StepReport<dim> &step) const;
+  void add_bound(StepReport<dim> &step);
   void refine(const Refinement &refinement);
   void resume(const RunState<dim> &state);
 };
@@ -93,13 +81,28 @@ void AdaptiveSolver<dim>::Stages::hear(const Announce &about_to)
 //
 // Two answers to two questions. The residual indicator $\eta_K$ (4.50) says where the error is,
 // costs next to nothing and exists for every scene. The guaranteed bound says how large the error
-// is at most.
+// is at most, and costs half of a step; where the last one alone shall have it, it waits for the limits.
 /** @p own_stress: that of the step before. */
 template <int dim>
 void AdaptiveSolver<dim>::Stages::measure(const double own_stress)
 {
   estimate = backend->estimate();
-  bound = backend->bound(own_stress);
+  is_bound_open = scene.error_bound && scene.error_bound_last && backend->reduced();
+  bound = is_bound_open ? open_bound() : backend->bound(own_stress);
+}
+
+/** Where it is open: nothing follows, or it may be the end of the run. */
+template <int dim>
+bool AdaptiveSolver<dim>::Stages::asks_for_bound(const StepReport<dim> &step) const
+{
+  return is_bound_open && (!step.stopped_by.empty() || may_meet_tolerance(scene, history));
+}
+
+template <int dim>
+void AdaptiveSolver<dim>::Stages::close_bound()
+{
+  bound = backend->bound(0.);
+  is_bound_open = false;
 }
 
 // @sect3{Mark}
@@ -154,7 +157,12 @@ void AdaptiveSolver<dim>::Stages::resume(const RunState<dim> &state)
   measure(state.history.size() < 2 ? 0. : state.history[state.history.size() - 2].own_stress);
   const Refinement refinement = mark();
   history = state.history;
-  const std::string limit = end_of_run(refinement);
+  std::string limit = end_of_run(refinement);
+  if (is_bound_open && limit == "round-off") // what u_N misses of the data may be more
+  {
+    close_bound();
+    limit = end_of_run(refinement);
+  }
   if (!limit.empty())
     format.reject(state.name, "there is nothing to go on with after step " +
                                   std::to_string(history.size()) + ": " +
@@ -177,12 +185,7 @@ PastStep<dim> AdaptiveSolver<dim>::Stages::past_step(const EstimateNorms &norms,
   PastStep<dim> past;
   past.estimate = norms.total;
   past.relative_estimate =
-      ratio(norms.total / std::sqrt(scene.reference_coercivity()), energies.norm);
-  if (bound.bound)
-  {
-    past.relative_bound = ratio(bound.bound->total, energies.norm);
-    past.own_stress = bound.bound->own_stress;
-  }
+      part_of(norms.total / std::sqrt(scene.reference_coercivity()), energies.norm);
   past.lacks_condition = reduced && (!std::isfinite(reduced->condition_raw) ||
                                      !std::isfinite(reduced->condition_scaled));
   return past;
@@ -215,25 +218,20 @@ StepReport<dim> AdaptiveSolver<dim>::Stages::report()
                        backend->size(),
                        estimate,
                        norms,
-                       bound.bound,
+                       {},
                        bound.missing,
-                       bound.energy_high,
-                       bound.imbalance,
+                       {},
+                       {},
                        backend->reduced(),
                        backend->primal()};
   step.scaled_estimate = norms.total / std::sqrt(scene.reference_coercivity());
   step.relative_estimate = past.relative_estimate;
-  step.relative_bound = past.relative_bound;
   step.energies = energies;
   step.contact = std::move(contact);
   step.errors = true_error.measure(field, step.contact);
-  add_results(step);
-  history.back().seconds = (history.size() < 2 ? 0. : history[history.size() - 2].seconds) +
-                           Utilities::MPI::max(backend->times.total(), backend->communicator);
-  step.times = std::exchange(backend->times, {});
-  step.seconds = past.seconds;
-  step.peak_memory = peak_memory(backend->communicator);
   step.peaks = past.peaks;
+  add_results(step);
+  add_bound(step);
   return step;
 }
 
@@ -246,11 +244,26 @@ void AdaptiveSolver<dim>::Stages::add_results(StepReport<dim> &step)
   step.forces = resultants(scene, step.equilibrium, step.contact);
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
-  const bool is_bounded = step.bound && scene.intervals;
-  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
-  if (is_bounded)
-    mean_intervals.set(step);
-  history.back().relative_half_width = relative_half_width(step);
+}
+
+template <int dim>
+void AdaptiveSolver<dim>::Stages::add_bound(StepReport<dim> &step)
+{
+  {
+    StageTimer timer(backend->times.recover);
+    take_bound(bound, step, history.back());
+    const bool is_bounded = step.bound && scene.intervals;
+    step.no_intervals =
+        is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
+    if (is_bounded)
+      mean_intervals.set(step);
+    history.back().relative_half_width = relative_half_width(step);
+  }
+  step.times += backend->times;
+  history.back().seconds += Utilities::MPI::max(backend->times.total(), backend->communicator);
+  backend->times = {};
+  step.seconds = history.back().seconds;
+  step.peak_memory = Utilities::MPI::sum(peak_memory(), backend->communicator);
 }
 
 /** What makes the last step the last of all; else empty. */
@@ -261,28 +274,10 @@ std::string AdaptiveSolver<dim>::Stages::end_of_run(const Refinement &refinement
   const std::string limit = reached_limit(
       scene, history,
       {backend->size().n_free, std::max(field.largest_displacement(), data.displacement),
-       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); }});
+       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); },
+       is_bound_open});
   return limit.empty() && refinement.is_empty(backend->degrees()) ? nothing_marked(scene.adaptivity)
                                                                   : limit;
-}
-
-/** The rest of the report of a step after which none comes. */
-template <int dim>
-void AdaptiveSolver<dim>::Stages::conclude(StepReport<dim> &step) const
-{
-  step.largest_displacement = largest_displacement(step.field);
-  std::vector<std::vector<StressSample<dim>>> peaks;
-  for (const PastStep<dim> &past : history)
-    peaks.push_back(past.peaks);
-  step.unbounded = unbounded_stresses(growing_peaks(peaks), stress_samples(step.field), step.field);
-  const BodyState<dim> body = body_state(step.field);
-  Warnings of_all;
-  together(backend->communicator, [&]() { of_all = warnings(scene, step.contact, body, history); });
-  step.warnings = joined(
-      of_all, backend->warnings(step.contact, step.equilibrium),
-      tolerance_warnings(scene.adaptivity, bound.missing),
-      tolerance_warnings(scene.adaptivity, history.back().relative_half_width, no_half_width(step)),
-      bound.bound ? bound_warnings(step.relative_bound, bound.bound->imbalance) : Warnings());
 }
 
 namespace
@@ -384,9 +379,15 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
     const Refinement refinement = stages->mark();
     StepReport<dim> step = stages->report();
     step.stopped_by = stages->end_of_run(refinement);
+    if (stages->asks_for_bound(step))
+    {
+      stages->close_bound();
+      stages->add_bound(step);
+      step.stopped_by = stages->end_of_run(refinement);
+    }
     finished = !step.stopped_by.empty();
     if (finished)
-      stages->conclude(step);
+      conclude(*stages->backend, stages->history, step);
     take_thickness(step);
     finished_step(step);
     if (!finished)

@@ -70,11 +70,12 @@ std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
   const PastStep<dim> &step = history.back();
   if (is_exact_to_round_off(scene, step.estimate, last))
     return "round-off";
-  const bool on_bound = limits.tolerance_on == Indicator::bound && !std::isnan(step.relative_bound);
+  const bool on_bound = limits.tolerance_on == Indicator::bound &&
+                        (last.is_bound_open || !std::isnan(step.relative_bound));
   const double error = !limits.tolerance_column.empty() ? step.relative_half_width
                        : on_bound                       ? step.relative_bound
                                                         : step.relative_estimate;
-  if (error < limits.tolerance) // never, where there is no half-width
+  if (error < limits.tolerance) // never, where there is no half-width, or no bound yet
     return "Tolerance";
   if (history.size() >= limits.maximum_steps)
     return "Maximum steps";

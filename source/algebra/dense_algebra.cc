@@ -9,6 +9,11 @@
 #include <string>
 #include <utility>
 
+// deal.II has none; dtrtrs looks for zeros on the diagonal first, and asks for memory.
+extern "C" void dtrsv_(const char *, const char *, const char *, const dealii::types::blas_int *,
+                       const double *, const dealii::types::blas_int *, double *,
+                       const dealii::types::blas_int *);
+
 namespace hpvi
 {
 using dealii::types::blas_int;
@@ -51,7 +56,12 @@ void solve_triangular(const char op, const unsigned int n, const unsigned int co
 {
   const blas_int size = n, nrhs = columns, lda = L.stride, ldb = stride;
   blas_int info = 0;
-  if (n > 0 && columns > 0)
+  if (columns == 1 && n > 0)
+  {
+    const blas_int one = 1;
+    dtrsv_("L", &op, "N", &size, L.entries, &lda, B, &one);
+  }
+  else if (n > 0 && columns > 0)
     dealii::trtrs("L", &op, "N", &size, &nrhs, L.entries, &lda, B, &ldb, &info);
 }
 

@@ -124,8 +124,7 @@ void ReducedBackend<dim>::build()
 // Where contact alone holds the body, statics has a say before anything is factored. Loads whose
 // resultant lies outside the foundation end the run. A resultant inside may still pass between the
 // last point of the multiplier and the end of the contact, where this mesh cannot press: cells are
-// bisected there until it can. The same mesh always leads to the same bisections, so that a run state
-// need not keep them.
+// bisected there until it can, on the same mesh in the same way: a run state need not keep it.
 template <int dim>
 void ReducedBackend<dim>::discretise()
 {
@@ -172,7 +171,8 @@ void ReducedBackend<dim>::factor()
     return;
   }
   begin("factorising " + std::to_string(system.A.n()) + " unknowns", dense_note());
-  factored.reset(); // there may not be room for two
+  kept_factor.reset(); // of a bound that nobody asked for
+  factored.reset();    // there may not be room for two
   factored = std::make_shared<FactoredSystem>(discretisation->factor(), system.f, rows);
 }
 
@@ -302,8 +302,7 @@ double ReducedBackend<dim>::missed(const std::optional<ErrorBound> &bound) const
 
 // @sect3{Refine}
 //
-// The mesh is copied, and the copy refined. That costs less than a hundredth of a step, and leaves
-// every solution its own mesh.
+// A copy of the mesh, for less than a hundredth of a step, so that every solution keeps its own.
 template <int dim>
 void ReducedBackend<dim>::refine(const Refinement &refinement)
 {

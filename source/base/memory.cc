@@ -154,6 +154,13 @@ struct Claim
 thread_local Claim claim;
 } // namespace
 
+double peak_memory()
+{
+  dealii::Utilities::System::MemoryStats memory;
+  dealii::Utilities::System::get_memory_stats(memory);
+  return 1024. * memory.VmHWM;
+}
+
 void forget_memory_claim()
 {
   const std::lock_guard<std::mutex> lock(claims_mutex);

@@ -52,6 +52,11 @@ void check_adaptivity(const Scene<dim> &scene)
            "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
                "; lower the one or raise the other",
            start);
+  if (scene.error_bound && scene.error_bound_last && adaptivity.indicator == Indicator::bound)
+    reject(scene, "Adaptivity", "Indicator",
+           "marks cells by the bound of each step, and Error/Bound = last step has it for the last "
+           "one; set residual, or Bound = true",
+           "bound");
   if (adaptivity.hpa1_bisected + adaptivity.hpa1_raised > 1 + 1e-12)
     reject(scene, "Adaptivity", "hpa1 raised fraction",
            "makes more than all cells with hpa1 bisected fraction = " +

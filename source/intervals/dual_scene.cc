@@ -99,6 +99,7 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
   result.adaptivity.tolerance = 0.15; // |z|_a to 1 %, and z_N near it
   result.adaptivity.maximum_unknowns = 20000;
   result.error_bound = true;
+  result.error_bound_last = false;
   result.intervals = false;
   result.solver = SolverSettings();
   return result;

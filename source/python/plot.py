@@ -136,8 +136,9 @@ def draw_convergence(result, axes):
     last = table["load_step"] == table["load_step"][-1] if "load_step" in table else slice(None)
     for column, words in ERRORS.items():
         values = table[column][last]
-        if np.isfinite(values).any():
-            axes.loglog(table["dofs_free"][last], values, "o-", markersize=4, label=words)
+        known = np.isfinite(values)  # not each step need have its bound
+        if known.any():
+            axes.loglog(table["dofs_free"][last][known], values[known], "o-", markersize=4, label=words)
     axes.set(xlabel="unknowns", ylabel="relative error", title="convergence")
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(frameon=False)

@@ -51,7 +51,8 @@ FullMatrix<double> inverse_factor(const FullMatrix<double> &H)
 } // namespace
 
 InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<double> &h)
-    : x(h.size()), reach(h.size()), J(inverse_factor(H)), R(h.size(), h.size())
+    : x(h.size()), reach(h.size()), J(inverse_factor(H)), R(h.size(), h.size()), d(h.size()),
+      free(h.size()), z(h.size()), missing(h.size())
 {
   Vector<double> Jh(h.size());
   J.vmult(Jh, h);
@@ -147,7 +148,6 @@ bool InequalityProgram::recall(const double tolerance)
 /** Move to the minimiser over the active rows and this one, giving up inequalities on the way. */
 bool InequalityProgram::take_in(const unsigned int row)
 {
-  Vector<double> d(x.size()), z(x.size());
   for (double multiplier = 0.;;)
   {
     J.vmult(d, rows[row].coefficients);
@@ -162,7 +162,7 @@ bool InequalityProgram::take_in(const unsigned int row)
         dual_step = y[k] / r[k];
         blocking = k;
       }
-    Vector<double> free(d);
+    free = d;
     std::fill(free.begin(), free.begin() + r.size(), 0.);
     const bool is_independent = free.l2_norm() > least;
     if (!is_independent && rows[row].is_equality)
@@ -183,7 +183,7 @@ bool InequalityProgram::take_in(const unsigned int row)
     multiplier += step;
     if (step == full_step)
     {
-      activate(row, multiplier, d);
+      activate(row, multiplier);
       meet_active();
       return true;
     }
@@ -217,7 +217,7 @@ double InequalityProgram::length_in_R(const unsigned int place) const
 /** Take from x what round-off of the steps leaves of the active rows, else rows that these imply seem violated. */
 void InequalityProgram::meet_active()
 {
-  Vector<double> missing(x.size()), motion(x.size());
+  missing = 0.;
   for (unsigned int k = 0; k < active.size(); ++k)
   {
     missing[k] = -slack(rows[active[k]], 0.);
@@ -225,8 +225,8 @@ void InequalityProgram::meet_active()
       missing[k] -= R(i, k) * missing[i];
     missing[k] /= R(k, k);
   }
-  J.Tvmult(motion, missing);
-  move(1., motion);
+  J.Tvmult(z, missing);
+  move(1., z);
 }
 
 void InequalityProgram::move(const double step, const Vector<double> &direction)
@@ -253,7 +253,7 @@ InequalityProgram::Rotation InequalityProgram::rotate(const unsigned int i, cons
 }
 
 /** The last active row from now on is @p row with `d = J row`. */
-void InequalityProgram::activate(const unsigned int row, const double multiplier, Vector<double> &d)
+void InequalityProgram::activate(const unsigned int row, const double multiplier)
 {
   const unsigned int q = active.size();
   for (unsigned int i = d.size() - 1; i > q; --i)

@@ -249,8 +249,13 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
        {"Output", "Reference solution", "false", boolean, yes_no,
         "Write the last step's displacement to reference.dat, for Error/Reference solution."},
-       {"Error", "Bound", "true", one_of({"true", "false"}), "true or false",
-        "Compute the guaranteed bound of the error, where there is one (doc/bound.md)."},
+       {"Error", "Bound", "true", one_of({"true", "false", "last step"}),
+        "true, false or last step",
+        "Compute the guaranteed bound of the error, where there is one (doc/bound.md). true: of "
+        "each step. last step: of the last one alone, which saves most of its time; cells are "
+        "marked by Indicator = residual then, and where Tolerance on asks for the bound or an "
+        "interval the first step has it, too, and those that may meet the tolerance by their "
+        "indicator."},
        {"Error", "Bound on distorted cells", "false", boolean, yes_no,
         "Compute it where cells are no parallelograms, and on meshes of files, too: that takes "
         "longer than the step itself."},

@@ -116,6 +116,12 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   else
     scene.adaptivity.tolerance_column = on;
   choose(scene.adaptivity.reading, "Adaptivity", "Smoothness reading", reading_names);
+  if (parameters.has("Error", "Bound"))
+  {
+    const std::string bound = parameters.text("Error", "Bound");
+    scene.error_bound = bound != "false";
+    scene.error_bound_last = bound == "last step";
+  }
   choose(scene.output.steps, "Output", "Steps", output_steps_names);
   choose(scene.solver.path, "Solver", "Path", path_names);
   choose(scene.solver.linear, "Solver", "Linear", linear_names);
@@ -165,6 +171,9 @@ void complete(Parameters &parameters, const std::string &name)
     parameters.set("Adaptivity", "Start degree",
                    std::to_string(own_start_degree(
                        read_choice<Method>(parameters, "Adaptivity", "Method", method_names))));
+  if (parameters.has("Error", "Bound") && parameters.text("Error", "Bound") == "last step" &&
+      !parameters.is_named("Adaptivity", "Indicator"))
+    parameters.set("Adaptivity", "Indicator", "residual"); // which all steps have
   if (is_in_space(parameters) || parameters.text("Material", "Elasticity") == "isotropic")
     return;
   for (const char *const entry : {"Young's modulus", "Poisson's ratio"})

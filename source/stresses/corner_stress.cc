@@ -46,20 +46,25 @@ std::array<double, 3> corner_stress(const unsigned int m, const unsigned int cor
   return s;
 }
 
-std::vector<CornerPoint> corner_points(const unsigned int n_gauss)
+std::vector<CornerLine> corner_lines(const unsigned int n_gauss)
 {
-  std::vector<CornerPoint> result;
+  std::vector<CornerLine> result;
   const QGauss<1> gauss(n_gauss);
   for (unsigned int quarter = 0; quarter < 4; ++quarter)
     for (unsigned int a = 0; a < n_gauss; ++a)
+    {
+      CornerLine across{true, {}}, along{false, {}};
       for (unsigned int b = 0; b < n_gauss; ++b)
       {
         const double u = gauss.point(a)[0], v = u * gauss.point(b)[0],
                      weight = u * gauss.weight(a) * gauss.weight(b);
         const double right = quarter % 2 ? 1 : -1, top = quarter / 2 ? 1 : -1;
-        result.push_back({right * (1 - u), top * (1 - v), weight});
-        result.push_back({right * (1 - v), top * (1 - u), weight});
+        across.points.push_back({right * (1 - u), top * (1 - v), weight});
+        along.points.push_back({right * (1 - v), top * (1 - u), weight});
       }
+      result.push_back(across);
+      result.push_back(along);
+    }
   return result;
 }
 } // namespace hpvi

@@ -56,24 +56,34 @@ void StressElement::add_corner_stress(const unsigned int corner)
 {
   CornerStress result{corner, Modes<3>(m + 1), Modes<3>(), std::vector<double>(n_data)};
   std::vector<double> energies(corners.size() + 1);
-  for (const auto &[xi, eta, weight] : corner_points(m + 12))
+  for (const CornerLine &line : corner_lines(m + 12))
   {
-    const Components s = corner_stress(m, corner, xi, eta);
-    Components e{};
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int l = 0; l < 3; ++l)
-        e[k] += weight * compliance[k][l] * s[l];
-    const auto Li = legendre::values(m + 1, xi), Lj = legendre::values(m + 1, eta);
+    std::array<std::vector<double>, 3> sums; // of the variable along the line
+    sums.fill(std::vector<double>(m + 1));
+    for (const auto &[xi, eta, weight] : line.points)
+    {
+      const Components s = corner_stress(m, corner, xi, eta);
+      Components e{};
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int l = 0; l < 3; ++l)
+          e[k] += weight * compliance[k][l] * s[l];
+      const auto L = legendre::values(m + 1, line.has_one_xi ? eta : xi);
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int i = 0; i <= m; ++i)
+          sums[k][i] += e[k] * L[i];
+      for (unsigned int other = 0; other <= corners.size(); ++other)
+      {
+        const Components t =
+            other == corners.size() ? s : corner_stress(m, corners[other].corner, xi, eta);
+        energies[other] += e[0] * t[0] + e[1] * t[1] + e[2] * t[2];
+      }
+    }
+    const CornerPoint &first = line.points.front();
+    const auto L = legendre::values(m + 1, line.has_one_xi ? first.xi : first.eta);
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i <= m; ++i)
         for (unsigned int j = 0; j <= m; ++j)
-          result.moments(k, i, j) += e[k] * Li[i] * Lj[j];
-    for (unsigned int other = 0; other <= corners.size(); ++other)
-    {
-      const Components t =
-          other == corners.size() ? s : corner_stress(m, corners[other].corner, xi, eta);
-      energies[other] += e[0] * t[0] + e[1] * t[1] + e[2] * t[2];
-    }
+          result.moments(k, i, j) += line.has_one_xi ? L[i] * sums[k][j] : L[j] * sums[k][i];
   }
   result.nearest = inverse_compliance(result.moments);
   Data data;

@@ -39,6 +39,8 @@ invalid "Adaptivity/Tolerance on = tip" "neither an error" "residual, bound, nor
 invalid "Adaptivity/Tolerance on = tip_s1" "tip, tip_ux and tip_uy" -- "Probe tip/At=1, 1" "Adaptivity/Tolerance on=tip_s1"
 invalid "Adaptivity/Tolerance on = friction_resultant" "it has 2" -- "Boundary top/Contact=bilateral" "Adaptivity/Tolerance on=friction_resultant"
 invalid "Adaptivity/Tolerance on = energy" "neither an error" -- "Adaptivity/Tolerance on=energy"
+invalid "Error/Bound = last" "true, false or last step" -- "Error/Bound=last"
+invalid "Adaptivity/Indicator = bound" "Error/Bound = last step" "set residual" -- "Error/Bound=last step" "Adaptivity/Indicator=bound"
 
 # --- materials and parts of sides, which scenes name themselves
 invalid "Material a.b" "is no name" "letters" -- "Material a.b/Where=x"

@@ -76,6 +76,47 @@ class Ends(RunTest):
         self.assertIn("which guarantees nothing", printed)
         self.assertLess(float(self.rows()[-1]["estimate_relative"]), 1e-3)
 
+    def last_step(self, *settings, known=(-1,)):
+        """Rows with the bound of the last step beside those with the bound of each, marked alike: the same but for it."""
+        self.run_scene("Adaptivity/Indicator=residual", *settings)
+        each, reason = self.rows(), self.summary()["stopped_by"]
+        printed = self.run_scene("Error/Bound=last step", *settings)
+        rows = self.rows()
+        self.assertEqual([row["energy"] for row in rows], [row["energy"] for row in each])
+        self.assertEqual(self.summary()["stopped_by"], reason)
+        found = [k for k, row in enumerate(rows) if row["error_bound"]]
+        self.assertEqual(found, sorted({k % len(rows) for k in known}), [row["error_bound_relative"] for row in each])
+        for k in found:
+            for column, value in each[k].items():
+                if (column.endswith("_bound") and column != "seconds_bound") or column in ("error_bound_relative", "energy_low", "energy_high"):
+                    self.assertAlmostEqual(float(rows[k][column]) / float(value), 1, delta=1e-9, msg=column)
+        for row in rows[:found[0]]:
+            self.assertEqual([row[column] for column in row if "bound" in column and column != "seconds_bound"],
+                             [""] * sum("bound" in column and column != "seconds_bound" for column in row))
+        return rows, printed
+
+    def test_bound_of_the_last_step(self):
+        rows, printed = self.last_step("Adaptivity/Maximum steps=6")
+        self.assertIn("  set Indicator              = residual\n", (self.out / "scene.prm").read_text())
+        self.assertEqual(sum(line.split()[7:8] == ["-"] for line in printed.splitlines()), 5, printed)
+        self.assertEqual(self.summary()["last_error_bound"], self.summary()["error_bound"])
+        self.run_scene("Adaptivity/Indicator=residual", "Error/Bound=false", "Adaptivity/Maximum steps=6")
+        self.assertEqual([row["energy"] for row in self.rows()], [row["energy"] for row in rows])
+
+    def test_bound_where_the_tolerance_is_near(self):
+        rows, _ = self.last_step(known=(0, -2, -1))
+        self.assertLess(float(rows[-1]["error_bound_relative"]), 1e-3)
+        rows, _ = self.last_step("Adaptivity/Tolerance on=friction_resultant", "Adaptivity/Tolerance=0.02", known=(0, -2, -1))
+        self.assertLess(float(rows[-1]["friction_resultant_bound"]), 0.02 * abs(float(rows[-1]["friction_resultant"])))
+        self.last_step("Adaptivity/Tolerance on=residual", "Adaptivity/Tolerance=0.01")
+
+    def test_bound_of_the_last_step_of_load_steps(self):
+        self.run_scene("Loading/Steps=2", "Boundary top/Displacement=0.03*t; -0.02*t", "Adaptivity/Maximum steps=3",
+                       "Error/Bound=last step")
+        self.assertEqual([bool(row["error_bound"]) for row in self.rows()][:3], [False, False, True])
+        self.assertFalse(any(row["error_bound"] for row in self.rows()[3:]))
+        self.assertIn("load step", self.summary()["no_error_bound"])
+
     def test_in_space(self):
         self.scene.write_text(CUBE)
         printed = self.run_scene()

@@ -88,6 +88,18 @@ class Resume(RunTest):
             self.scene = SCENES / (scene + ".prm")
             self.kill(KILLS if scene == "fretting" else KILLS // 2, settings, int(settings[0].split("=")[1]))
 
+    def test_the_bound_of_the_last_step(self):
+        """Its last digits, too, and that of the coarse mesh, by which one knows where the tolerance is near."""
+        settings = ("Error/Bound=last step", "Adaptivity/Tolerance=0.01")
+        self.kill(KILLS, settings, len(self.whole(*settings)[1]))
+        self.run_scene(STEPS, "Error/Bound=last step")
+        early = self.rows()
+        self.assertTrue(early[-1]["error_bound"])
+        self.go_on("Adaptivity/Maximum steps=9")
+        rows = self.rows()
+        self.assertEqual(rows[:7], early)
+        self.assertEqual([bool(row["error_bound"]) for row in rows[7:]], [False, True])
+
     def kill(self, n_kills, settings, n_ends):
         """After some step and a pause of some milliseconds, or of about a step."""
         whole = self.whole(*settings)

@@ -22,6 +22,7 @@ struct LastSolution
   double missed;    ///< what u_N misses of the data in the energy norm
   /** round_off_of_estimate(); asked only where the indicator is small, on all processes at once. */
   std::function<double()> round_off;
+  bool is_bound_open = false; ///< what the step lacks of it may still be computed
 };
 
 /**

@@ -95,13 +95,14 @@ private:
   ErrorBound bound_beside_forces(const double own_stress)
   {
     ErrorBound result;
+    ErrorBounds anew; // which steps had one before must not decide about the last bits
+    ErrorBounds &bounds = scene.error_bound_last ? anew : error_bounds;
     const auto part = [&](const unsigned int k)
     {
       if (k == 1)
         nodal_forces();
       else
-        result =
-            error_bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
+        result = bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
     };
     for_all(2, 1, part);
     return result;

@@ -44,6 +44,9 @@ void require_memory(double bytes, const std::string &purpose);
 /** The calling thread has given back what it asked for; the end of a thread says the same. */
 void forget_memory_claim();
 
+/** What the process has had at most so far [bytes]. */
+double peak_memory();
+
 constexpr std::size_t large_page = std::size_t(1) << 21;
 
 /** Ask the kernel for large pages under @p bytes of memory that nobody has touched yet; it may decline. */

@@ -71,7 +71,7 @@ private:
   void move(double step, const dealii::Vector<double> &direction);
   void note_reach();
   Rotation rotate(unsigned int i, double a, double b);
-  void activate(unsigned int row, double multiplier, dealii::Vector<double> &d);
+  void activate(unsigned int row, double multiplier);
   void drop(unsigned int place);
 
   dealii::Vector<double> x;
@@ -83,6 +83,9 @@ private:
   std::vector<double> y;           ///< multipliers of the active rows
   std::vector<bool> is_in;         ///< is a row active?
   std::vector<bool> counts_as_met; ///< as active ones imply it, up to round-off
+
+  /** Of the row that is taken in: J times it, what no active row implies of that, the step; and what active rows miss. */
+  dealii::Vector<double> d, free, z, missing;
 };
 } // namespace hpvi
 

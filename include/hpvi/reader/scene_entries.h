@@ -63,10 +63,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
   constexpr bool in_plane = std::tuple_size_v<decltype(scene.body_force)> == 2;
   if (in_plane)
-  {
-    visit("Error", "Bound", scene.error_bound);
     visit("Error", "Bound on distorted cells", scene.bound_on_distorted_cells);
-  }
   auto &solver = scene.solver;
   visit("Solver", "Primal tolerance", solver.primal_tolerance);
   visit("Solver", "QP warm start", solver.qp_warm_start);

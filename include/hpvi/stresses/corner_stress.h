@@ -19,8 +19,15 @@ struct CornerPoint
   double xi, eta, weight;
 };
 
-/** A rule for integrals with corner stresses: in each quarter Duffy's, collapsed into the corner. */
-std::vector<CornerPoint> corner_points(unsigned int n_gauss);
+/** Points with the same xi, or the same eta. */
+struct CornerLine
+{
+  bool has_one_xi;
+  std::vector<CornerPoint> points;
+};
+
+/** A rule for integrals with corner stresses, line by line: in each quarter Duffy's, collapsed into the corner. */
+std::vector<CornerLine> corner_lines(unsigned int n_gauss);
 } // namespace hpvi
 
 #endif
