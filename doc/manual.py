@@ -45,7 +45,7 @@ EXAMPLES = {
     ("Solver", "Condition number"): "true", ("Output", "VTU"): "false",
     ("Output", "Steps"): "last", ("Output", "Mesh picture"): "false",
     ("Output", "Contact tables"): "false",
-    ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Output", "Report"): "false", ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
