@@ -19,7 +19,11 @@ using namespace dealii;
 
 namespace
 {
-constexpr double page_size = 440., pixel_size = 880.; ///< of the longer side on the page, of pixels
+constexpr double page_size = 440.; ///< of the longer side on the page
+
+/** The same in pixels: in space most of what is painted lies behind something. */
+template <int dim>
+constexpr double pixel_size = dim == 2 ? 880. : 600.;
 
 /** Weighed by the areas of the quads: what a few small ones at a singularity exceed is cut off. */
 Bands bands_of(const SampledField &field)
@@ -108,7 +112,7 @@ View<dim>::View(const SampledField &field, const double magnification)
     top = std::min(top, points.back().y);
     bottom = std::max(bottom, points.back().y);
   }
-  scale = pixel_size / std::max(right - left, bottom - top);
+  scale = pixel_size<dim> / std::max(right - left, bottom - top);
   for (RasterPoint &point : points)
     point = {scale * (point.x - left), scale * (point.y - top), scale * point.depth};
   width = std::max(1., std::ceil(scale * (right - left)));
@@ -126,7 +130,7 @@ template <int dim>
 PagePoint View<dim>::on_drawing(const std::array<double, 3> &x) const
 {
   const RasterPoint point = page(x);
-  return page_size / pixel_size * PagePoint(point.x, point.y);
+  return page_size / pixel_size<dim> * PagePoint(point.x, point.y);
 }
 
 /** 1, 2, 5, 10, ... times: the largest displacement is a twelfth of the body at most, or as large as it is. */
@@ -221,7 +225,7 @@ PagePoint displaced(const Point<2> &x, const SampledField &field, const View<2> 
     nearest = square < least ? k : nearest;
     least = std::min(least, square);
   }
-  return page_size / pixel_size * PagePoint(view.points[nearest].x, view.points[nearest].y);
+  return page_size / pixel_size<2> * PagePoint(view.points[nearest].x, view.points[nearest].y);
 }
 
 /** States of contact along the body, each in its colour; of many points some, and all where the state changes. */
@@ -237,7 +241,7 @@ void draw_states(Drawing &drawing, const SampledField &field, const View<2> &vie
     if (line.size() > 1)
       drawing.line(line, stroke(state_colour(state), 4.) + " stroke-linecap=\"round\"");
   };
-  const std::size_t stride = 1 + contact.size() / 120;
+  const std::size_t stride = 1 + contact.size() / 60;
   for (std::size_t k = 0; k < contact.size(); ++k)
   {
     const Record &row = contact[k];
@@ -275,7 +279,7 @@ void draw_more(Drawing &drawing, const Scene<2> &scene, const SampledField &fiel
   if (contact.empty())
     return;
   double x = 0;
-  const double y = page_size / pixel_size * view.height + 26.;
+  const double y = page_size / pixel_size<2> * view.height + 26.;
   for (const std::string state : {"open", "slip", "stick"})
   {
     drawing.line({{x, y - 4}, {x + 22, y - 4}}, stroke(state_colour(state), 4.));
@@ -288,7 +292,7 @@ void draw_more(Drawing &drawing, const Scene<2> &scene, const SampledField &fiel
 void draw_more(Drawing &drawing, const Scene<3> &, const SampledField &, const View<3> &view,
                const std::vector<Record> &)
 {
-  const PagePoint origin(16., page_size / pixel_size * view.height + 50.);
+  const PagePoint origin(16., page_size / pixel_size<3> * view.height + 50.);
   for (unsigned int d = 0; d < 3; ++d)
   {
     std::array<double, 3> axis{};
@@ -313,7 +317,7 @@ FieldPicture stress_picture(const Scene<dim> &scene, const SampledField &field,
                           { return 1U + bands(value) + Bands::number * darkness; });
   const std::vector<Colour> palette = Bands::palette();
   raster.draw_outline(palette.size() - 1);
-  const double scale = page_size / pixel_size;
+  const double scale = page_size / pixel_size<dim>;
   Drawing drawing;
   drawing.image({0, 0, scale * view.width, scale * view.height}, raster.png_base64(palette));
   draw_more(drawing, scene, field, view, contact);
@@ -342,7 +346,7 @@ std::string degree_picture(const SampledField &field)
                           { return 1 + bands(field.degrees[quad] + 0.5); });
   const std::vector<Colour> palette = Bands::palette();
   raster.draw_outline(palette.size() - 1);
-  const double scale = page_size / pixel_size;
+  const double scale = page_size / pixel_size<2>;
   Drawing drawing;
   drawing.image({0, 0, scale * view.width, scale * view.height}, raster.png_base64(palette));
   bands.draw_bar(drawing, drawing.extent().right + 24., scale * view.height, "polynomial degree");

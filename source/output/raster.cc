@@ -32,7 +32,7 @@ Bytes compressed(const Bytes &content)
 {
   uLongf size = compressBound(content.size());
   Bytes result(size);
-  const int status = compress2(result.data(), &size, content.data(), content.size(), 4);
+  const int status = compress2(result.data(), &size, content.data(), content.size(), 2);
   AssertThrow(status == Z_OK, dealii::ExcInternalError());
   result.resize(size);
   return result;

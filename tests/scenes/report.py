@@ -15,10 +15,10 @@ import html5lib
 from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest
 
 SHORT = "Adaptivity/Maximum steps=4"
-# Of each kind: a bound, a load history, two bodies, a plate, a curved mesh of a file, space.
+# Of each kind: a bound, a load history, two bodies, a plate, space.
 SCENES_OF_ALL_KINDS = (
     ("han-6-12", SHORT), ("fretting", "Loading/Steps=4", "Adaptivity/Maximum steps=2"), ("blocks", "Adaptivity/Maximum steps=1"),
-    ("punch-plate", "Adaptivity/Maximum steps=1"), ("bracket", "Adaptivity/Maximum steps=1"),
+    ("punch-plate", "Adaptivity/Maximum steps=1"),
     ("dome", "Adaptivity/Maximum steps=1"))
 # Members of summary.json whose numbers the page shows with six digits.
 SHOWN = (("final", "elements"), ("final", "dofs_free"), ("final", "multipliers"), ("final", "energy"), ("contact",), ("forces",),

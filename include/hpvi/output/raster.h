@@ -66,12 +66,13 @@ void Raster::triangle(const std::array<RasterPoint, 3> &p, const std::array<floa
             y_end = std::min(height - 1., std::floor(bottom - 0.5));
   if (!(std::abs(area) > 0) || x_begin > x_end)
     return;
+  const double inverse = 1 / area;
   for (int y = y_begin; y <= y_end; ++y)
     for (int x = x_begin; x <= x_end; ++x)
     {
       const double dx = x + 0.5 - p[0].x, dy = y + 0.5 - p[0].y;
-      const double b = (dx * (p[2].y - p[0].y) - (p[2].x - p[0].x) * dy) / area,
-                   c = ((p[1].x - p[0].x) * dy - dx * (p[1].y - p[0].y)) / area, a = 1 - b - c;
+      const double b = (dx * (p[2].y - p[0].y) - (p[2].x - p[0].x) * dy) * inverse,
+                   c = ((p[1].x - p[0].x) * dy - dx * (p[1].y - p[0].y)) * inverse, a = 1 - b - c;
       if (a < -1e-9 || b < -1e-9 || c < -1e-9)
         continue;
       const auto depth = static_cast<float>(a * p[0].depth + b * p[1].depth + c * p[2].depth);
