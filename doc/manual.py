@@ -49,7 +49,7 @@ EXAMPLES = {
     ("Solver", "Condition number"): "true", ("Solver", "Threads"): "2", ("Output", "VTU"): "false",
     ("Output", "Steps"): "last", ("Output", "Mesh picture"): "false",
     ("Output", "Contact tables"): "false",
-    ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Output", "Report"): "false", ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 

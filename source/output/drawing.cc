@@ -171,6 +171,14 @@ void Drawing::arrow(const PagePoint &tail, const PagePoint &head, const ArrowHea
   out << "</g>\n";
 }
 
+void Drawing::image(const PageBox &box, const std::string &png)
+{
+  out << "<image x=\"" << pixels(box.left) << "\" y=\"" << pixels(box.top) << "\" width=\""
+      << pixels(box.width()) << "\" height=\"" << pixels(box.height())
+      << "\" href=\"data:image/png;base64," << png << "\"/>\n";
+  include(box);
+}
+
 bool Drawing::is_free(const PageBox &box) const
 {
   return std::none_of(texts.begin(), texts.end(),

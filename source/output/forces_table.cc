@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/output/boundary_words.h>
 #include <hpvi/output/forces_table.h>
 
 #include <cmath>
 
 namespace hpvi
 {
+using namespace dealii;
+
 namespace
 {
 std::string known(const double value)
@@ -48,6 +51,45 @@ std::vector<Record> forces_rows(const StepReport<dim> &step)
   return rows;
 }
 
+namespace
+{
+/** On the coarse mesh, so that a refined one does not shift the mean. */
+template <int dim>
+std::vector<Point<dim>> coarse_points(const Triangulation<dim> &mesh, const types::boundary_id id)
+{
+  std::vector<Point<dim>> points;
+  for (const auto &cell : mesh.cell_iterators_on_level(0))
+    for (const auto &face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == id)
+        for (const unsigned int v : face->vertex_indices())
+          points.push_back(face->vertex(v));
+  return points;
+}
+} // namespace
+
+template <int dim>
+Record prescribed_displacements(const StepReport<dim> &step)
+{
+  Record record;
+  for (const BoundaryCondition<dim> &boundary : step.scene.boundaries)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      if (!boundary.displacement[d])
+        continue;
+      double sum = 0;
+      const std::vector<double> values =
+          values_at<dim>(coarse_points(step.field.dof_handler.get_triangulation(), boundary.id),
+                         boundary.displacement[d]);
+      for (const double value : values)
+        sum += value / values.size();
+      record.emplace_back("displacement_" + boundary.name + "_" + "xyz"[d],
+                          values.empty() ? "" : text(sum));
+    }
+  return record;
+}
+
+template Record prescribed_displacements(const StepReport<2> &);
+template Record prescribed_displacements(const StepReport<3> &);
 template std::vector<Record> forces_rows(const StepReport<2> &);
 template std::vector<Record> forces_rows(const StepReport<3> &);
 } // namespace hpvi

@@ -8,6 +8,8 @@
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
+#include <hpvi/output/report.h>
+#include <hpvi/output/run_files.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/output/written_names.h>
 
@@ -15,8 +17,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -27,12 +27,6 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, const unsigned int step)
-{
-  return numbered("probe-" + scene.probes[line.probe].name, step, ".csv");
-}
-
 /** together(), where what goes wrong is that something cannot be written. */
 void write_together(MPI_Comm communicator, const std::function<void()> &work)
 {
@@ -50,12 +44,6 @@ void write_together(MPI_Comm communicator, const std::function<void()> &work)
   }
 }
 } // namespace
-
-template <int dim>
-Output<dim>::Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator)
-    : Output(scene, path, 0, communicator)
-{
-}
 
 template <int dim>
 Output<dim>::Output(const Scene<dim> &scene, const std::string &path, const unsigned int n_steps,
@@ -103,15 +91,6 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
   }
   is_usable = true;
 }
-
-namespace
-{
-std::string content_of(const std::filesystem::path &file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-} // namespace
 
 /** What is there of steps that the state does not know will be there again. */
 template <int dim>
@@ -364,6 +343,16 @@ void Output<dim>::write_state()
     write("state.dat", state);
 }
 
+/** It says what summary.json is about to say. Known by its head: it is listed when it is there. */
+template <int dim>
+void Output<dim>::write_report()
+{
+  if (!scene.output.report || summary.steps == 0)
+    return;
+  write("report.html", report(scene, path, summary.json(scene, {})));
+  directory->add("report.html");
+}
+
 /** The state comes after all else: there is nothing to finish where it says that nothing is left to do. */
 template <int dim>
 void Output<dim>::finish()
@@ -374,6 +363,7 @@ void Output<dim>::finish()
                  {
                    if (!is_first)
                      return;
+                   write_report();
                    write_summary();
                    write_state();
                  });
@@ -384,8 +374,16 @@ void Output<dim>::give_up(const std::string &status, const std::string &message)
 {
   summary.status = status;
   summary.message = message;
-  if (directory) // where it cannot be written, the message itself is what the user has to hear of
-    directory->write("summary.json", summary.json(scene, directory->files()));
+  if (!directory)
+    return;
+  try
+  {
+    write_report();
+  }
+  catch (const std::exception &) // the message itself is what the user has to hear of
+  {
+  }
+  directory->write("summary.json", summary.json(scene, directory->files()));
 }
 
 template <int dim>

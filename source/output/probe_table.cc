@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/column_width.h>
 #include <hpvi/output/probe_table.h>
+#include <hpvi/output/result_directory.h>
 
 #include <array>
 #include <cmath>
@@ -54,6 +55,12 @@ Record probe_record(const StepReport<dim> &step)
 }
 
 template <int dim>
+std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, const unsigned int step)
+{
+  return numbered("probe-" + scene.probes[line.probe].name, step, ".csv");
+}
+
+template <int dim>
 std::string probe_table(const ProbeLine<dim> &line)
 {
   std::vector<Record> rows;
@@ -78,6 +85,8 @@ std::string probe_table(const ProbeLine<dim> &line)
 
 template Record probe_record(const StepReport<2> &);
 template Record probe_record(const StepReport<3> &);
+template std::string probe_file(const Scene<2> &, const ProbeLine<2> &, unsigned int);
+template std::string probe_file(const Scene<3> &, const ProbeLine<3> &, unsigned int);
 template std::string probe_table(const ProbeLine<2> &);
 template std::string probe_table(const ProbeLine<3> &);
 } // namespace hpvi

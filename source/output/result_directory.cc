@@ -35,7 +35,7 @@ bool is_result(const std::string &name)
   using namespace results;
   static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
                                   vtu + "|" + pieces + "|" + reference + "|" + picture + "|" +
-                                  probe + ")(\\.tmp)?");
+                                  probe + "|" + report + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 
@@ -56,14 +56,15 @@ struct EarlierRun
   std::string scene; ///< its file
 };
 
-/** Is it a picture that this program has drawn? */
-bool is_own_picture(const fs::path &file)
+/** Is it a picture or a report that says that this program has made it? */
+bool names_its_maker(const fs::path &file)
 {
-  const std::string wanted = "<!-- " + results::picture_head;
-  std::string begin(wanted.size(), '\0');
   std::error_code ignored;
-  return fs::is_regular_file(fs::symlink_status(file, ignored)) &&
-         std::ifstream(file, std::ios::binary).read(begin.data(), begin.size()) && begin == wanted;
+  std::string begin(40, '\0');
+  if (fs::is_regular_file(fs::symlink_status(file, ignored)))
+    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  return begin.rfind("<!-- " + results::picture_head, 0) == 0 ||
+         begin.rfind("<!-- " + results::report_head, 0) == 0;
 }
 
 /** Which of @p names has this program written, and for which scene? */
@@ -207,8 +208,6 @@ std::vector<std::string> FileNames::list() const
   return names;
 }
 
-// ---------------------------------------------------------------- the directory
-
 ResultDirectory::ResultDirectory(const std::string &directory, const std::string &writes,
                                  const std::vector<std::string> &reads)
     : path(directory)
@@ -225,10 +224,11 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
   earlier_scene = earlier.scene;
   for (const std::string &name : names)
   {
-    const bool is_picture = std::regex_match(name, picture);
-    if (is_picture && is_own_picture(path / name))
+    const bool is_picture = std::regex_match(name, picture),
+               says_so = is_picture || name == "report.html";
+    if (says_so && names_its_maker(path / name))
       own.add(name);
-    else if (is_picture)
+    else if (says_so)
       own.remove(name);
     const bool writes_it = std::regex_match(name, written);
     std::error_code ignored;
@@ -239,8 +239,8 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
       reject("the run reads its " + name + ", which would be overwritten");
     if (writes_it && !own.contains(name))
       reject("its " + name + " would be overwritten, and " +
-             (is_picture ? "it does not say that it was drawn by hpvi"
-                         : "no summary.json says that it is a result of hpvi"));
+             (says_so ? "it does not say that hpvi has made it"
+                      : "no summary.json says that it is a result of hpvi"));
     if (!is_read && !is_picture && own.contains(name) && name != summary_name)
       stale.insert(name);
   }
@@ -320,7 +320,7 @@ std::vector<std::string> ResultDirectory::remove_after(const unsigned int step,
   {
     std::smatch match;
     const unsigned long number = std::regex_match(name, match, pattern) ? std::stoul(match[1]) : 0;
-    if ((number > 0 && !kept(number)) || name == "reference.dat")
+    if (number > 0 ? !kept(number) : name == "reference.dat" || name == "report.html")
       stale.insert(name);
     else if (number == step)
       of_step.push_back(name);

@@ -252,6 +252,8 @@ Record loading_record(const StepReport<dim> &step)
   record.emplace_back("stopped_by", step.stopped_by);
   record.emplace_back("released_energy", text(step.load.released));
   record.emplace_back("unbalanced_energy", text(step.load.unbalanced));
+  const Record displacements = prescribed_displacements(step);
+  record.insert(record.end(), displacements.begin(), displacements.end());
   return record;
 }
 

@@ -17,6 +17,7 @@ std::string names_written(const Scene<dim> &scene, const unsigned int n_processe
           : n_processes == 1 ? "|" + results::vtu
                              : "|" + results::pieces) +
          (output.reference ? "|" + results::reference : "") +
+         (output.report ? "|" + results::report : "") +
          (std::any_of(scene.probes.begin(), scene.probes.end(),
                       [](const Probe<dim> &probe) { return probe.kind == ProbeKind::line; })
               ? "|" + results::probe

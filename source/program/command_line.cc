@@ -30,6 +30,9 @@ po::options_description visible_options()
   add("resume", po::value<std::string>()->value_name("DIR"),
       "go on with the run whose results are in DIR after its last finished step; --set may change "
       "limits of Adaptivity alone");
+  add("report", po::value<std::string>()->value_name("DIR"),
+      "write report.html into DIR, a page that tells of the run whose results are there, and solve "
+      "nothing");
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
   add("validate", "check the scene, say in words what it says, and write nothing");
@@ -100,6 +103,23 @@ void take_resume(const std::string &directory, CommandLine &line)
   line.scene_file = directory + "/scene.prm";
 }
 
+void take_report(const std::string &directory, CommandLine &line)
+{
+  const std::string begin = "hpvi: --report " + printable(directory, 400) + ": ";
+  if (!line.scene_file.empty() || !line.output_directory.empty() || !line.overrides.empty())
+    throw InputError(begin + "tells of the run that is there, and writes there; remove " +
+                     (!line.scene_file.empty()        ? printable(line.scene_file, 400)
+                      : line.output_directory.empty() ? "--set"
+                                                      : "--output"));
+  if (line.validate || line.picture || line.inf_sup || line.print_parameters ||
+      !line.sweeps.empty())
+    throw InputError(begin + "solves nothing; remove the other command");
+  for (const char *const file : {"summary.json", "scene.prm"})
+    if (!std::filesystem::is_regular_file(std::filesystem::path(directory) / file))
+      throw InputError(begin + "has no " + file + " of a run; name the directory of its results");
+  line.report = directory;
+}
+
 void check_sweeps(const CommandLine &line)
 {
   const std::vector<SweptScene> scenes = swept_scenes(line.sweeps);
@@ -146,6 +166,11 @@ CommandLine parse(const int argc, const char *const argv[])
   result.help = values.count("help");
   result.version = values.count("version");
 
+  if (values.count("report") && values.count("resume"))
+    throw InputError(
+        "hpvi: --report tells of a run, and --resume goes on with one; remove one of the two");
+  if (values.count("report"))
+    take_report(values["report"].as<std::string>(), result);
   if (values.count("resume"))
     take_resume(values["resume"].as<std::string>(), result);
   if (!result.sweeps.empty())
@@ -162,7 +187,8 @@ CommandLine parse(const int argc, const char *const argv[])
                      ": --inf-sup writes no file; remove one of the two");
   const bool defaults = result.print_parameters && !result.validate && result.overrides.empty() &&
                         result.sweeps.empty();
-  if (result.scene_file.empty() && !result.help && !result.version && !defaults)
+  if (result.scene_file.empty() && !result.help && !result.version && !defaults &&
+      result.report.empty())
     throw InputError("hpvi: no scene; name a parameter file, as in hpvi prm/han-6-12.prm, or see "
                      "hpvi --help");
   return result;

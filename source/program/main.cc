@@ -13,6 +13,7 @@
 #include <hpvi/program/run.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/sweep_run.h>
+#include <hpvi/program/tell_of_run.h>
 #include <hpvi/program/terminal.h>
 #include <hpvi/reader/scene_reader.h>
 
@@ -139,6 +140,13 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
     std::cout << usage();
   else if (command_line.version)
     std::cout << version_line() << std::endl;
+  else if (!command_line.report.empty())
+    agree(
+        [&]()
+        {
+          if (is_first_process())
+            tell_of_run(command_line.report);
+        });
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();
   else if (!command_line.sweeps.empty())

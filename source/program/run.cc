@@ -3,6 +3,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/last_word.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/scene_words.h>

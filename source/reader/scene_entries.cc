@@ -247,6 +247,9 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},
        {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
+       {"Output", "Report", "true", boolean, yes_no,
+        "Write report.html when the run is over: one page to read, print and send, with all that "
+        "came out of it."},
        {"Output", "Reference solution", "false", boolean, yes_no,
         "Write the last step's displacement to reference.dat, for Error/Reference solution."},
        {"Error", "Bound", "true", one_of({"true", "false", "last step"}),

@@ -81,7 +81,9 @@ def of_results(directory, status):
                 table(file)
             elif file.suffix in (".vtu", ".pvd", ".svg"):
                 ElementTree.parse(file)
-            elif file.suffix not in (".json", ".prm", ".dat"):
+            elif file.suffix == ".html" and not file.read_text().endswith("</html>\n"):
+                return f"{file.name} is cut"
+            elif file.suffix not in (".html", ".json", ".prm", ".dat"):
                 return f"leaves {file.suffix or file.name}"
         except (ValueError, UnicodeDecodeError, ElementTree.ParseError) as error:
             return f"{re.sub(r'[0-9]+', 'N', file.name)} is no {file.suffix[1:].upper()}: {error if file.suffix == '.csv' else ''}"

@@ -8,7 +8,7 @@ import unittest
 
 from runs import RunTest, result_names
 
-QUIET = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false")
+QUIET = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false", "Output/Report=false")
 SHORT = "Adaptivity/Maximum steps=2"
 LONG = "Adaptivity/Maximum steps=4"
 
@@ -145,8 +145,8 @@ class OutputDirectory(RunTest):
     def test_steps_are_listed_as_ranges(self):
         self.run_scene(LONG, "Output/Mesh picture=false")
         self.assertEqual(self.summary()["files"],
-                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "forces.csv", "scene.prm",
-                          "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
+                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "forces.csv", "report.html",
+                          "scene.prm", "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
 
     def test_the_last_step_alone(self):
         last = "Output/Steps=last"

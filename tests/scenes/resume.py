@@ -48,6 +48,8 @@ class Resume(RunTest):
         result = self.contents()
         for name in ("convergence.csv", "state.dat", "summary.json"):
             result.pop(name)
+        if "report.html" in result:
+            result["report.html"] = re.sub(rb'<p class="times">.*', b"", result["report.html"])
         rows = [{key: value for key, value in row.items() if not key.startswith(TIMES)}
                 for row in self.rows()]
         summary = self.summary()

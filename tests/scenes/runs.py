@@ -143,7 +143,7 @@ def expanded(entry):
 
 
 def result_names(steps):
-    names = ["convergence.csv", "degrees.csv", "forces.csv", "scene.prm", "summary.json", "solution.pvd", "state.dat"]
+    names = ["convergence.csv", "degrees.csv", "forces.csv", "report.html", "scene.prm", "summary.json", "solution.pvd", "state.dat"]
     for step in range(1, steps + 1):
         names += [f"contact-{step:02}.csv", f"mesh-{step:02}.svg", f"solution-{step:02}.vtu"]
     return sorted(names)

@@ -39,6 +39,8 @@ def without_times(path):
     result["convergence.csv"] = table(result["convergence.csv"].decode())
     if "state.dat" in result:
         result["state.dat"] = state(result["state.dat"].decode())
+    if "report.html" in result:
+        result["report.html"] = re.sub(rb'<p class="times">.*', b"", result["report.html"])
     summary = json.loads(result["summary.json"])
     for name in ("seconds", "final"):
         summary.pop(name)

@@ -113,8 +113,16 @@ TEST(SceneByCode, HasTheDefaultsOfAFile)
   };
   for_each_value(code, collect(ours));
   for_each_value(file, collect(theirs));
+  ASSERT_GT(ours.size(), 20U);
+  // A page for readers is what who runs a file wants; code has its results at hand.
+  EXPECT_FALSE(code.output.report);
+  EXPECT_TRUE(file.output.report);
+  for (std::vector<std::string> *const list : {&ours, &theirs})
+    list->erase(std::remove_if(list->begin(), list->end(),
+                               [](const std::string &line)
+                               { return line.rfind("Output/Report", 0) == 0; }),
+                list->end());
   EXPECT_EQ(ours, theirs);
-  EXPECT_GT(ours.size(), 20U);
   EXPECT_EQ(code.adaptivity.method, file.adaptivity.method);
   EXPECT_EQ(code.adaptivity.reading, file.adaptivity.reading);
   EXPECT_EQ(code.solver.qp_solver, file.solver.qp_solver);

@@ -71,6 +71,9 @@ public:
   void arrow(const PagePoint &tail, const PagePoint &head, ArrowHead kind,
              const std::string &colour);
 
+  /** A picture of pixels, a PNG in base64. */
+  void image(const PageBox &box, const std::string &png);
+
   /** A text that looks for a place near another. */
   struct Note
   {

@@ -12,6 +12,10 @@ namespace hpvi
 /** The rows of forces.csv of one step: of each boundary, part of a side and side of a pair what it exerts on the body. */
 template <int dim>
 std::vector<Record> forces_rows(const StepReport<dim> &step);
+
+/** The last columns of loading.csv: where each boundary is held or moved to, as a mean over its coarse edges or faces. */
+template <int dim>
+Record prescribed_displacements(const StepReport<dim> &step);
 } // namespace hpvi
 
 #endif

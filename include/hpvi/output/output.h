@@ -51,6 +51,7 @@ public:
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
  * | `state.dat` | all that it takes to go on after the last finished step, of a history the last finished load step: RunState |
  * | `reference.dat` | the last displacement, to measure other runs against |
+ * | `report.html` | what came out, on a page to read and print, when the run is over |
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
  *
  * Numbers are written with as many digits as it takes to read the same number back. The units are
@@ -70,7 +71,10 @@ public:
    * remove the files that an earlier run left there. Throws InputError naming the directory (see
    * ResultDirectory).
    */
-  Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator = MPI_COMM_SELF);
+  Output(const Scene<dim> &scene, const std::string &path, MPI_Comm communicator = MPI_COMM_SELF)
+      : Output(scene, path, 0, communicator)
+  {
+  }
 
   /**
    * The same for a run that goes on after @p n_steps steps there: their files stay as they are, and those of later ones
@@ -108,6 +112,7 @@ private:
   void check(const std::string &name, const std::error_code &error) const;
   void write_summary() const;
   void write_state();
+  void write_report();
   void write_pieces(const StepReport<dim> &step);
   void write_pictures(const StepReport<dim> &step);
   void add_to_collection(const StepReport<dim> &step);

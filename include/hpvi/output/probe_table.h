@@ -13,6 +13,10 @@ namespace hpvi
 template <int dim>
 Record probe_record(const StepReport<dim> &step);
 
+/** Its name, as in `probe-NAME-NN.csv`. */
+template <int dim>
+std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, unsigned int step);
+
 /** A table of the points along one line. */
 template <int dim>
 std::string probe_table(const ProbeLine<dim> &line);

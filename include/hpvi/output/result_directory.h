@@ -24,11 +24,15 @@ inline const std::string
     loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
-    reference = "reference\\.dat", picture = "scene\\.svg",
+    reference = "reference\\.dat", picture = "scene\\.svg", report = "report\\.html",
     probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
-/** The words with which a picture of the scene begins: it is known by them, for no summary.json lists it. */
-inline const std::string picture_head = "the scene, drawn by hpvi";
+/**
+ * The words with which a picture of the scene and a report begin: they are known by them, for no summary.json lists what other
+ * commands than a run have made.
+ */
+inline const std::string picture_head = "the scene, drawn by hpvi",
+                         report_head = "the run, told by hpvi";
 } // namespace results
 
 /** NAME-NN.SUFFIX; the number grows beyond two digits where it has to. */
@@ -67,8 +71,8 @@ private:
  * The directory in which a run leaves its files. A second run that wants it is refused while the
  * first one lasts, and what this program has not written is neither overwritten nor removed: the
  * program's own files are those that `summary.json` lists under "files", or, where it was written
- * before there was such a list, those of a result's name; and a picture of the scene, which says so itself. That one
- * stays when a run replaces the results: it was drawn by another command.
+ * before there was such a list, those of a result's name; and a picture of the scene or a report, which say so themselves.
+ * The picture stays when a run replaces the results: it was drawn by another command.
  */
 class ResultDirectory
 {

@@ -4,7 +4,6 @@
 
 #include <hpvi/base/progress.h>
 #include <hpvi/base/stage_times.h>
-#include <hpvi/scene/scene.h>
 
 #include <chrono>
 #include <string>
@@ -13,9 +12,6 @@ namespace hpvi
 {
 /** As in "hpvi 0.2.0 (Release build), deal.II 9.4.1". */
 std::string version_line();
-
-/** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
-std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivity, bool has_bound);
 
 /** Says that results of another scene file are replaced; nothing where @p scene_file is empty. */
 std::string replacement_in_words(const std::string &scene_file, const std::string &directory);

@@ -79,6 +79,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   if (in_plane)
     visit("Output", "Mesh picture", output.mesh_picture);
   visit("Output", "Contact tables", output.contact);
+  visit("Output", "Report", output.report);
   visit("Output", "Reference solution", output.reference);
 }
 

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/output/boundary_words.h>
+#include <hpvi/output/chart.h>
+#include <hpvi/output/colour_bands.h>
+#include <hpvi/output/contact_picture.h>
+#include <hpvi/output/html.h>
+#include <hpvi/output/report_plots.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace hpvi
+{
+namespace
+{
+constexpr const char *blue = "#1f5fa8", *orange = "#e07b00", *green = "#00796b", *black = "#222";
+
+double field(const Record &row, const std::string &column)
+{
+  return number(value_of(row, column)).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+bool has_points(const ChartLine &line)
+{
+  return std::any_of(line.points.begin(), line.points.end(),
+                     [](const auto &point) { return std::isfinite(point[1]); });
+}
+
+/** Lines without a point are left out. */
+ChartLine line_of(const std::vector<Record> &rows, const std::string &x, const std::string &y,
+                  ChartLine line)
+{
+  for (const Record &row : rows)
+    line.points.push_back({{field(row, x), field(row, y)}});
+  return line;
+}
+} // namespace
+
+std::string convergence_plot(const RunFiles &files)
+{
+  const bool is_history = !files.loads.empty();
+  const std::string over = is_history ? "step" : "dofs_free";
+  Chart chart;
+  chart.is_logarithmic = true;
+  chart.x_label = is_history ? "step" : "free unknowns (logarithm of base 10)";
+  chart.y_label = "relative to the solution";
+  for (ChartLine line :
+       {line_of(files.steps, over, "error_bound_relative",
+                {"guaranteed bound", blue, "", true, {}}),
+        line_of(files.steps, over, "estimate_relative",
+                {"indicator (no bound)", orange, "6 3", !is_history, {}}),
+        line_of(files.steps, over, "error_relative", {"true error", black, "2 2", true, {}})})
+    if (has_points(line))
+    {
+      for (auto &[x, y] : line.points)
+        x = is_history ? x : std::log10(x);
+      chart.lines.push_back(line);
+    }
+  if (chart.lines.empty())
+    return missing("no step has a relative error indicator: there is nothing to draw");
+  return figure(chart.svg(), "How the error falls from step to step: in the energy norm, over that "
+                             "of the solution.");
+}
+
+// ---------------------------------------------------------------- contact
+
+namespace
+{
+/** Rows of one contact, in the order along it. */
+struct ContactRows
+{
+  std::string name; ///< of its member in summary.json
+  std::vector<Record> rows;
+};
+
+std::vector<ContactRows> by_contact(const std::vector<Record> &contact)
+{
+  std::vector<ContactRows> result;
+  for (const Record &row : contact)
+  {
+    const std::string pair = value_of(row, "contact"),
+                      name = pair.empty() ? value_of(row, "boundary") : pair;
+    const auto found = std::find_if(result.begin(), result.end(),
+                                    [&](const ContactRows &one) { return one.name == name; });
+    ContactRows &own = found == result.end() ? result.emplace_back() : *found;
+    own.name = name;
+    own.rows.push_back(row);
+  }
+  return result;
+}
+
+/** From @p begin, where that is known, else from the first one: along straight lines from point to point. */
+std::vector<double> arc_lengths(const std::vector<Record> &rows,
+                                const std::optional<std::array<double, 2>> &begin)
+{
+  std::vector<double> lengths;
+  std::array<double, 2> last =
+      begin.value_or(std::array<double, 2>{{field(rows.front(), "x"), field(rows.front(), "y")}});
+  double length = 0;
+  for (const Record &row : rows)
+  {
+    const std::array<double, 2> x{{field(row, "x"), field(row, "y")}};
+    length += std::hypot(x[0] - last[0], x[1] - last[1]);
+    lengths.push_back(length);
+    last = x;
+  }
+  return lengths;
+}
+
+/** Where the first zone begins. */
+std::optional<std::array<double, 2>> begin_of(const JsonTree &summary, const std::string &name)
+{
+  const JsonTree *const contacts = member(summary, "contact");
+  const JsonTree *const contact = contacts ? member(*contacts, name) : nullptr;
+  const JsonTree *const zones = contact ? member(*contact, "zones") : nullptr;
+  if (!zones || zones->empty())
+    return std::nullopt;
+  const JsonTree *const from = member(zones->front().second, "from");
+  if (!from || from->size() < 2)
+    return std::nullopt;
+  std::array<double, 2> place{};
+  auto coordinate = from->begin();
+  for (double &value : place)
+    value = number((coordinate++)->second.data()).value_or(0);
+  return place;
+}
+
+/** States between points change in the middle. */
+std::vector<ChartBand> bands_of(const std::vector<Record> &rows, const std::vector<double> &lengths)
+{
+  std::vector<ChartBand> bands;
+  std::string last;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    const std::string state = value_of(rows[k], "state");
+    const double begin = k == 0 ? 0. : (lengths[k - 1] + lengths[k]) / 2,
+                 end = k + 1 < rows.size() ? (lengths[k] + lengths[k + 1]) / 2 : lengths[k];
+    if (state == last)
+      bands.back().end = end;
+    else
+      bands.push_back({begin, end, state_colour(state)});
+    last = state;
+  }
+  return bands;
+}
+
+/** Where the multiplier says what part of its bound a friction is. */
+ChartLine friction_limit(const std::vector<Record> &rows, const std::vector<double> &lengths,
+                         const double sign)
+{
+  ChartLine line{sign > 0 ? "limit of friction" : "", "#888", "3 3", false, {}};
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    const double share = std::abs(field(rows[k], "multiplier")),
+                 friction = std::abs(field(rows[k], "tangential_traction"));
+    line.points.push_back({{lengths[k], share > 1e-3 ? sign * friction / share
+                                                     : std::numeric_limits<double>::quiet_NaN()}});
+  }
+  return line;
+}
+
+std::string contact_plot(const Scene<2> &scene, const RunFiles &files, const ContactRows &contact)
+{
+  const std::vector<double> lengths =
+      arc_lengths(contact.rows, begin_of(files.summary, contact.name));
+  const std::string unit = unit_name(scene.stress_unit);
+  Chart chart;
+  chart.title = legible(contact.name);
+  chart.x_label = with_unit_of("arc length", scene.length_unit);
+  chart.y_label = with_unit_of("traction", scene.stress_unit);
+  ChartLine pressure{"pressure -T_n", black, "", false, {}},
+      friction{"friction T_t", green, "7 2", false, {}};
+  std::vector<double> up, down;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k)
+  {
+    const double p = -field(contact.rows[k], "normal_traction"),
+                 t = field(contact.rows[k], "tangential_traction");
+    pressure.points.push_back({{lengths[k], p}});
+    friction.points.push_back({{lengths[k], t}});
+    up.push_back(std::max({p, t, 0.}));
+    down.push_back(std::max({-p, -t, 0.}));
+  }
+  const bool has_friction = std::any_of(friction.points.begin(), friction.points.end(),
+                                        [](const auto &point) { return point[1] != 0; });
+  chart.lines = {pressure};
+  if (has_friction)
+    for (const ChartLine &line : {friction_limit(contact.rows, lengths, 1),
+                                  friction_limit(contact.rows, lengths, -1), friction})
+      chart.lines.push_back(line);
+  chart.highest = std::max(cut_off(up), 0.2 * cut_off(down));
+  chart.lowest = -std::max(cut_off(down), 0.2 * cut_off(up));
+  chart.bands = bands_of(contact.rows, lengths);
+  for (const std::string state : {"open", "slip", "stick"})
+    chart.names.emplace_back(state, state_colour(state));
+  const bool is_cut = *std::max_element(up.begin(), up.end()) > *chart.highest ||
+                      *std::max_element(down.begin(), down.end()) > -*chart.lowest;
+  return figure(chart.svg(), "Contact " + contact.name +
+                                 " over its arc length; below it open, slip and stick." +
+                                 (is_cut ? " Values at its ends are larger than the chart." : ""));
+}
+
+std::string contact_plot(const Scene<3> &scene, const RunFiles &, const ContactRows &contact)
+{
+  return figure(contact_picture(contact.rows, scene.stress_unit),
+                "Contact " + contact.name + ": its states, and the pressure on it.");
+}
+} // namespace
+
+template <int dim>
+std::string contact_plots(const Scene<dim> &scene, const RunFiles &files)
+{
+  if (!scene.has_contact())
+    return {};
+  if (files.contact.empty())
+    return missing("no chart of contact: there is no " + std::string("contact-NN.csv") +
+                   " of the last step; set Output/Contact tables = true to have it");
+  constexpr unsigned int most = 4; // of more charts nobody would see any
+  std::string charts;
+  unsigned int n = 0;
+  for (const ContactRows &contact : by_contact(files.contact))
+    if (++n <= most)
+      charts += contact_plot(scene, files, contact);
+  return charts +
+         (n > most ? missing("contact-NN.csv has " + text(n - most) + " contacts more") : "");
+}
+
+// ---------------------------------------------------------------- load histories
+
+namespace
+{
+/** Force over displacement where that changes; else nothing. */
+template <int dim>
+std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::string &boundary,
+                 const unsigned int component)
+{
+  const std::string end = boundary + "_" + "xyz"[component], axis(1, "xyz"[component]);
+  const ChartLine line =
+      line_of(files.loads, "displacement_" + end, "force_" + end, {"", blue, "", true, {}});
+  double least = 0, largest = 0; // at t = 0 nothing has moved
+  for (const auto &[x, y] : line.points)
+  {
+    least = std::min(least, x);
+    largest = std::max(largest, x);
+  }
+  if (!(largest > least) || !has_points(line))
+    return {};
+  Chart chart;
+  chart.x_label = with_unit_of("u" + axis + " of " + boundary, scene.length_unit);
+  chart.y_label = "force " + axis + " on " + boundary;
+  chart.lines = {line};
+  return figure(chart.svg(), "Load history: force over displacement of " + boundary +
+                                 "; the area of a loop is what a cycle takes.");
+}
+
+std::string energies_plot(const RunFiles &files)
+{
+  Chart chart;
+  chart.x_label = "t";
+  chart.y_label = "energy";
+  for (const ChartLine &line :
+       {line_of(files.loads, "t", "work", {"work", black, "", false, {}}),
+        line_of(files.loads, "t", "stored_energy", {"stored", blue, "6 3", false, {}}),
+        line_of(files.loads, "t", "dissipated_energy", {"dissipated", orange, "2 2", true, {}})})
+    chart.lines.push_back(line);
+  return figure(chart.svg(), "Load history: work of the loads, and what became of it.");
+}
+} // namespace
+
+template <int dim>
+std::string loading_plots(const Scene<dim> &scene, const RunFiles &files)
+{
+  if (files.loads.empty())
+    return {};
+  std::string charts;
+  unsigned int n_loops = 0;
+  constexpr unsigned int most = 2;
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    for (unsigned int d = 0; d < dim && n_loops < most; ++d)
+      if (const std::string chart = loop(scene, files, boundary.name, d); !chart.empty())
+      {
+        charts += chart;
+        ++n_loops;
+      }
+  return charts + energies_plot(files);
+}
+
+template std::string contact_plots(const Scene<2> &, const RunFiles &);
+template std::string contact_plots(const Scene<3> &, const RunFiles &);
+template std::string loading_plots(const Scene<2> &, const RunFiles &);
+template std::string loading_plots(const Scene<3> &, const RunFiles &);
+} // namespace hpvi

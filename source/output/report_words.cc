@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/memory.h>
+#include <hpvi/output/boundary_words.h>
+#include <hpvi/output/html.h>
+#include <hpvi/output/last_word.h>
+#include <hpvi/output/report_words.h>
+#include <hpvi/output/results_report.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hpvi
+{
+namespace
+{
+constexpr int digits = 6;
+
+std::string shown(const std::optional<double> &value, const int n_digits = digits)
+{
+  return value ? text(*value, n_digits) : "";
+}
+
+/** With a unit behind. */
+std::string shown(const JsonTree &tree, const std::string &name, const std::string &unit)
+{
+  const std::optional<double> value = number_of(tree, name);
+  return value ? with_unit(*value, unit, digits) : "?";
+}
+
+/** A number of few digits that is no less: what is guaranteed stays so. */
+std::string at_most(const double value)
+{
+  if (!(value > 0) || !std::isfinite(value))
+    return text(value, 2);
+  const double unit = std::pow(10., std::floor(std::log10(value)) - 1);
+  return text(unit * std::ceil(value / unit), 2);
+}
+
+/** As in "(1, 0)"; empty where it is null. */
+std::string place(const JsonTree &tree, const std::string &name)
+{
+  const JsonTree *const point = member(tree, name);
+  std::string list;
+  if (point)
+    for (const auto &[key, value] : *point)
+      list += (list.empty() ? "" : ", ") + shown(number(value.data()));
+  return point ? "(" + list + ")" : "";
+}
+
+std::string at(const JsonTree &tree, const std::string &name)
+{
+  const std::string where = place(tree, name);
+  return where.empty() ? "" : " at " + where;
+}
+
+std::string item(const std::string &words, const std::string &bold = "")
+{
+  return "<li>" + (bold.empty() ? "" : element("b", bold) + " ") + xml_text(words) + "</li>\n";
+}
+} // namespace
+
+std::string ending_words(const JsonTree &summary, const Adaptivity &adaptivity)
+{
+  const std::string status = words_of(summary, "status"), message = words_of(summary, "message"),
+                    steps = words_of(summary, "steps");
+  const std::string left =
+      steps == "0" ? " No step was finished: there is no result."
+                   : " What follows is what step " + steps +
+                         ", the last one that was finished, left: no result of this scene.";
+  if (status == "done")
+    return element("p",
+                   "Done: " +
+                       last_word(words_of(summary, "stopped_by"), adaptivity,
+                                 member(summary, "error_bound")) +
+                       ".",
+                   "ending") +
+           "\n";
+  return element("p",
+                 (status == "failed" ? "This run failed: " + message + "."
+                  : status == "interrupted"
+                      ? "This run was interrupted: " + message + "; hpvi --resume goes on with it."
+                      : "This run did not come to its end: it was killed, or "
+                        "the machine stopped; hpvi --resume goes on with it.") +
+                     left,
+                 "failed") +
+         "\n";
+}
+
+// ---------------------------------------------------------------- the answer
+
+namespace
+{
+std::string bound_words(const JsonTree &bound)
+{
+  const std::optional<double> relative = number_of(bound, "relative");
+  std::string words = relative ? "The energy error is at most " + at_most(100 * *relative) +
+                                     " % of the solution, guaranteed"
+                               : "The error in the energy norm is at most " +
+                                     at_most(number_of(bound, "energy_norm").value_or(0)) +
+                                     ", guaranteed";
+  if (const std::string interval = place(bound, "energy"); !interval.empty())
+    words += "; the least energy lies in [" + interval.substr(1, interval.size() - 2) + "]";
+  return words + ".";
+}
+
+std::string error_words(const JsonTree &summary)
+{
+  if (const JsonTree *const bound = member(summary, "error_bound"))
+    return item(bound_words(*bound), "Error.");
+  const JsonTree *const last = member(summary, "final");
+  const std::optional<double> indicator =
+      last ? number_of(*last, "estimate_relative") : std::nullopt;
+  std::string words;
+  if (indicator)
+    words = "The error indicator says about " + text(100 * *indicator, 2) +
+            " % of the solution in the energy norm: an estimate, no bound.";
+  if (const std::string why = words_of(summary, "no_error_bound"); !why.empty())
+    words += " No bound is guaranteed: " + why + ".";
+  if (const JsonTree *const earlier = member(summary, "last_error_bound"))
+    words += " In step " + words_of(*earlier, "step") + " there was one: " + bound_words(*earlier);
+  return words.empty() ? "" : item(words, "Error.");
+}
+
+std::string true_error_words(const JsonTree &summary)
+{
+  const JsonTree *const last = member(summary, "final");
+  const std::optional<double> error = last ? number_of(*last, "error_relative") : std::nullopt;
+  return error ? item("The true error, beside the solution that is known, is " +
+                      text(100 * *error, 3) + " % in the energy norm.")
+               : "";
+}
+
+/** With its interval where there is one. */
+std::string measured(const std::string &value, const std::string &bound)
+{
+  const std::optional<double> centre = number(value), half_width = number(bound);
+  if (!centre)
+    return "";
+  return half_width ? interval_in_words({*centre, *half_width}) + " (guaranteed)"
+                    : text(*centre, digits);
+}
+
+/** A sentence for each place where a stress has no bound. */
+std::string unbounded_words(const std::string &name, const JsonTree &tree,
+                            const std::string &member_name, const std::string &stress,
+                            const std::string &length)
+{
+  const JsonTree *const list = member(tree, member_name);
+  std::string words;
+  if (list)
+    for (const auto &[key, peak] : *list)
+      words += "; " + name + " is unbounded" + at(peak, "at") + " (" +
+               shown(peak, "value", stress) + " there, more in each step" +
+               (member(peak, "force") ? ", of which the last " + shown(peak, "within", length) +
+                                            " carry " + shown(number_of(peak, "force"))
+                                      : "") +
+               "), beyond " + shown(peak, "beyond", length) + " from there it is up to " +
+               shown(peak, "largest", stress) + at(peak, "largest_at");
+  return words;
+}
+
+std::string zones_words(const JsonTree &contact, const std::string &length)
+{
+  constexpr unsigned int most = 8;
+  const JsonTree *const zones = member(contact, "zones");
+  std::string words;
+  unsigned int n = 0;
+  if (zones)
+    for (const auto &[key, zone] : *zones)
+      if (++n <= most)
+        words += "; " + words_of(zone, "state") + " from " + place(zone, "from") + " to " +
+                 place(zone, "to") + ", length " + shown(zone, "length", length);
+  if (n > most)
+    words += "; " + text(n - most) + " zones more";
+  if (!zones)
+    words += "; open " + shown(number_of(contact, "open_area")) + ", slip " +
+             shown(number_of(contact, "slipping_area")) + " of the area " +
+             shown(number_of(contact, "area"));
+  return words;
+}
+
+/** A number, or in space a vector. */
+std::string value_words(const JsonTree &tree, const std::string &name)
+{
+  const JsonTree *const value = member(tree, name);
+  return !value ? "" : value->empty() ? shown(number(value->data())) : place(tree, name);
+}
+
+template <int dim>
+std::string contact_words(const Scene<dim> &scene, const RunFiles &files, const std::string &name,
+                          const JsonTree &contact)
+{
+  std::string normal = value_words(contact, "normal_resultant"),
+              friction = value_words(contact, "friction_resultant");
+  for (const Record &row : files.forces)
+    if (value_of(row, "name") == name && value_of(row, "kind") == "contact")
+    {
+      if (!value_of(row, "normal_bound").empty())
+        normal = measured(value_of(row, "normal"), value_of(row, "normal_bound"));
+      if (!value_of(row, "friction_bound").empty())
+        friction = measured(value_of(row, "friction"), value_of(row, "friction_bound"));
+    }
+  const std::string stress = scene.stress_unit, length = scene.length_unit;
+  const std::string unbounded =
+      unbounded_words("pressure", contact, "unbounded_pressure", stress, length);
+  std::string words = "normal resultant " + normal + ", friction " + friction + ", force " +
+                      place(contact, "force") +
+                      (member(contact, "through") ? " through " + place(contact, "through") : "");
+  if (number_of(contact, "largest_pressure").value_or(0) > 0 && unbounded.empty())
+    words += "; pressure up to " + shown(contact, "largest_pressure", stress) +
+             at(contact, "largest_pressure_at");
+  words += unbounded + zones_words(contact, length);
+  if (number_of(contact, "largest_penetration").value_or(0) > 0)
+    words += "; penetration between points up to " + shown(contact, "largest_penetration", length) +
+             at(contact, "largest_penetration_at");
+  return item(words + ".", "Contact " + name + ":");
+}
+
+template <int dim>
+std::string extremes_words(const Scene<dim> &scene, const JsonTree &summary)
+{
+  std::string words;
+  if (const JsonTree *const u = member(summary, "largest_displacement"))
+    words +=
+        item(shown(*u, "value", scene.length_unit) + at(*u, "at") + ".", "Largest displacement:");
+  if (const JsonTree *const stress = member(summary, "von_mises"))
+  {
+    const std::string unbounded =
+        unbounded_words("it", *stress, "unbounded", scene.stress_unit, scene.length_unit);
+    words +=
+        item((unbounded.empty() ? shown(*stress, "largest", scene.stress_unit) + at(*stress, "at")
+                                : unbounded.substr(2)) +
+                 ".",
+             "Largest von Mises stress:");
+  }
+  return words;
+}
+
+/** Columns of the last row that begin with the name of a probe. */
+template <int dim>
+std::string probes_words(const Scene<dim> &scene, const RunFiles &files)
+{
+  std::string words;
+  if (files.steps.empty())
+    return words;
+  const Record &last = files.steps.back();
+  for (const Probe<dim> &probe : scene.probes)
+  {
+    std::string list;
+    for (const auto &[column, value] : last)
+      if (const std::string begin = probe.name + "_";
+          column.rfind(begin, 0) == 0 && !value.empty() &&
+          (column.size() < 6 || column.substr(column.size() - 6) != "_bound"))
+        list += (list.empty() ? "" : ", ") + column.substr(begin.size()) + " " +
+                measured(value, value_of(last, column + "_bound"));
+    if (!list.empty())
+      words += item(list + ".", "Probe " + probe.name + ":");
+  }
+  return words;
+}
+
+std::string plates_words(const JsonTree &summary, const std::string &length)
+{
+  std::string words;
+  if (const JsonTree *const plates = member(summary, "plates"))
+    for (const auto &[name, plate] : *plates)
+      words +=
+          item("moves by " + place(plate, "displacement") +
+                   (unit_name(length).empty() ? "" : " " + unit_name(length)) + " and turns by " +
+                   shown(number_of(plate, "rotation")) + " rad" + at(plate, "mean_point") + ".",
+               "Plate " + name + ":");
+  return words;
+}
+} // namespace
+
+template <int dim>
+std::string answer_words(const Scene<dim> &scene, const RunFiles &files)
+{
+  const JsonTree &summary = files.summary;
+  std::string words = error_words(summary) + true_error_words(summary);
+  if (const JsonTree *const contacts = member(summary, "contact"))
+    for (const auto &[name, contact] : *contacts)
+      words += contact_words(scene, files, name, contact);
+  words += extremes_words(scene, summary) + plates_words(summary, scene.length_unit) +
+           probes_words(scene, files);
+  return words.empty() ? missing("there is none: no step came to the end of the run")
+                       : "<ul>\n" + words + "</ul>\n";
+}
+
+template std::string answer_words(const Scene<2> &, const RunFiles &);
+template std::string answer_words(const Scene<3> &, const RunFiles &);
+} // namespace hpvi
