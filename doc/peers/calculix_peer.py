@@ -128,7 +128,7 @@ def ssnv128(lines, method, stiffness):
 
 
 def shrink_fit(lines, method, stiffness):
-    shaft, hub = Body("SHAFT", *lines[:2], "CAX8"), None
+    shaft = Body("SHAFT", *lines[:2], "CAX8")
     n = int(np.searchsorted(lines[1], 30 - 1e-9))
     hub = Body("HUB", lines[2] - SCALE * 0.02, lines[1][:n + 1], "CAX8", shaft)
     return [*shaft.text(), *hub.text(), *shaft.surface("SLAVE", 2, lambda j: j < n), *hub.surface("MASTER", 4),
@@ -194,8 +194,13 @@ def main():
     case, kind, n, method, stiffness = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4], float(sys.argv[5])
     lines = problems.lines(case, kind, n)
     text = globals()[case](lines, method, stiffness)
-    home = pathlib.Path(sys.argv[6] if len(sys.argv) > 6 else tempfile.mkdtemp())
-    home.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        home = pathlib.Path(sys.argv[6] if len(sys.argv) > 6 else scratch)
+        home.mkdir(parents=True, exist_ok=True)
+        print(json.dumps(solved(case, text, home)))
+
+
+def solved(case, text, home):
     (home / "job.inp").write_text("\n".join(text) + "\n")
     begin = time.monotonic()
     with (home / "log").open("w") as log:
@@ -204,7 +209,7 @@ def main():
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     times = {"wall": time.monotonic() - begin, "cpu": used.ru_utime + used.ru_stime}
     total, table = results(home, case)
-    print(json.dumps({**times, **answer(case, total, table)}))
+    return {**times, **answer(case, total, table)}
 
 
 main()

@@ -31,7 +31,8 @@ def even(low, high, n):
 
 def graded(points, n, only=None, power=2.5):
     """Lines that crowd where points (all, or those of @p only) are: between two of them 2 n cells, the i-th line (i/n)^power of
-    the half away from its point. What a user does who knows where a solution is singular and where zones end."""
+    the half away from its point. What a user does who knows where a solution is singular and where zones end. Powers are such that
+    no cell is a thousand times as long as wide, which costs GetFEM unknowns."""
     away = (np.arange(n + 1) / n) ** power
     lines = [np.array([points[0]])]
     for left, right in zip(points, points[1:]):
@@ -71,11 +72,11 @@ def lines(case, kind, n):
             graded([-2, *ends, 2], n, ends), graded([0, 2], 2 * n, [0], 2))
     if case == "ssnv128":
         return (even(0, 40, n), even(0, 40, n)) if kind == "even" else (
-            graded([0, *ends, 40], n, ends), graded([0, 40], 2 * n, [0], 2))
+            graded([0, *ends, 40], n, ends, 2), graded([0, 40], 2 * n, [0], 2))
     if case == "example_5_2":  # the corners of the clamped side are singular too
         return (even(0, 4, n), even(0, 4, n)) if kind == "even" else (
             graded([0, *ends, 4], n, [*ends, 4]), graded([0, 4], n))
     if kind == "even":
         return even(0, 20, 2 * n), np.append(even(0, 30, 3 * n), even(30, 60, 3 * n)[1:]), even(20, 40, 2 * n)
-    return (graded([0, 20], 2 * n, [20]), np.append(graded([0, *ends, 30], n), 30 + 30 * (np.arange(1, 2 * n + 1) / (2 * n)) ** 2),
+    return (graded([0, 20], 2 * n, [20]), np.append(graded([0, *ends, 30], n, power=2), 30 + 30 * (np.arange(1, 2 * n + 1) / (2 * n)) ** 2),
             graded([20, 40], 2 * n, [20]))

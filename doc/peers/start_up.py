@@ -87,8 +87,8 @@ def main():
     empty_libraries(dealii, libraries, home / "empty")
     bound_copy(dealii, home / "bound")
     scene = [program, "prm/han-6-12.prm", "--output", str(home / "scene"), "--set", "Error/Bound=false", "--set", "Adaptivity/Maximum steps=8"]
-    for words, path in (("as it is", ""), ("empty libraries for what hpvi never calls", f"{home}/empty"), ("deal.II's own symbols bound beforehand", f"{home}/bound"),
-                        ("both", f"{home}/bound:{home}/empty")):
+    for words, path in (("as it is", ""), ("empty libraries for what hpvi never calls", f"{home}/empty"),
+                        ("deal.II's own symbols bound beforehand", f"{home}/bound"), ("both", f"{home}/bound:{home}/empty")):
         environment = {**os.environ, "LD_LIBRARY_PATH": path}
         count = len(subprocess.run(["ldd", program], env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines())
         told = subprocess.run([program, "--version"], env={**environment, "LD_DEBUG": "statistics"}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
