@@ -68,13 +68,14 @@ parser.add_argument("--draw", action="store_true", help="run nothing: charts and
 options = parser.parse_args()
 HPVI_PROGRAM = ROOT / options.program
 LOAD = os.getloadavg()[0]
+LONGEST = max(20, int(4 * options.limit))  # CPU seconds of any run; the next but one of a series would take as much
 CLOCK = options.clock or ("wall" if LOAD < 0.5 else "cpu")
 
 
 def timed(command, **keywords):
     """Seconds of a process with its children, and what it prints; nothing where it fails or works too long."""
     def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (int(4 * options.limit), int(4 * options.limit)))
+        resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))
 
     begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, preexec_fn=limit, cwd=ROOT, **keywords)
@@ -192,8 +193,8 @@ def draw(case, rows, clock):
                 if not points:
                     continue
                 errors = [max(row[error], 1e-9) for row in points]
-                axes.loglog([row["seconds"] for row in points], errors, color=colour, marker=marker, linestyle="-" if bold else line, markersize=7 if bold else 3.5,
-                            linewidth=2.6 if bold else 1, label=f"{program}: {setting}")
+                axes.loglog([row["seconds"] for row in points], errors, color=colour, marker=marker, linestyle="-" if bold else line,
+                            markersize=7 if bold else 3.5, linewidth=2.6 if bold else 1, label=f"{program}: {setting}")
                 if bold and program != CALCULIX:
                     axes.loglog([row["seconds_without_start"] for row in points], errors, color=colour, linestyle=(0, (1, 1)), linewidth=1.6,
                                 label=f"{program}: the same without start-up")
@@ -260,7 +261,7 @@ def start_up():
 def machine(start):
     versions = (version([HPVI_PROGRAM, "--version"], r"hpvi (\S+)"), version(["ccx", "-v"], r"Version (\S+)"),
                 version([PYTHON, "-c", "import getfem; print('v', getfem.getfem_env('version'))"], r"v (\S+)"))
-    clock = ("wall time of an idle machine" if CLOCK == "wall" else
+    clock = (f"wall time (load average {LOAD:.1f} at the begin)" if CLOCK == "wall" else
              f"CPU time, **while the machine had other work** (load average {LOAD:.1f}): some times are too long by half")
     return ["hpvi {}, CalculiX {} and GetFEM {}, these two of Debian 12; ".format(*versions) + f"{processor()}, one thread each, {clock}; "
             f"the fastest of {options.repeat}. Start-up: hpvi {start[HPVI]:.2f} s, Python with GetFEM {start[GETFEM]:.2f} s, CalculiX {start[CALCULIX]:.2f} s."]
@@ -274,7 +275,7 @@ def truth_lines(case, rows):
     failed = [f"{row['program']}, {row['setting']}, size {row['size']:.0f}" for row in rows if row["force"] == ""]
     return [f"Compared with {'the closed form' if case in CLOSED else f'hpvi after {BEYOND} steps'}: {words} {truth['force']:.9g}, "
             f"{ends} {', '.join(f'{end:.7g}' for end in truth['ends'])}. GetFEM comes as close to that force as {closest:.1e}."
-            + (f" No solution, or none within {4 * options.limit:.0f} s: {'; '.join(failed)}." if failed else "")]
+            + (f" No solution, or none within {LONGEST} s: {'; '.join(failed)}." if failed else "")]
 
 
 def start_up_table():
