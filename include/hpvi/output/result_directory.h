@@ -24,8 +24,8 @@ inline const std::string
     loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
-    reference = "reference\\.dat", picture = "scene\\.svg",
-    probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
+    contact_line = "contact-[0-9]{2,}\\.vtu|contact\\.pvd", reference = "reference\\.dat",
+    picture = "scene\\.svg", probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
 /** The words with which a picture of the scene begins: it is known by them, for no summary.json lists it. */
 inline const std::string picture_head = "the scene, drawn by hpvi";
