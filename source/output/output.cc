@@ -4,11 +4,8 @@
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/collection.h>
-#include <hpvi/output/contact_line.h>
-#include <hpvi/output/contact_table.h>
-#include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
-#include <hpvi/output/probe_table.h>
+#include <hpvi/output/step_files.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/output/written_names.h>
 
@@ -242,31 +239,16 @@ void Output<dim>::write_pieces(const StepReport<dim> &step)
                  });
 }
 
-/** The files with the number of the step that one process writes by itself. */
 template <int dim>
 void Output<dim>::write_pictures(const StepReport<dim> &step)
 {
-  const OutputSettings &output = scene.output;
-  std::vector<std::pair<std::string, std::function<std::string()>>> files;
-  const auto add = [&](const std::string &name, const std::string &suffix, const auto &content)
-  { files.emplace_back(numbered(name, step.number, suffix), content); };
-  for (const ProbeLine<dim> &line : step.probe_lines)
-    add("probe-" + scene.probes[line.probe].name, ".csv", [&]() { return probe_table(line); });
-  if (output.contact && scene.has_contact())
-    add("contact", ".csv", [&]() { return contact_table(scene, step.contact); });
-  if constexpr (dim == 2)
-    if (output.mesh_picture && n_processes == 1)
-      add("mesh", ".svg", [&]() { return mesh_picture(step); });
-  if (output.vtu && scene.has_contact())
-    add("contact", ".vtu", [&]() { return contact_line(scene, step.contact, step.number); });
-  if (output.vtu && n_processes == 1)
-    add("solution", ".vtu", [&]() { return vtu(step, {""}).piece; });
+  const std::vector<std::pair<std::string, std::string>> files = step_files(step, n_processes);
   std::vector<std::string> names;
-  for (const auto &[name, content] : files)
-    names.push_back(name);
+  for (const auto &file : files)
+    names.push_back(file.first);
   announce(names);
   for (const auto &[name, content] : files)
-    write(name, content());
+    write(name, content);
   pictures.insert(pictures.begin(), names.begin(), names.end());
 }
 

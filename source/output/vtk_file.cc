@@ -72,9 +72,11 @@ void add_base64(const std::string &bytes, std::string &text)
   }
 }
 
-/** One block that zlib has compressed, as fast as it can, behind its sizes. */
+/** One block that zlib has compressed, as fast as it can, behind its sizes; no numbers are no block, as of a process without cells. */
 void add_encoded(const std::string &bytes, std::string &text)
 {
+  if (bytes.empty())
+    return add_base64(std::string(3 * sizeof(std::uint32_t), '\0'), text);
   uLongf size = compressBound(bytes.size());
   std::string block(size, '\0');
   const int status =

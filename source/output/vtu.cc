@@ -6,6 +6,7 @@
 #include <hpvi/output/vtu.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
