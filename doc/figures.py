@@ -178,21 +178,23 @@ def run_all(program, output):
 
 
 class Patches:
-    """The cells of a solution-NN.vtu: (n+1) x (n+1) points each, x fastest."""
+    """The cells of a solution-NN.vtu: (n+1) x (n+1) points each, x fastest, n the highest degree in the file. Between the nodes of
+    a cell what it has is a polynomial."""
 
     def __init__(self, run):
         text = run.last("solution", "vtu").read_text(encoding="latin-1")
-        self.cells = int(run.rows[-1]["elements"])
+        self.ends = array(text, 'Name="offsets"')[:, 0]  # of the cells in the list of points
         self.points = self.by_cell(array(text, "<Points>"))[..., :2]
         self.displacement = self.by_cell(array(text, 'Name="displacement"'))[..., :2]
         self.von_mises = self.by_cell(array(text, 'Name="von_mises"'))[..., 0]
-        self.degree = self.by_cell(array(text, 'Name="degree"'))[:, 0, 0, 0].astype(int)
-        self.estimate = self.by_cell(array(text, 'Name="estimate"'))[:, 0, 0, 0]
+        self.degree = array(text, 'Name="degree"')[:, 0].astype(int)
+        self.estimate = array(text, 'Name="estimate"')[:, 0]
 
     def by_cell(self, values):
-        columns = values.shape[1]
-        side = math.isqrt(values.shape[0] // self.cells)
-        return values.reshape(self.cells, side, side, columns)
+        cells = [cell.reshape(math.isqrt(len(cell)), -1, values.shape[1]) for cell in np.split(values, self.ends[:-1])]
+        side = max(len(cell) for cell in cells)
+        weights = {n: lagrange(n, side) for n in {len(cell) for cell in cells}}
+        return np.array([np.einsum("ai,bj,ijc->abc", weights[len(cell)], weights[len(cell)], cell) for cell in cells])
 
     def outlines(self, scale=0.):
         """The boundary of each cell, moved by scale times the displacement."""
@@ -205,13 +207,21 @@ class Patches:
         return (np.abs(corners - np.array(corner)).max(axis=2) < 1e-5).any(axis=1)
 
 
+def lagrange(nodes, points):
+    """From values of a polynomial at equidistant nodes on [-1, 1] to those at equidistant points."""
+    if nodes == points:
+        return np.eye(nodes)
+    basis = [np.polynomial.legendre.legvander(np.linspace(-1, 1, n), nodes - 1) for n in (points, nodes)]
+    return basis[0] @ np.linalg.inv(basis[1])
+
+
 def array(text, mark):
     """Decode the first data array behind @p mark: base64, blocks compressed by zlib."""
     found = re.compile(r'<DataArray([^>]*)>\s*([^<\s]+)\s*<').search(
         text, text.rindex("<", 0, text.index(mark) + 1))
     attributes, data = found.groups()
     columns = re.search(r'NumberOfComponents="(\d+)"', attributes)
-    kind = {"Float32": np.float32, "Float64": np.float64}[
+    kind = {"Float32": np.float32, "Float64": np.float64, "Int32": np.int32}[
         re.search(r'type="(\w+)"', attributes)[1]]
     blocks = struct.unpack("<I", base64.b64decode(data[:8])[:4])[0]
     head_bytes = 4 * (3 + blocks)  # number of blocks, two sizes, compressed size of each block

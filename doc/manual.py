@@ -328,7 +328,7 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes",
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes", "paraview",
                  "results", "sweeps", "first-problem", "extensions", "columns", "contributing"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
     pages["messages"] = messages.page()

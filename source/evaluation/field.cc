@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/field.h>
+#include <hpvi/evaluation/values_at.h>
 #include <hpvi/scene/contact_axes.h>
 
 #include <deal.II/base/mpi.h>
@@ -168,33 +168,9 @@ template <int dim>
 std::vector<PointValue<dim>> Field<dim>::values(const Cell &cell,
                                                 const std::vector<Point<dim>> &references) const
 {
-  const ShapeTable<dim> table =
-      tabulate<dim>(degree(cell), references, std::vector<double>(references.size(), 1.), false);
-  const std::vector<double> of_cell = coefficients(cell), u = evaluate(table.values, of_cell),
-                            derivatives = evaluate(table.derivatives, of_cell);
-  const CellMap<dim> map = map_of<dim>(cell);
-  const Material &material = scene.material_of(cell);
-  const HookesLaw<dim> law(material);
-  std::vector<PointValue<dim>> result(references.size());
-  for (unsigned int q = 0; q < references.size(); ++q)
-  {
-    PointValue<dim> &value = result[q];
-    Tensor<2, dim> gradient;
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      value.displacement[c] = u[c * references.size() + q];
-      for (unsigned int j = 0; j < dim; ++j)
-        gradient[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    }
-    const Point<dim> x = map.point(references[q]);
-    gradient = gradient * invert(map.jacobian(references[q]));
-    const double hoop = scene.hoop_strain(cell->material_id(), value.displacement, gradient, x);
-    value.stress = law.stress(gradient - scene.initial_strain_in(cell, x), hoop);
-    if constexpr (dim == 2)
-      value.across = material.transverse_stress(
-          value.stress, scene.is_axisymmetric() ? -hoop : initial_strain_across(scene, cell, x));
-  }
-  return result;
+  return values_at(
+      *this, cell,
+      tabulate<dim>(degree(cell), references, std::vector<double>(references.size(), 1.), false));
 }
 
 /** Where cells meet and stresses differ the first cell of the first process has a say. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/values_at.h>
 
 #include <algorithm>
@@ -27,6 +28,40 @@ std::pair<double, double> reach(const typename Field<dim>::Cell &cell)
   return {least - beside, largest + beside};
 }
 } // namespace
+
+template <int dim>
+std::vector<PointValue<dim>> values_at(const Field<dim> &field,
+                                       const typename Field<dim>::Cell &cell,
+                                       const ShapeTable<dim> &table)
+{
+  const std::vector<double> coefficients = field.coefficients(cell),
+                            u = evaluate(table.values, coefficients),
+                            derivatives = evaluate(table.derivatives, coefficients);
+  const Scene<dim> &scene = field.scene;
+  const CellMap<dim> map = map_of<dim>(cell);
+  const Material &material = scene.material_of(cell);
+  const HookesLaw<dim> law(material);
+  std::vector<PointValue<dim>> result(table.points.size());
+  for (unsigned int q = 0; q < result.size(); ++q)
+  {
+    PointValue<dim> &value = result[q];
+    Tensor<2, dim> gradient;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      value.displacement[c] = u[c * result.size() + q];
+      for (unsigned int j = 0; j < dim; ++j)
+        gradient[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
+    }
+    const Point<dim> x = map.point(table.points[q]);
+    gradient = gradient * invert(map.jacobian(table.points[q]));
+    const double hoop = scene.hoop_strain(cell->material_id(), value.displacement, gradient, x);
+    value.stress = law.stress(gradient - scene.initial_strain_in(cell, x), hoop);
+    if constexpr (dim == 2)
+      value.across = material.transverse_stress(
+          value.stress, scene.is_axisymmetric() ? -hoop : initial_strain_across(scene, cell, x));
+  }
+  return result;
+}
 
 template <int dim>
 std::vector<std::optional<PointValue<dim>>> values_at(const Field<dim> &field,
@@ -61,8 +96,12 @@ std::vector<std::optional<PointValue<dim>>> values_at(const Field<dim> &field,
   return result;
 }
 
+template std::vector<PointValue<2>> values_at(const Field<2> &, const Field<2>::Cell &,
+                                              const ShapeTable<2> &);
 template std::vector<std::optional<PointValue<2>>> values_at(const Field<2> &,
                                                              const std::vector<Point<2>> &);
+template std::vector<PointValue<3>> values_at(const Field<3> &, const Field<3>::Cell &,
+                                              const ShapeTable<3> &);
 template std::vector<std::optional<PointValue<3>>> values_at(const Field<3> &,
                                                              const std::vector<Point<3>> &);
 } // namespace hpvi

@@ -17,10 +17,20 @@ void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
               "\" part=\"0\" file=\"" + file + "\"/>\n" + end;
 }
 
+std::vector<std::pair<std::string, std::string>> collected(const std::vector<std::string> &files)
+{
+  static const std::regex pattern("(solution|contact)-[0-9]+\\.p?vtu");
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const std::string &file : files)
+    if (std::smatch match; std::regex_match(file, match, pattern))
+      result.emplace_back(match[1].str() + ".pvd", file);
+  return result;
+}
+
 GrowingText first_of_pvd(const std::string &pvd, const unsigned int n_steps)
 {
   static const std::regex entry(
-      "timestep=\"([^\"]+)\" part=\"0\" file=\"(solution-([0-9]{2,9})\\.[a-z]+)\"");
+      "timestep=\"([^\"]+)\" part=\"0\" file=\"([a-z]+-([0-9]{2,9})\\.[a-z]+)\"");
   GrowingText result;
   for (std::sregex_iterator found(pvd.begin(), pvd.end(), entry), end; found != end; ++found)
     if (std::stoul((*found)[3]) <= n_steps)

@@ -4,12 +4,10 @@
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/collection.h>
-#include <hpvi/output/contact_table.h>
-#include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
-#include <hpvi/output/probe_table.h>
 #include <hpvi/output/report.h>
 #include <hpvi/output/run_files.h>
+#include <hpvi/output/step_files.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/output/written_names.h>
 
@@ -17,6 +15,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -130,9 +129,11 @@ void Output<dim>::take_up_pictures(const unsigned int n_steps)
                               { return step <= n_steps && (all || ends.count(step) > 0); });
   if (!all && !scene.has_load_history())
     superseded = of_step;
-  pvd = first_of_pvd(content_of(std::filesystem::path(path) / "solution.pvd"), n_steps);
-  if (!pvd.text.empty())
-    update("solution.pvd", pvd);
+  for (const std::string name : {"contact.pvd", "solution.pvd"})
+    if (const GrowingText pvd =
+            first_of_pvd(content_of(std::filesystem::path(path) / name), n_steps);
+        !pvd.text.empty())
+      update(name, collections[name] = pvd);
 }
 
 template <int dim>
@@ -223,49 +224,35 @@ void Output<dim>::write_pieces(const StepReport<dim> &step)
                  });
 }
 
-/** The files with the number of the step that one process writes by itself. */
 template <int dim>
 void Output<dim>::write_pictures(const StepReport<dim> &step)
 {
-  const OutputSettings &output = scene.output;
-  const std::string contact_name = numbered("contact", step.number, ".csv"),
-                    mesh_name = numbered("mesh", step.number, ".svg"),
-                    vtu_name = numbered("solution", step.number, ".vtu");
-  const bool has_contact = output.contact && scene.has_contact(),
-             has_mesh = dim == 2 && output.mesh_picture && n_processes == 1,
-             has_vtu = output.vtu && n_processes == 1;
+  const std::vector<std::pair<std::string, std::string>> files = step_files(step, n_processes);
   std::vector<std::string> names;
-  for (const auto &[name, is_there] :
-       {std::make_pair(contact_name, has_contact), {mesh_name, has_mesh}, {vtu_name, has_vtu}})
-    if (is_there)
-      names.push_back(name);
-  for (const ProbeLine<dim> &line : step.probe_lines)
-    names.insert(names.begin(), probe_file(scene, line, step.number));
+  for (const auto &file : files)
+    names.push_back(file.first);
   announce(names);
-  for (const ProbeLine<dim> &line : step.probe_lines)
-    write(probe_file(scene, line, step.number), probe_table(line));
-  if (has_contact)
-    write(contact_name, contact_table(scene, step.contact));
-  if constexpr (dim == 2)
-    if (has_mesh)
-      write(mesh_name, mesh_picture(step));
-  if (has_vtu)
-    write(vtu_name, vtu(step, {vtu_name}).piece);
+  for (const auto &[name, content] : files)
+    write(name, content);
   pictures.insert(pictures.begin(), names.begin(), names.end());
 }
 
 /** A history is that of its load steps. */
 template <int dim>
-void Output<dim>::add_to_collection(const StepReport<dim> &step)
+void Output<dim>::add_to_collections(const StepReport<dim> &step)
 {
   const bool is_history = scene.has_load_history();
   if (!scene.output.vtu || (is_history && step.stopped_by.empty()))
     return;
-  if (scene.output.steps == OutputSteps::last && !is_history)
-    pvd = {};
-  add_to_pvd(pvd, is_history ? step.load.t : step.number, pictures.back());
-  announce({"solution.pvd"});
-  update("solution.pvd", pvd);
+  for (const auto &[name, file] : collected(pictures))
+  {
+    GrowingText &pvd = collections[name];
+    if (scene.output.steps == OutputSteps::last && !is_history)
+      pvd = {};
+    add_to_pvd(pvd, is_history ? step.load.t : step.number, file);
+    announce({name});
+    update(name, pvd);
+  }
 }
 
 template <int dim>
@@ -331,7 +318,7 @@ void Output<dim>::write_step(const StepReport<dim> &step, const std::optional<Ru
                    if (state)
                      announce({"state.dat"});
                    write_pictures(step);
-                   add_to_collection(step);
+                   add_to_collections(step);
                    write_tables(step, state);
                  });
 }

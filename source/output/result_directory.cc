@@ -34,8 +34,8 @@ bool is_result(const std::string &name)
 {
   using namespace results;
   static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
-                                  vtu + "|" + pieces + "|" + reference + "|" + picture + "|" +
-                                  probe + "|" + report + ")(\\.tmp)?");
+                                  vtu + "|" + pieces + "|" + contact_line + "|" + reference + "|" +
+                                  picture + "|" + probe + "|" + report + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 

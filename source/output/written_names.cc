@@ -16,6 +16,7 @@ std::string names_written(const Scene<dim> &scene, const unsigned int n_processe
          (!output.vtu        ? ""
           : n_processes == 1 ? "|" + results::vtu
                              : "|" + results::pieces) +
+         (output.vtu && scene.has_contact() ? "|" + results::contact_line : "") +
          (output.reference ? "|" + results::reference : "") +
          (output.report ? "|" + results::report : "") +
          (std::any_of(scene.probes.begin(), scene.probes.end(),

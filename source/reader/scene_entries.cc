@@ -244,7 +244,9 @@ void add_program_entries(std::vector<Entry> &entries)
         "of "
         "a load history the last one of each load step. While a run goes on, that is the last one "
         "that is finished."},
-       {"Output", "VTU", "true", boolean, yes_no, "Write solution-NN.vtu and a .pvd."},
+       {"Output", "VTU", "true", boolean, yes_no,
+        "Write solution-NN.vtu, contact-NN.vtu where there is contact, and a .pvd of each: for "
+        "ParaView."},
        {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
        {"Output", "Report", "true", boolean, yes_no,

@@ -110,15 +110,10 @@ class Adaptive(RunTest):
 
     def check_vtu(self, step, row, count):
         grid = read_vtu(self.out / f"solution-{step:02}.vtu")
-        points = (min(int(row["p_max"]), 8) + 1) ** 2  # of each cell; all hold its degree
-        self.assertEqual(collections.Counter(grid["degree"]),
-                         {p: number * points for p, number in count.items() if number > 0})
-        parts = min(int(row["p_max"]), 8) ** 2  # into which each cell is cut
-        self.assertEqual(collections.Counter(grid["cell degree"]),
-                         {p: number * parts for p, number in count.items() if number > 0})
+        self.assertEqual(collections.Counter(grid["degree"]), {p: number for p, number in count.items() if number > 0})
         self.assertGreater(max(grid["contact_friction"]), 0)
         self.assertEqual(min(grid["contact_friction"]), 0)
-        squares = math.fsum(eta ** 2 for eta in grid["estimate"]) / points
+        squares = math.fsum(eta ** 2 for eta in grid["estimate"])
         self.assertTrue(math.isclose(math.sqrt(squares), float(row["estimate"]), rel_tol=1e-5))
 
     def check_picture(self, step, count):

@@ -93,8 +93,8 @@ class Loading(RunTest):
         self.run_scene("Output/Steps=last", "Adaptivity/Method=hap2", "Boundary bottom/Friction bound=0.1*(1+0.2*x)")
         kept = [int(row["step"]) for row in self.rows("loading.csv")]
         self.assertGreater(len(self.rows()), len(kept))
-        for name, suffix in (("contact", "csv"), ("mesh", "svg"), ("solution", "vtu")):
-            self.assertEqual(sorted(self.out.glob(f"{name}-*")),
+        for name, suffix in (("contact", "csv"), ("contact", "vtu"), ("mesh", "svg"), ("solution", "vtu")):
+            self.assertEqual(sorted(self.out.glob(f"{name}-*.{suffix}")),
                              [self.out / f"{name}-{step:02}.{suffix}" for step in kept])
         self.assertEqual(self.files(), self.names())
         sets = ElementTree.parse(self.out / "solution.pvd").getroot().findall("./Collection/*")

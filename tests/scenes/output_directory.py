@@ -45,7 +45,7 @@ class OutputDirectory(RunTest):
     def test_a_foreign_file_of_a_results_name_is_refused(self):
         self.out.mkdir()
         for name in ("scene.prm", "convergence.csv", "degrees.csv", "forces.csv", "contact-17.csv",
-                     "mesh-123.svg", "solution-01.vtu", "solution.pvd"):
+                     "mesh-123.svg", "solution-01.vtu", "solution.pvd", "contact-17.vtu", "contact.pvd"):
             (self.out / name).write_text("mine")
             self.refuse(words=[f"output directory '{self.out}'", name, "--output"])
             (self.out / name).unlink()
@@ -60,7 +60,7 @@ class OutputDirectory(RunTest):
 
     def test_a_name_that_this_run_does_not_write_is_no_obstacle(self):
         self.out.mkdir()
-        names = ("contact-01.csv", "mesh-01.svg", "solution-01.vtu", "solution.pvd",
+        names = ("contact-01.csv", "contact-01.vtu", "contact.pvd", "mesh-01.svg", "solution-01.vtu", "solution.pvd",
                  "reference.dat")
         for name in names:
             (self.out / name).write_text("mine")
@@ -145,8 +145,8 @@ class OutputDirectory(RunTest):
     def test_steps_are_listed_as_ranges(self):
         self.run_scene(LONG, "Output/Mesh picture=false")
         self.assertEqual(self.summary()["files"],
-                         ["contact-{01..04}.csv", "convergence.csv", "degrees.csv", "forces.csv", "report.html",
-                          "scene.prm", "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
+                         ["contact-{01..04}.csv", "contact-{01..04}.vtu", "contact.pvd", "convergence.csv", "degrees.csv", "forces.csv",
+                          "report.html", "scene.prm", "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
 
     def test_the_last_step_alone(self):
         last = "Output/Steps=last"
@@ -159,6 +159,7 @@ class OutputDirectory(RunTest):
         for name in ("contact-04.csv", "mesh-04.svg", "solution-04.vtu", "degrees.csv"):
             self.assertEqual((self.out / name).read_bytes(), every[name])
         self.assertEqual((self.out / "solution.pvd").read_text().count("solution-"), 1)
+        self.assertEqual((self.out / "contact.pvd").read_text().count("contact-04.vtu"), 1)
         self.refuse(last + "s", words=["all or last"])
         run = self.stopped("Adaptivity/Maximum steps=9", last, rows=3)
         run.kill()

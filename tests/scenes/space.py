@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree as ElementTree
 
 from runs import PROGRAM as HPVI, expanded, read_vtu
 
@@ -23,6 +24,14 @@ SCENE = ["prm/slab.prm", "--set", "Adaptivity/Maximum steps=2", "--set", "Solver
 def rows(path):
     with open(path, newline="") as file:
         return list(csv.DictReader(file))
+
+
+def arrays(path, prefix=""):
+    """Names, types and widths of the arrays of points and cells, which an index must say as its pieces have them."""
+    grid = ElementTree.parse(path).getroot()[0]
+    piece = grid if prefix else grid.find("Piece")
+    return [[(array.get("Name"), array.get("type"), array.get("NumberOfComponents")) for array in piece.find(prefix + section)]
+            for section in ("Points", "PointData", "CellData")]
 
 
 def run(directory, processes):
@@ -103,9 +112,13 @@ with tempfile.TemporaryDirectory() as scratch:
         for rank in range(n if n > 1 else 0):
             assert f"solution-02.{rank}.vtu" in index
             assert (directory / f"solution-02.{rank}.vtu").stat().st_size > 1000
+            assert arrays(directory / f"solution-02.{rank}.vtu") == arrays(directory / name, "P"), rank
         for field in ("degree", "estimate", "contact_pressure", "contact_friction"):
             assert f'Name="{field}"' in index.split("CellData")[1], field
         assert 'type="Float64"' in index
+        line = read_vtu(directory / "contact-02.vtu")
+        assert line["points"] == [tuple(float(p[x]) for x in "xyz") for p in rows(directory / "contact-02.csv")]
+        assert "contact-02.vtu" in (directory / "contact.pvd").read_text()
 
     # Contact that opens: states and counts agree, and what opens is no part of the slipping area.
     lifted = scratch / "lifted"

@@ -9,6 +9,12 @@
 
 namespace hpvi
 {
+/** u_N and its stress on @p cell at the points of @p table, which is one of its degree. */
+template <int dim>
+std::vector<PointValue<dim>> values_at(const Field<dim> &field,
+                                       const typename Field<dim>::Cell &cell,
+                                       const ShapeTable<dim> &table);
+
 /**
  * u_N and its stress at many points on one process, by cells: what Field::at() says of each, null outside the body, in a
  * time that grows like the number of cells and that of points rather than with their product.

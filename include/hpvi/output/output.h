@@ -8,6 +8,7 @@
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -30,7 +31,7 @@ public:
 /**
  * Says which files a run leaves behind, and with ResultDirectory is the only one that writes files. Each file is
  * renamed into place whole; the tables and `summary.json` are brought up to date after every step,
- * so that a run which ends early keeps its finished steps. Tables and `solution.pvd` grow by one write of what is
+ * so that a run which ends early keeps its finished steps. Tables and collections grow by one write of what is
  * new, so that the ten thousandth step costs no more than the first. `summary.json` names a file before it is
  * written, so that a run which is killed leaves nothing that a later one would not know.
  *
@@ -46,7 +47,8 @@ public:
  * | `loading.csv` | a row per load step, where the scene has a history |
  * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
  * | `probe-NAME-NN.csv` | displacement and stress along a line |
- * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on subdivided cells |
+ * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on cells of the degree of u_N |
+ * | `contact-NN.vtu`, `contact.pvd` | what `contact-NN.csv` has, as lines along the contact |
  * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
  * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
  * | `state.dat` | all that it takes to go on after the last finished step, of a history the last finished load step: RunState |
@@ -115,7 +117,7 @@ private:
   void write_report();
   void write_pieces(const StepReport<dim> &step);
   void write_pictures(const StepReport<dim> &step);
-  void add_to_collection(const StepReport<dim> &step);
+  void add_to_collections(const StepReport<dim> &step);
   void write_reference(const StepReport<dim> &step);
   void write_tables(const StepReport<dim> &step, const std::optional<RunState<dim>> &state);
 
@@ -128,7 +130,7 @@ private:
   bool is_usable = false;                     ///< proved by writing `scene.prm`
   Tables<dim> tables;
   Summary summary;
-  GrowingText pvd;
+  std::map<std::string, GrowingText> collections; ///< by name
   std::string last_state;              ///< of the last step of all, until the run is done
   std::vector<std::string> pictures;   ///< the files with the number of the step
   std::vector<std::string> superseded; ///< by those of the next step

@@ -24,7 +24,8 @@ inline const std::string
     loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
-    reference = "reference\\.dat", picture = "scene\\.svg", report = "report\\.html",
+    contact_line = "contact-[0-9]{2,}\\.vtu|contact\\.pvd", reference = "reference\\.dat",
+    picture = "scene\\.svg", report = "report\\.html",
     probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
 /**

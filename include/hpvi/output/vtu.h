@@ -17,8 +17,9 @@ struct Vtu
 };
 
 /**
- * Displacement, stress, degree and eta_K on linear cells, subdivided as finely as the highest degree asks for,
- * up to a readable file. @p pieces: the names of the files by process.
+ * Displacement and stress at points, degree and eta_K of cells: each cell of the mesh is a Lagrange cell of VTK of the degree that u_N has
+ * there, up to 8, so that on affine cells these fields are those of u_N to the digits of a float. @p pieces: the names of the files
+ * by process.
  */
 template <int dim>
 Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces);
