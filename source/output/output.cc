@@ -227,7 +227,8 @@ void Output<dim>::write_pieces(const StepReport<dim> &step)
 template <int dim>
 void Output<dim>::write_pictures(const StepReport<dim> &step)
 {
-  const std::vector<std::pair<std::string, std::string>> files = step_files(step, n_processes);
+  const std::vector<std::pair<std::string, std::string>> files =
+      step_files(scene, step, n_processes);
   std::vector<std::string> names;
   for (const auto &file : files)
     names.push_back(file.first);

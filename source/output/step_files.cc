@@ -10,10 +10,9 @@
 namespace hpvi
 {
 template <int dim>
-std::vector<std::pair<std::string, std::string>> step_files(const StepReport<dim> &step,
-                                                            const unsigned int n_processes)
+std::vector<std::pair<std::string, std::string>>
+step_files(const Scene<dim> &scene, const StepReport<dim> &step, const unsigned int n_processes)
 {
-  const Scene<dim> &scene = step.scene;
   const OutputSettings &output = scene.output;
   std::vector<std::pair<std::string, std::string>> files;
   const auto add =
@@ -33,8 +32,8 @@ std::vector<std::pair<std::string, std::string>> step_files(const StepReport<dim
   return files;
 }
 
-template std::vector<std::pair<std::string, std::string>> step_files(const StepReport<2> &,
-                                                                     unsigned int);
-template std::vector<std::pair<std::string, std::string>> step_files(const StepReport<3> &,
-                                                                     unsigned int);
+template std::vector<std::pair<std::string, std::string>>
+step_files(const Scene<2> &, const StepReport<2> &, unsigned int);
+template std::vector<std::pair<std::string, std::string>>
+step_files(const Scene<3> &, const StepReport<3> &, unsigned int);
 } // namespace hpvi
