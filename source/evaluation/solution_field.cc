@@ -52,20 +52,6 @@ double SolutionField<dim>::largest_displacement() const
 }
 
 template <int dim>
-void SolutionField<dim>::attach(DataOut<dim> &out) const
-{
-  out.add_data_vector(this->dof_handler, solution.u, std::vector<std::string>(dim, "displacement"),
-                      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-                          dim, DataComponentInterpretation::component_is_part_of_vector));
-}
-
-template <int dim>
-void SolutionField<dim>::attach(DataOut<dim> &out, const DataPostprocessor<dim> &fields) const
-{
-  out.add_data_vector(this->dof_handler, solution.u, fields);
-}
-
-template <int dim>
 ContactTraction<dim> SolutionField<dim>::traction(const FieldFace<dim> &face,
                                                   const Point<dim> &reference) const
 {

@@ -92,20 +92,6 @@ double MomentField<dim>::largest_displacement() const
   return u->linfty_norm();
 }
 
-template <int dim>
-void MomentField<dim>::attach(DataOut<dim> &out) const
-{
-  out.add_data_vector(this->dof_handler, *u, std::vector<std::string>(dim, "displacement"),
-                      std::vector<DataComponentInterpretation::DataComponentInterpretation>(
-                          dim, DataComponentInterpretation::component_is_part_of_vector));
-}
-
-template <int dim>
-void MomentField<dim>::attach(DataOut<dim> &out, const DataPostprocessor<dim> &fields) const
-{
-  out.add_data_vector(this->dof_handler, *u, fields);
-}
-
 /** At Gauss point @p k. Moments have the axes of the body, to which the tangent in the plane is parallel. */
 template <int dim>
 ContactTraction<dim> MomentField<dim>::multiplier(const FieldFace<dim> &face,

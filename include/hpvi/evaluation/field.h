@@ -4,7 +4,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/numerics/data_out.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/body/shape_tables.h>
 #include <hpvi/contact/pairing.h>
@@ -150,13 +149,6 @@ public:
 
   /** u_N and its stress at @p x, for all processes; null outside the body. Collective. */
   std::optional<PointValue<dim>> at(const dealii::Point<dim> &x) const;
-
-  /** Adds u_N to what @p out writes, as the vector "displacement". */
-  virtual void attach(dealii::DataOut<dim> &out) const = 0;
-
-  /** Adds what @p fields makes of u_N, likewise. */
-  virtual void attach(dealii::DataOut<dim> &out,
-                      const dealii::DataPostprocessor<dim> &fields) const = 0;
 
   /** Of this process; in the plane one contact boundary after the other, by place. */
   const std::vector<FieldFace<dim>> &faces() const;

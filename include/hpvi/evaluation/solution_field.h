@@ -19,9 +19,6 @@ public:
 
   std::vector<double> coefficients(const Cell &cell) const override;
   double largest_displacement() const override;
-  void attach(dealii::DataOut<dim> &out) const override;
-  void attach(dealii::DataOut<dim> &out,
-              const dealii::DataPostprocessor<dim> &fields) const override;
   ContactTraction<dim> traction(const FieldFace<dim> &face,
                                 const dealii::Point<dim> &reference) const override;
   double bound(const FieldFace<dim> &face, const dealii::Point<dim> &reference) const override;
