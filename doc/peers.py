@@ -262,7 +262,7 @@ def machine(start):
     versions = (version([HPVI_PROGRAM, "--version"], r"hpvi (\S+)"), version(["ccx", "-v"], r"Version (\S+)"),
                 version([PYTHON, "-c", "import getfem; print('v', getfem.getfem_env('version'))"], r"v (\S+)"))
     clock = (f"wall time (load average {LOAD:.1f} at the begin)" if CLOCK == "wall" else
-             f"CPU time, **while the machine had other work** (load average {LOAD:.1f}): some times are too long by half")
+             f"CPU time, **while the machine had other work** (load average {LOAD:.1f}): which lengthens it")
     return ["hpvi {}, CalculiX {} and GetFEM {}, these two of Debian 12; ".format(*versions) + f"{processor()}, one thread each, {clock}; "
             f"the fastest of {options.repeat}. Start-up: hpvi {start[HPVI]:.2f} s, Python with GetFEM {start[GETFEM]:.2f} s, CalculiX {start[CALCULIX]:.2f} s."]
 
