@@ -30,7 +30,7 @@ struct Job
 };
 } // namespace
 
-struct Team::Helpers
+struct Team::Crew
 {
   std::mutex mutex; ///< of all that follows
   std::condition_variable begun, finished;
@@ -46,13 +46,13 @@ struct Team::Helpers
 
 namespace
 {
-thread_local Team::Helpers *serving = nullptr; ///< the calling thread
-thread_local bool has_team = false;            ///< has it one, or is it of one?
-std::atomic<bool> are_cores_taken(false);      ///< by the team of any thread
+thread_local Team::Crew *serving = nullptr; ///< the calling thread
+thread_local bool has_team = false;         ///< has it one, or is it of one?
+std::atomic<bool> are_cores_taken(false);   ///< by the team of any thread
 } // namespace
 
 /** The innermost with parts that nobody has taken; null: none. */
-Job *Team::Helpers::open_job() const
+Job *Team::Crew::open_job() const
 {
   const auto found =
       std::find_if(jobs.rbegin(), jobs.rend(), [](const Job *job) { return job->has_more(); });
@@ -60,7 +60,7 @@ Job *Team::Helpers::open_job() const
 }
 
 /** With the mutex held, but for the work itself. */
-void Team::Helpers::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
+void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
 {
   for (++of.n_at_work; of.has_more();)
   {
@@ -86,7 +86,7 @@ void Team::Helpers::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
   --of.n_at_work;
 }
 
-void Team::Helpers::help()
+void Team::Crew::help()
 {
   const OneThread one_thread;
   has_team = true;
@@ -102,7 +102,7 @@ void Team::Helpers::help()
   }
 }
 
-void Team::Helpers::end()
+void Team::Crew::end()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -117,32 +117,32 @@ Team::Team(const unsigned int n_threads)
 {
   if (n_threads < 2 || has_team)
     return;
-  helpers = std::make_unique<Helpers>();
-  helpers->threads.reserve(n_threads - 1);
+  crew = std::make_unique<Crew>();
+  crew->threads.reserve(n_threads - 1);
   if (are_cores_taken.exchange(true))
   {
-    helpers.reset();
+    crew.reset();
     return;
   }
   try
   {
     for (unsigned int k = 1; k < n_threads; ++k)
-      helpers->threads.emplace_back([this]() { helpers->help(); });
+      crew->threads.emplace_back([this]() { crew->help(); });
   }
   catch (const std::system_error &) // those that there are do it all
   {
   }
-  serving = helpers.get();
+  serving = crew.get();
   has_team = true;
 }
 
 Team::~Team()
 {
-  if (!helpers)
+  if (!crew)
     return;
   serving = nullptr;
   has_team = false;
-  helpers->end();
+  crew->end();
   are_cores_taken = false;
 }
 
@@ -160,14 +160,14 @@ void in_parts(const unsigned int n, const unsigned int at_once,
       work(begin, begin + std::min(at_once, n - begin));
     return;
   }
-  Team::Helpers &helpers = *serving;
+  Team::Crew &crew = *serving;
   Job job{n, at_once, work};
-  std::unique_lock<std::mutex> lock(helpers.mutex);
-  helpers.jobs.push_back(&job);
-  helpers.begun.notify_all();
-  helpers.take_parts(job, lock); // the first one without letting others come before
-  helpers.finished.wait(lock, [&]() { return job.n_at_work == 0; });
-  helpers.jobs.erase(std::find(helpers.jobs.begin(), helpers.jobs.end(), &job));
+  std::unique_lock<std::mutex> lock(crew.mutex);
+  crew.jobs.push_back(&job);
+  crew.begun.notify_all();
+  crew.take_parts(job, lock); // the first one without letting others come before
+  crew.finished.wait(lock, [&]() { return job.n_at_work == 0; });
+  crew.jobs.erase(std::find(crew.jobs.begin(), crew.jobs.end(), &job));
   if (job.failure)
     std::rethrow_exception(job.failure);
 }

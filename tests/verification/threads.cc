@@ -49,7 +49,7 @@ TEST(Team, WorksTogether)
   for_all(3, 1,
           [&](unsigned int)
           {
-            const Team of_a_helper(2);
+            const Team of_a_part(2);
             EXPECT_EQ(team_size(), 3U);
             ++n_there;
             while (n_there < 3 && std::chrono::steady_clock::now() < patience)

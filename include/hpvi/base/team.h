@@ -11,7 +11,7 @@ namespace hpvi
 {
 /**
  * Threads that help the one which makes this with in_parts(), as long as this lives. Each has dense algebra on one thread.
- * A team that is made where there is one already, or by a helper, has none of its own: the outer one serves. There is one at a time in a
+ * A team that is made where there is one already, or by one of its threads, has none of its own: the outer one serves. There is one at a time in a
  * process: where several threads make teams, the others work alone meanwhile.
  */
 class Team
@@ -24,11 +24,11 @@ public:
   Team(const Team &) = delete;
   Team &operator=(const Team &) = delete;
 
-  struct Helpers;
+  struct Crew;
 
 private:
   const OneThread one_thread;
-  std::unique_ptr<Helpers> helpers;
+  std::unique_ptr<Crew> crew;
 };
 
 /** Of the team that serves the calling thread, itself among them; 1 without one. */
