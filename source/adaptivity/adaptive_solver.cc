@@ -67,8 +67,7 @@ struct AdaptiveSolver<dim>::Stages
   void resume(const RunState<dim> &state);
 };
 
-// Every stage announces itself before it begins, since a run should never be silent for long; the
-// library itself prints nothing.
+// Every stage announces itself before it begins; the library itself prints nothing.
 template <int dim>
 void AdaptiveSolver<dim>::Stages::hear(const Announce &about_to)
 {
@@ -183,6 +182,7 @@ PastStep<dim> AdaptiveSolver<dim>::Stages::past_step(const EstimateNorms &norms,
 {
   const auto reduced = backend->reduced();
   PastStep<dim> past;
+  past.seconds = history.empty() ? 0. : history.back().seconds; // add_bound() adds its own
   past.estimate = norms.total;
   past.relative_estimate =
       part_of(norms.total / std::sqrt(scene.reference_coercivity()), energies.norm);

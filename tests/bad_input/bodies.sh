@@ -37,7 +37,7 @@ base=ring.prm
 invalid "Boundary punch.inner" "this scene has no bodies" "Boundary inner" -- "Boundary punch.inner/Traction=0; 0"
 base=bodies.prm
 
-invalid "Adaptivity/Maximum unknowns = 5" "the bodies" "free unknowns of degree" "Subdivisions" -- "Adaptivity/Maximum unknowns=5"
+invalid "Adaptivity/Maximum unknowns = 500" "the bodies" "free unknowns of degree" "Subdivisions" -- "Adaptivity/Maximum unknowns=500" "Body lower/Subdivisions=20, 20"
 
 # --- probes
 invalid "Probe tip/At = 1.5, 1" "lower and upper touch" "On = BODY.side" -- "Probe tip/At=1.5, 1"

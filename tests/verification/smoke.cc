@@ -166,6 +166,9 @@ INSTANTIATE_TEST_SUITE_P(, EveryKind, ::testing::ValuesIn(cases()),
 
 TEST(Smoke, BodiesInSpace)
 {
+  int n_arguments = 0;
+  char **arguments = nullptr;
+  static const Utilities::MPI::MPI_InitFinalize mpi(n_arguments, arguments, 1); // once a process
   for (const std::string name : {"slab", "foot", "block-space"})
   {
     SCOPED_TRACE(name);
