@@ -91,7 +91,7 @@ def chart(name, x, y, curves, log_y=True, ticks=None):
                       ha="right" if offset[0] < 0 else "left", va="center")
     if not log_y:
         axes.set_yscale("linear")
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, 1.15 * axes.get_ylim()[1])
     for axis, values in zip((axes.xaxis, axes.yaxis), ticks or ()):  # of less than a decade or two
         axis.set_ticks(values, [f"{value:g}" for value in values])
         axis.set_ticks([], minor=True)
@@ -161,8 +161,10 @@ def million():
 
 def draw_million():
     points = [(row["dofs_free"], row["newton_cg"]) for row in read("million.csv")]
+    larger = sorted((row["dofs_free"], row["newton_cg"]) for row in read("large.csv") if row["processes"] == 2)
     chart("million.png", "free displacement unknowns of a mesh [-]", "conjugate-gradient steps on it [-]",
-          {"doc/space/slab-million.prm on 2 processes": (points, 5, (-10, 0))}, log_y=False)
+          {"doc/space/slab-million.prm on 2 processes": (points, 5, (-10, -14)),
+           "last meshes from other coarse ones": (larger, 2, (-90, 14))}, log_y=False)
 
 
 def large():
