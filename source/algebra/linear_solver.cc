@@ -70,6 +70,9 @@ struct LinearSolver::Factor
 
 namespace
 {
+/** From so many unknowns on nested dissection by METIS wins in space what it takes itself (doc/space.md). */
+constexpr std::size_t dissected = 150000;
+
 /** A view of @p A as CHOLMOD knows it. CHOLMOD does not write to it. */
 cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 {
@@ -104,7 +107,10 @@ void LinearSolver::Factor::order_unknowns(cholmod_sparse *matrix,
     for (const unsigned int unknown : kept)
       groups[unknown] = 1;
   permutation.resize(n);
-  cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
+  if (kept.empty() && n >= dissected)
+    cholmod_metis(matrix, nullptr, 0, /*postorder=*/true, permutation.data(), &common);
+  else
+    cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
   check();
   for (std::size_t k = n - kept.size(); k < n; ++k)
     order.push_back(std::lower_bound(kept.begin(), kept.end(), permutation[k]) - kept.begin());

@@ -145,6 +145,29 @@ TEST(LinearSolver, FactorBeyondTheMemory)
   EXPECT_TRUE(says(failure, "left of the address space (ulimit -v)")) << failure;
 }
 
+/** Of so many unknowns METIS finds the order. */
+TEST(LinearSolver, DissectsManyUnknowns)
+{
+  const unsigned int n = 160000;
+  SymmetricMatrix A; // of a chain, upper triangle
+  A.resize(2 * n - 1);
+  for (unsigned int j = 0, entry = 0; j < n; ++j)
+  {
+    for (const unsigned int i : {j - 1, j})
+      if (i < n)
+      {
+        A.row[entry] = i;
+        A.value[entry++] = i == j ? 3. : -1.;
+      }
+    A.column_start.push_back(entry);
+  }
+  Vector<double> f(n);
+  f = 1.;
+  const Vector<double> x = LinearSolver(A, {}).solve(f);
+  for (const unsigned int i : {1U, n / 3, n - 2})
+    EXPECT_NEAR(3 * x[i] - x[i - 1] - x[i + 1], 1., 1e-14);
+}
+
 /** The ordering asks for memory before anyone knows how much the factor will take. */
 TEST(LinearSolver, OrderingBeyondTheMemory)
 {

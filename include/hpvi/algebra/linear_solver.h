@@ -27,8 +27,8 @@ struct Stabilisation
  * The sparse Cholesky factorisation `A = L L'`, which takes some unknowns last: the kept ones, those
  * of the contact. The trailing block C of L is then dense and holds the Schur complement on them,
  * `A_kk - A_ki A_ii^-1 A_ik = C C'`. This is the one place that chooses ordering and solver: CHOLMOD
- * (doi:10.1145/1391989.1391995), supernodal, ordered by constrained AMD; tests/benchmark/solvers.cc
- * measures MUMPS beside it.
+ * (doi:10.1145/1391989.1391995), supernodal, ordered by constrained AMD, or by METIS where there are many unknowns and none is
+ * kept; tests/benchmark/solvers.cc measures MUMPS beside it.
  */
 class LinearSolver
 {
