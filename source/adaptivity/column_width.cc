@@ -9,7 +9,7 @@ namespace hpvi
 {
 namespace
 {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /** The probe that has the column, or is it. */
 template <int dim>
@@ -53,14 +53,14 @@ double relative_half_width(const StepReport<dim> &step)
     return one->half_width_about(one->value) / std::abs(one->value);
   const ProbeValue<dim> *const probe = probe_of(step, column);
   if (!probe)
-    return none;
+    return no_number;
   double square = 0, widest = 0;
   for (const Measured &component : probe->displacement)
   {
     const double half_width = component.half_width_about(component.value);
     square += component.value * component.value;
     if (std::isnan(half_width))
-      return none;
+      return no_number;
     widest = std::max(widest, half_width);
   }
   return widest / std::sqrt(square);

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/admissibility/correction_search.h>
+#include <hpvi/algebra/dense_algebra.h>
 
-#include <numeric>
 #include <utility>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-double sum(const std::vector<double> &values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.);
-}
-} // namespace
 
 template <int dim>
 ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/correction_search.h>
+#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/quadratic/inequality_program.h>
 #include <hpvi/stresses/legendre.h>
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hpvi
 {
@@ -15,13 +16,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-
-double sum(const std::vector<double> &values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.);
-}
-
 /** A trace of w at a point of its face by the unknowns of a strip that are kept. */
 Vector<double> trace_row(const RestrictedEnergy &strip, const Trace &trace, const double s)
 {

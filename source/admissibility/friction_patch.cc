@@ -14,7 +14,7 @@ using namespace dealii;
 namespace
 {
 /** By how much |l| may exceed 1, and how near to its bound a moment counts as that. */
-constexpr double round_off = 1e-14;
+constexpr double beyond_one = 1e-14;
 
 /** The constant that does the work of z_N on a patch, or the admissible one that is nearest to it. */
 double constant_part(const std::vector<PatchFace *> &sides)
@@ -35,7 +35,7 @@ void shrink(const std::vector<PatchFace *> &sides)
   double part = 0;
   for (const PatchFace *side : sides)
     for (const double s : side->l.extremes())
-      if (const double value = side->l(s); std::abs(value) > 1. + round_off)
+      if (const double value = side->l(s); std::abs(value) > 1. + beyond_one)
         part = std::max(part, (std::abs(value) - 1.) / std::abs(value - c));
   if (part == 0)
     return;
@@ -166,7 +166,7 @@ try
     stands_out = false;
     for (unsigned int k = 0; k < free.size(); ++k)
       for (const double s : free[k]->l.extremes())
-        if (std::abs(free[k]->l(s)) > 1. + 0.5 * round_off)
+        if (std::abs(free[k]->l(s)) > 1. + 0.5 * beyond_one)
         {
           stands_out = true;
           add_bounds(k, s, program);
@@ -186,7 +186,7 @@ double PatchFace::forced() const
 {
   if (slip != 0. || leans)
     return slip;
-  return std::abs(work) < (1. - 10. * round_off) * limit ? 0. : work < 0. ? -1. : 1.;
+  return std::abs(work) < (1. - 10. * beyond_one) * limit ? 0. : work < 0. ? -1. : 1.;
 }
 
 void distribute(const std::vector<PatchFace *> &sides)

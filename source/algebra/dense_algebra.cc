@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,16 @@ extern "C" void dtrsv_(const char *, const char *, const char *, const dealii::t
 namespace hpvi
 {
 using dealii::types::blas_int;
+
+double dot(const dealii::Vector<double> &a, const dealii::Vector<double> &b)
+{
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+}
+
+double sum(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
 
 void multiply(const char op_A, const char op_B, const unsigned int rows, const unsigned int columns,
               const unsigned int inner, const double alpha, const DensePart A, const DensePart B,

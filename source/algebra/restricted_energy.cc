@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/restricted_energy.h>
+#include <hpvi/base/numbers.h>
 
 #include <algorithm>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-} // namespace
 
 double BorderedMatrix::energy(const unsigned int column, const Vector<double> &x) const
 {

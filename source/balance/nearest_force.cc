@@ -12,7 +12,7 @@ using namespace dealii;
 namespace
 {
 /** How near to e is e. */
-constexpr double round_off = 1e-13;
+constexpr double round_off_of_force = 1e-13;
 
 /**
  * The resultant nearest to e by Wolfe's algorithm ("Finding the nearest point in a polytope", Math.
@@ -49,7 +49,7 @@ Nearest::Nearest(const ForceSet &set, const Force &e) : set(set), e(e)
   minimise();
   // Many more than ever seen.
   for (unsigned int steps_left = 10000; steps_left > 0; --steps_left)
-    if (residual.norm() <= round_off * e.norm() || !add_corner())
+    if (residual.norm() <= round_off_of_force * e.norm() || !add_corner())
       return;
 }
 

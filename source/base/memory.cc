@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/base/numbers.h>
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -22,8 +22,6 @@ namespace hpvi
 namespace
 {
 namespace fs = std::filesystem;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /** The numbers of a file with lines "NAME NUMBER" or "NAME: NUMBER kB", in bytes. */
 std::map<std::string, double> read_numbers(const fs::path &path)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/cones/friction_cones.h>
-
-#include <limits>
 
 namespace hpvi
 {
@@ -9,7 +8,6 @@ using namespace dealii;
 
 FeasibleSet FrictionCones::at(const Vector<double> &z) const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vector<double> lower(fixed.size()), upper(fixed.size());
   for (unsigned int i = 0; i < fixed.size(); ++i)
   {

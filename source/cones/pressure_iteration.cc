@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/balance/balance_solver.h>
+#include <hpvi/base/numbers.h>
 #include <hpvi/cones/anderson.h>
 #include <hpvi/cones/pressure_iteration.h>
 #include <hpvi/quadratic/active_set.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hpvi
 {
@@ -15,7 +15,6 @@ using namespace dealii;
 namespace
 {
 constexpr unsigned int patience = 30; ///< steps in which the residual must halve
-constexpr double infinity = std::numeric_limits<double>::infinity();
 } // namespace
 
 PressureIteration::PressureIteration(ConeIterate &iterate) : iterate(iterate), point(iterate.point)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/contact/contact_order.h>
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace hpvi
 {
@@ -12,9 +12,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 template <int dim>
 ContactFace<dim> make_face(const typename DoFHandler<dim>::active_cell_iterator &cell,
                            const unsigned int face_no, const unsigned int degree,

@@ -14,9 +14,11 @@ using namespace dealii;
 
 namespace
 {
-constexpr double hair = 1e-9, ///< of an edge: round-off of ends that lie opposite to each other
-    parallel = 1e-9,          ///< of unit vectors
-    hole = 1e-6;              ///< of an edge: more without anybody opposite is no round-off
+constexpr double
+    shortest =
+        1e-9, ///< of an edge: a segment below is round-off of ends that lie opposite to each other
+    parallel = 1e-9, ///< of unit vectors
+    hole = 1e-6;     ///< of an edge: more without anybody opposite is no round-off
 } // namespace
 
 double DrawnFace::on_path(const double s) const
@@ -140,7 +142,7 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_line(const Masters &pair, cons
   {
     const double one = on_slave(face.begin), two = on_slave(face.end), begin = std::min(one, two),
                  end = std::max(one, two);
-    if (end - begin < hair)
+    if (end - begin < shortest)
       continue;
     const auto on_master = [&](const double s)
     {
@@ -168,7 +170,7 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, con
     { return slave.on_path(slave.path.nearest(face.drawn.path.ends[end])); };
     const double one = on_slave(0), two = on_slave(1), begin = std::min(one, two),
                  end = std::max(one, two);
-    if (end - begin < hair)
+    if (end - begin < shortest)
       continue;
     const double middle = slave.on_path((begin + end) / 2);
     const auto place =

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/balance/equality_constraints.h>
+#include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/contact/collapse.h>
 #include <hpvi/contact/resistance.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -16,9 +16,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /** Tractions at points, each with a factor between two sides: what contact can do is their sum. */
 template <int dim>
 struct Tractions

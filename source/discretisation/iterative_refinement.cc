@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/iterative_refinement.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-/** A sum whose bits do not depend on the number of threads, unlike deal.II's product. */
-double dot(const Vector<double> &a, const Vector<double> &b)
-{
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
-}
-} // namespace
 
 template <int dim>
 IterativeRefinement<dim>::IterativeRefinement(const Discretisation<dim> &discretisation,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/discretisation/rigid_motion.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace hpvi
@@ -26,11 +26,6 @@ double diagonal(const SymmetricMatrix &A, const unsigned int unknown)
 }
 
 /** A sum whose bits do not depend on threads, unlike deal.II's product. */
-double dot(const Vector<double> &a, const Vector<double> &b)
-{
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
-}
-
 /** What loads as large as @p f could do along @p R: loads across it are no less subject to round-off. */
 double largest_work(const Vector<double> &f, const Vector<double> &R)
 {

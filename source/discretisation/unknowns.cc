@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/discretisation/turned_nodes.h>
 #include <hpvi/discretisation/unknowns.h>
 
@@ -8,12 +9,6 @@
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-
-} // namespace
 
 template <int dim>
 Unknowns<dim>::Unknowns(const DisplacementSpace<dim> &displacement_space,

@@ -16,6 +16,7 @@
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
 #include <hpvi/admissibility/admissible_friction.h>
 #include <hpvi/admissibility/contact_correction.h>
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/team.h>
@@ -40,11 +41,6 @@ namespace
 {
 /** Relative imbalance that is taken for round-off; up to the second the oscillation pays for it. */
 constexpr double tolerable = 1e-9, payable = 1e-7;
-
-double sum(const std::vector<double> &values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.);
-}
 
 /** |w|_a */
 double norm(const ContactCorrection<2> &correction)

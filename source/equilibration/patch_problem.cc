@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/equilibration/patches.h>
 
 #include <algorithm>
@@ -11,8 +12,6 @@ using namespace dealii;
 namespace
 {
 constexpr char tractions[] = "the tractions of a patch of cells";
-
-constexpr unsigned int none = numbers::invalid_unsigned_int;
 
 /** Pivots of conditions that others imply, relative to the largest. */
 constexpr double dependent = 1e-11;

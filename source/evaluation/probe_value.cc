@@ -34,7 +34,7 @@ std::array<double, 3> principal_stresses(const FullStress &stress)
 
 namespace
 {
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /** Sums of displacements and stresses, with the sum of their weights. */
 template <int dim>
@@ -64,7 +64,7 @@ struct Sum
   {
     LinePoint<dim> result;
     result.x = x;
-    const double whole = numbers.back() > 0 ? numbers.back() : none;
+    const double whole = numbers.back() > 0 ? numbers.back() : no_number;
     for (unsigned int d = 0; d < dim; ++d)
       result.displacement[d] = numbers[d] / whole;
     for (unsigned int k = 0; k < FullStress::n_independent_components; ++k)

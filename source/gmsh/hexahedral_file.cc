@@ -20,7 +20,7 @@ namespace
 constexpr std::int64_t hexahedron = 5, quadrilateral = 3;
 
 /** Elements that a body in space cannot have: how many of which kind, and what to do. */
-void check_elements(const GmshFile &file, const MeshComplaint &complain)
+void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
 {
   const auto is_unfit = [](const GmshFile::Element &element)
   {
@@ -299,7 +299,7 @@ HexahedralMesh read_hexahedral_file(const std::string &path)
 {
   const GmshFile file = read_gmsh_file(path);
   const MeshComplaint complain(path);
-  check_elements(file, complain);
+  check_hexahedra(file, complain);
   return HexahedraMaker(file, complain).make();
 }
 } // namespace hpvi

@@ -56,6 +56,14 @@ private:
 };
 } // namespace
 
+std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
+{
+  std::string all;
+  for (const std::string &word : words)
+    all += (all.empty() ? "" : "|") + word;
+  return std::make_shared<Patterns::Selection>(all);
+}
+
 std::shared_ptr<const Patterns::PatternBase> word_or(const std::string &word,
                                                      const Patterns::PatternBase &other)
 {

@@ -13,10 +13,8 @@ namespace hpvi
 {
 namespace
 {
-constexpr int digits = 6;
-
 /** What is a number is rounded. */
-std::string shown(const std::string &field, const int n_digits = digits)
+std::string shown(const std::string &field, const int n_digits = shown_digits)
 {
   const std::optional<double> value = number(field);
   return value ? text(*value, n_digits) : field;
@@ -114,7 +112,7 @@ std::string forces_words(const Scene<dim> &scene, const RunFiles &files)
   if (scene.is_axisymmetric())
     note += ", of the full turn";
   else if (dim == 2)
-    note += ", for a thickness of " + with_unit(scene.thickness, scene.length_unit, digits);
+    note += ", for a thickness of " + with_unit(scene.thickness, scene.length_unit, shown_digits);
   if (const std::string why = words_of(files.summary, "no_intervals"); !why.empty())
     note += "; without an interval: " + why;
   return (files.forces.empty() ? "" : element("p", note + ".") + "\n") +

@@ -15,9 +15,7 @@ namespace hpvi
 {
 namespace
 {
-constexpr int digits = 6;
-
-std::string shown(const std::optional<double> &value, const int n_digits = digits)
+std::string shown(const std::optional<double> &value, const int n_digits = shown_digits)
 {
   return value ? text(*value, n_digits) : "";
 }
@@ -26,7 +24,7 @@ std::string shown(const std::optional<double> &value, const int n_digits = digit
 std::string shown(const JsonTree &tree, const std::string &name, const std::string &unit)
 {
   const std::optional<double> value = number_of(tree, name);
-  return value ? with_unit(*value, unit, digits) : "?";
+  return value ? with_unit(*value, unit, shown_digits) : "?";
 }
 
 /** A number of few digits that is no less: what is guaranteed stays so. */
@@ -139,7 +137,7 @@ std::string measured(const std::string &value, const std::string &bound)
   if (!centre)
     return "";
   return half_width ? interval_in_words({*centre, *half_width}) + " (guaranteed)"
-                    : text(*centre, digits);
+                    : text(*centre, shown_digits);
 }
 
 /** A sentence for each place where a stress has no bound. */

@@ -35,7 +35,7 @@ bool is_result(const std::string &name)
   using namespace results;
   static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
                                   vtu + "|" + pieces + "|" + contact_line + "|" + reference + "|" +
-                                  picture + "|" + probe + "|" + report + ")(\\.tmp)?");
+                                  picture + "|" + probe + "|" + results::report + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
 }
 

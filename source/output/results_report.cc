@@ -31,8 +31,6 @@ std::string interval_in_words(const Interval &interval)
 
 namespace
 {
-constexpr int digits = 6;
-
 void add(std::string &words, const std::string &what, const Measured &number)
 {
   if (number.interval)
@@ -70,14 +68,15 @@ std::string probe_in_words(const ProbeValue<dim> &value, const Scene<dim> &scene
     const Measured &number = value.displacement[d];
     words += std::string(d > 0 ? ", u" : " u") + "xyz"[d] + " " +
              (number.interval ? interval_in_words(*number.interval) + " (guaranteed)"
-                              : text(number.value, digits));
+                              : text(number.value, shown_digits));
   }
   const auto unit = [](const std::string &label)
   { return unit_name(label).empty() ? "" : " " + unit_name(label); };
   const std::array<double, 3> principal = principal_stresses<dim>(value.stress);
-  return words + unit(scene.length_unit) + "; s1 " + text(principal[0], digits) + ", s2 " +
-         text(principal[1], digits) + (dim == 2 ? ", szz " : ", s3 ") + text(principal[2], digits) +
-         ", von Mises " + text(von_mises(value.stress), digits) + unit(scene.stress_unit) + "\n";
+  return words + unit(scene.length_unit) + "; s1 " + text(principal[0], shown_digits) + ", s2 " +
+         text(principal[1], shown_digits) + (dim == 2 ? ", szz " : ", s3 ") +
+         text(principal[2], shown_digits) + ", von Mises " +
+         text(von_mises(value.stress), shown_digits) + unit(scene.stress_unit) + "\n";
 }
 
 template <int dim>
@@ -94,14 +93,15 @@ std::string extremes_in_words(const StepReport<dim> &step)
   const Scene<dim> &scene = step.scene;
   const PlacedValue<dim> &displacement = step.largest_displacement;
   std::string words = "largest displacement " +
-                      with_unit(displacement.value, scene.length_unit, digits) +
+                      with_unit(displacement.value, scene.length_unit, shown_digits) +
                       (displacement.value > 0 ? " at " + to_string(displacement.where) : "") + "\n";
   if (std::none_of(step.unbounded.begin(), step.unbounded.end(),
                    [](const UnboundedStress<dim> &stress)
                    { return stress.peak.boundary == numbers::invalid_boundary_id; }))
   {
     const StressSample<dim> &stress = largest_von_mises(step);
-    words += "largest von Mises' stress " + with_unit(stress.value, scene.stress_unit, digits) +
+    words += "largest von Mises' stress " +
+             with_unit(stress.value, scene.stress_unit, shown_digits) +
              (stress.value > 0 ? " at " + to_string(stress.where) : "") + "\n";
   }
   return words;

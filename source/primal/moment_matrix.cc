@@ -18,7 +18,7 @@ using namespace dealii;
 namespace
 {
 constexpr double held_factor = 1e4;
-constexpr unsigned int maximum_steps = 300, multigrid_steps = 100;
+constexpr unsigned int amg_steps = 300, multigrid_steps = 100;
 
 /** Smoothed aggregation, Chebyshev smoothers of degree two, a direct solver where few unknowns are left. */
 template <int dim>
@@ -357,7 +357,7 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
   mask(r);
   r -= q;
   double rho = 0, length = 0;
-  const unsigned int most = method == LinearMethod::multigrid ? multigrid_steps : maximum_steps;
+  const unsigned int most = method == LinearMethod::multigrid ? multigrid_steps : amg_steps;
   for (unsigned int step = 0; !(r.l2_norm() <= tolerance); ++step, ++n_steps)
   {
     before_step();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/primal/transfer.h>
 
 #include <deal.II/base/utilities.h>
@@ -6,11 +7,6 @@
 namespace hpvi
 {
 using namespace dealii;
-
-namespace
-{
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-}
 
 template <int dim>
 CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSpace<dim> &space,

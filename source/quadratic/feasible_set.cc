@@ -15,11 +15,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-constexpr double infinity = std::numeric_limits<double>::infinity();
-} // namespace
-
 FeasibleSet::FeasibleSet(const Vector<double> &lower, const Vector<double> &upper)
 {
   AssertThrow(lower.size() == upper.size(), ExcDimensionMismatch(lower.size(), upper.size()));

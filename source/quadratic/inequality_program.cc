@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/quadratic/inequality_program.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hpvi
@@ -13,9 +13,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int none = numbers::invalid_unsigned_int;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /**
  * What counts as zero: of the slack of a row; of the part of a row that no other one implies, or of what another one adds
  * to it; and of its contradiction to those that imply it.

@@ -22,7 +22,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /**

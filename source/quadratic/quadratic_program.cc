@@ -12,11 +12,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
-
 void QuadraticProgram::assert_size([[maybe_unused]] const Vector<double> &z) const
 {
   AssertDimension(S.n(), z.size());

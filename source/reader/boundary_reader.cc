@@ -19,17 +19,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
-{
-  std::string all;
-  for (const std::string &word : words)
-    all += (all.empty() ? "" : "|") + word;
-  return std::make_shared<Patterns::Selection>(all);
-}
-} // namespace
-
 std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides)
 {
   const auto text = std::make_shared<Patterns::Anything>();

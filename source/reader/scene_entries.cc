@@ -53,11 +53,6 @@ std::string joined(const std::vector<std::string> &words, const std::string &sep
   return result;
 }
 
-std::shared_ptr<const Patterns::PatternBase> one_of(const std::vector<std::string> &words)
-{
-  return matching(Patterns::Selection(joined(words, "|")));
-}
-
 void add(std::vector<Entry> &entries, const std::vector<Entry> &more)
 {
   entries.insert(entries.end(), more.begin(), more.end());

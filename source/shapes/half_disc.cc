@@ -34,7 +34,7 @@ CoarseMesh HalfDisc::mesh() const
 
 namespace
 {
-void read(const Parameters &parameters, Geometry<2> &geometry)
+void read_half_disc(const Parameters &parameters, Geometry<2> &geometry)
 {
   const double radius = parameters.number("Geometry", "Radius");
   if (!(radius > 0))
@@ -58,7 +58,7 @@ ShapeKind<2> half_disc_shape()
             "Angle of the flat side of a half disc against the x axis, counterclockwise; the disc "
             "lies to the left of it: 180 is a disc that hangs below [degrees]."}},
           "Radius",
-          read,
+          read_half_disc,
           nullptr,
           [](const GeometryText &) {
             return SideNames{{"flat", "arc"}};

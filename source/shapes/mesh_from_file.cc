@@ -62,7 +62,7 @@ std::vector<std::string> surfaces_in(const Parameters &parameters, const CoarseM
   return result;
 }
 
-void read(const Parameters &parameters, Geometry<2> &geometry)
+void read_file(const Parameters &parameters, Geometry<2> &geometry)
 {
   const std::string file = parameters.text("Geometry", "File");
   if (file.empty())
@@ -137,7 +137,7 @@ ShapeKind<2> mesh_from_file()
         "Mesh file of Gmsh, format 4.1 or 2.2, ASCII, with quadrilaterals, physical curves and "
         "physical surfaces; a path relative to that of the scene."}},
       "File",
-      read,
+      read_file,
       nullptr,
       [](const GeometryText &text)
       {

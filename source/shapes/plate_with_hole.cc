@@ -112,7 +112,7 @@ CoarseMesh PlateWithHole::mesh() const
 
 namespace
 {
-void read(const Parameters &parameters, Geometry<2> &geometry)
+void read_plate_with_hole(const Parameters &parameters, Geometry<2> &geometry)
 {
   if (8. * geometry.subdivisions[0] * double(geometry.subdivisions[1]) > 1e6)
     parameters.reject("Geometry", "Subdivisions", too_many_cells);
@@ -164,7 +164,7 @@ ShapeKind<2> plate_with_hole_shape()
             "Of a plate with a hole: the whole, with the hole inside, or a quarter, with Centre at "
             "one of its corners."}},
           "Radius",
-          read,
+          read_plate_with_hole,
           nullptr,
           [](const GeometryText &) {
             return SideNames{{"left", "right", "bottom", "top", "hole"}};

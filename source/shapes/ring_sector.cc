@@ -71,7 +71,7 @@ std::array<double, 2> angles_in(const std::string &text)
   return result;
 }
 
-void read(const Parameters &parameters, Geometry<2> &geometry)
+void read_ring_sector(const Parameters &parameters, Geometry<2> &geometry)
 {
   if (geometry.subdivisions[0] * double(geometry.subdivisions[1]) > 1e6)
     parameters.reject("Geometry", "Subdivisions", too_many_cells);
@@ -116,7 +116,7 @@ ShapeKind<2> ring_sector_shape()
             "Angles at which a ring sector starts and ends, counterclockwise from the x axis; 360 "
             "apart they make a closed ring without start and end [degrees]."}},
           "Radii",
-          read,
+          read_ring_sector,
           nullptr,
           [](const GeometryText &text)
           {

@@ -12,7 +12,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr char stresses[] = "the stresses of a cell";
+constexpr char macro_stresses[] = "the stresses of a cell";
 
 /** Conditions of the triangles that leave the tractions between them independent. The others follow from
  * these and the balance of the cell; that at the crossing, since both diagonals are straight there. */
@@ -183,12 +183,12 @@ void MacroStressElement::eliminate(const std::vector<double> &H, const std::vect
     for (unsigned int i = 0; i < m; ++i)
       W[i * n + j] = C[j * m + i];
   }
-  require_regular(cholesky(n, L.data(), n), stresses);
+  require_regular(cholesky(n, L.data(), n), macro_stresses);
   solve_triangular('N', n, n, {L.data(), n}, Y.data(), n);
   solve_triangular('N', n, m, {L.data(), n}, W.data(), n);
   S.resize(m * m);
   multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
-  require_regular(cholesky(m, S.data(), m), stresses);
+  require_regular(cholesky(m, S.data(), m), macro_stresses);
   Q.assign(C.begin() + n * m, C.end());
   multiply('T', 'N', m, n, n, -1., {W.data(), n}, {Y.data(), n}, 1., Q.data(), m);
   solve_triangular('N', m, n, {S.data(), m}, Q.data(), m); // L_S^-1 Q

@@ -17,11 +17,11 @@ namespace algebra
 {
 using namespace dealii;
 using hpvi::FeasibleSet;
+using hpvi::infinity;
 using hpvi::Mprgp;
 using hpvi::QpReport;
 using hpvi::QuadraticProgram;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 inline Vector<double> vec(const std::initializer_list<double> &components)

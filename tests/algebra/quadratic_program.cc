@@ -11,8 +11,8 @@ namespace
 {
 using namespace dealii;
 using hpvi::FeasibleSet;
+using hpvi::infinity;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Vector<double> vec(const std::initializer_list<double> &components)

@@ -3,11 +3,18 @@
 #define hpvi_dense_algebra_h
 
 #include <deal.II/base/types.h>
+#include <deal.II/lac/vector.h>
 
 #include <vector>
 
 namespace hpvi
 {
+/** (a, b), a sum whose bits do not depend on the number of threads, unlike deal.II's product. */
+double dot(const dealii::Vector<double> &a, const dealii::Vector<double> &b);
+
+/** Entry by entry, likewise. */
+double sum(const std::vector<double> &values);
+
 /** A part of a dense matrix of doubles, stored by columns. */
 struct DensePart
 {

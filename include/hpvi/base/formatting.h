@@ -6,6 +6,9 @@
 
 namespace hpvi
 {
+/** Of numbers that are read, not computed with. */
+constexpr int shown_digits = 6;
+
 /** The shortest decimal that reads back as the same number; the locale has no say. */
 std::string text(double value);
 

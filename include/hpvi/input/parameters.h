@@ -31,6 +31,9 @@ struct Entry
   std::string objection(const std::string &value) const;
 };
 
+/** One of @p words. */
+std::shared_ptr<const dealii::Patterns::PatternBase> one_of(const std::vector<std::string> &words);
+
 /** @p word, which may be empty, or what @p other accepts. */
 std::shared_ptr<const dealii::Patterns::PatternBase>
 word_or(const std::string &word, const dealii::Patterns::PatternBase &other);

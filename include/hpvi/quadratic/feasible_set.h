@@ -3,6 +3,7 @@
 #define hpvi_feasible_set_h
 
 #include <deal.II/lac/vector.h>
+#include <hpvi/base/numbers.h>
 
 #include <vector>
 
