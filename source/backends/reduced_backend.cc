@@ -258,7 +258,6 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
-  StageTimer timer(times.bound);
   const ErrorBound bound = bound_beside_forces(own_stress);
   result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
   result.imbalance = bound.imbalance;

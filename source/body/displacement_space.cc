@@ -4,9 +4,11 @@
 // continuous across edges, and subject to the supports. It is made in two halves. The numbering
 // gives every cell its nodes, and neighbours share those that coincide; the constraints say of all
 // nodes that are not free how they follow from others.
+#include <hpvi/base/team.h>
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/plates.h>
+#include <hpvi/body/strain_points.h>
 
 namespace hpvi
 {
@@ -43,6 +45,15 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
     : dof_numbering(triangulation, degrees, tables),
       affine_constraints(constraints_of(scene, dof_numbering, tables))
 {
+  if (!scene.has_initial_strain())
+    return;
+  std::vector<typename Triangulation<dim>::active_cell_iterator> cells;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    cells.push_back(cell);
+  n_strain_points.resize(cells.size());
+  for_all(cells.size(), 16,
+          [&](const unsigned int k)
+          { n_strain_points[k] = hpvi::strain_points(scene, cells[k], degrees[k], tables); });
 }
 
 // @sect3{What is asked of it}
@@ -96,6 +107,12 @@ ArrayView<const types::global_dof_index>
 DisplacementSpace<dim>::cell_dofs(const unsigned int cell) const
 {
   return dof_numbering.cell_dofs(cell);
+}
+
+template <int dim>
+unsigned int DisplacementSpace<dim>::strain_points(const unsigned int cell) const
+{
+  return n_strain_points[cell];
 }
 
 template class DisplacementSpace<2>;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/cell_map.h>
-#include <hpvi/body/load_quadrature.h>
 #include <hpvi/discretisation/initial_stress.h>
 
 #include <algorithm>
@@ -55,7 +54,8 @@ void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
       continue;
     const unsigned int p = space.degrees()[cell->active_cell_index()];
     const CellMap<2> map = map_of<2>(cell);
-    const ShapeTable<2> &table = tables.gradients(p, initial_strain_points(scene, cell, p, tables));
+    const ShapeTable<2> &table =
+        tables.gradients(p, space.strain_points(cell->active_cell_index()));
     std::vector<Tensor<2, 2>> strains;
     for (const Point<2> &point : table.points)
       strains.push_back(scene.initial_strain_in(cell, map.point(point)));
@@ -81,29 +81,11 @@ void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
 }
 } // namespace
 
-unsigned int initial_strain_points(const Scene<2> &scene,
-                                   const Triangulation<2>::cell_iterator &cell,
-                                   const unsigned int degree, const ShapeTables<2> &tables)
-{
-  const InitialStrain<2> &initial = scene.initial_strains[cell->material_id()];
-  const CellMap<2> map = map_of<2>(cell);
-  const auto value = [&](const Function<2> &component, const Point<2> &s)
-  { return component.value(map.point(s)); };
-  unsigned int n = degree + 3;
-  for (const std::array<Expression<2>, 2> &pair :
-       {std::array<Expression<2>, 2>{{initial.components[0], initial.components[1]}},
-        {{initial.components[2], initial.components[3]}},
-        {{initial.temperature, nullptr}}})
-    n = std::max(n, rule_on<2>({BoundingBox<2>({Point<2>(), Point<2>(1., 1.)})}, degree + 1, pair,
-                               value, tables)
-                        .n_gauss);
-  return n;
-}
-
 double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
-                            const unsigned int degree, const ShapeTables<2> &tables)
+                            const unsigned int n, const ShapeTables<2> &tables)
 {
-  const unsigned int n = initial_strain_points(scene, cell, degree, tables);
+  if (!scene.initial_strains[cell->material_id()])
+    return 0.;
   const CellMap<2> map = map_of<2>(cell);
   const HookesLaw<2> law(scene.material_of(cell));
   const QGauss<1> &own = tables.gauss(n), &finer = tables.gauss(n + 3);

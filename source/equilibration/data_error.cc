@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/admissible_pressure.h>
+#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/team.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/equilibration/data_error.h>
@@ -238,17 +240,19 @@ double absolute_traction(const EquilibratedStress &stress, const unsigned int in
 /** What s lacks of the initial stress is a stress: it needs no constant. What the discrete equations miss of it does work on u_N. */
 void DataError::add_initial_strain(const Solution<2> &solution, const EquilibratedStress &stress)
 {
-  double missed = 0;
-  for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
-  {
-    oscillation[cell] += stress.missed_initial_stress(cell);
-    missed += initial_stress_error(solution.scene, stress.patches().cells()[cell].iterator,
-                                   solution.displacement_space.degrees()[cell], solution.tables);
-  }
+  std::vector<double> squares(oscillation.size()); // of what the discrete equations miss
+  for_all(squares.size(), 8,
+          [&](const unsigned int cell)
+          {
+            oscillation[cell] += stress.missed_initial_stress(cell);
+            squares[cell] = initial_stress_error(
+                solution.scene, stress.patches().cells()[cell].iterator,
+                solution.displacement_space.strain_points(cell), solution.tables);
+          });
   const double norm = std::sqrt(
       internal_forces(solution.scene, solution.displacement_space, solution.tables, solution.u)
           .energy_product);
-  missed = std::sqrt(missed);
+  const double missed = std::sqrt(sum(squares));
   if (missed <= 1e-12 * norm)
     return; // round-off
   unresolved += missed;

@@ -13,11 +13,11 @@ Modes<3> initial_modes(const Solution<2> &solution, const DoFHandler<2>::active_
                        const Tensor<2, 2> &B, const unsigned int n_whole, const unsigned int n,
                        const LegendreTables &legendre)
 {
+  if (!solution.scene.initial_strains[cell->material_id()])
+    return Modes<3>(n);
   const CellMap<2> map = map_of<2>(cell);
   const HookesLaw<2> law(solution.scene.material_of(cell));
-  const unsigned int n_gauss = initial_strain_points(
-      solution.scene, cell, solution.displacement_space.degrees()[cell->active_cell_index()],
-      solution.tables);
+  const unsigned int n_gauss = solution.displacement_space.strain_points(cell->active_cell_index());
   const QGauss<1> &gauss = solution.tables.gauss(n_gauss);
   const Tensor<2, 2> inverse = invert(B);
   std::array<FullMatrix<double>, 3> values;
@@ -51,11 +51,11 @@ double missed_initial_modes(const Solution<2> &solution,
                             const DoFHandler<2>::active_cell_iterator &cell, const Tensor<2, 2> &B,
                             const unsigned int n_whole, const Modes<3> &modes)
 {
+  if (!solution.scene.initial_strains[cell->material_id()])
+    return 0.;
   const CellMap<2> map = map_of<2>(cell);
   const HookesLaw<2> law(solution.scene.material_of(cell));
-  const QGauss<2> rule(initial_strain_points(
-      solution.scene, cell, solution.displacement_space.degrees()[cell->active_cell_index()],
-      solution.tables));
+  const QGauss<2> rule(solution.displacement_space.strain_points(cell->active_cell_index()));
   double sum = 0, whole = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
   {

@@ -257,8 +257,7 @@ void MacroStresses::set_cell(const unsigned int index)
   if (solution.scene.has_body_force())
     n_gauss = std::max(n_gauss, solution.spaces->loads->body_force(iterator, p).most_points + 2);
   if (solution.scene.has_initial_strain())
-    n_gauss =
-        std::max(n_gauss, initial_strain_points(solution.scene, iterator, p, solution.tables) + 2);
+    n_gauss = std::max(n_gauss, solution.displacement_space.strain_points(index) + 2);
   const TriangleTable &table = cache.triangles.table(k, n_gauss);
   const Gradient gradient(solution, index, cache.legendre);
   const HookesLaw<2> law(solution.scene.material_of(iterator));

@@ -10,11 +10,6 @@ using namespace dealii;
 
 namespace
 {
-std::string known(const double value)
-{
-  return std::isfinite(value) ? text(value) : "";
-}
-
 /** The centre of its interval, where there is one, and half the width of that. */
 void add(Record &record, const std::string &name, const Measured &number)
 {

@@ -10,11 +10,6 @@ namespace hpvi
 {
 namespace
 {
-std::string known(const double value)
-{
-  return std::isfinite(value) ? text(value) : "";
-}
-
 /** About the value that stands beside it. */
 std::string bound_of(const Measured *const number)
 {

@@ -20,6 +20,11 @@ void add_line(std::string &table, const Record &record, const Field field)
 }
 } // namespace
 
+std::string known(const double value)
+{
+  return std::isfinite(value) ? text(value) : "";
+}
+
 std::string value_of(const Record &record, const std::string &column)
 {
   for (const auto &[name, value] : record)

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string known(const std::string &words)
+std::string words_or_null(const std::string &words)
 {
   return words.empty() ? "null" : json_string(words);
 }
@@ -128,14 +128,14 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
     return;
   load = step.load;
   ending.error_bound = bound_json(step);
-  ending.no_error_bound = known(step.bound ? "" : step.no_bound);
+  ending.no_error_bound = words_or_null(step.bound ? "" : step.no_bound);
   ending.forces = forces_json(step.equilibrium);
   if (step.scene.has_plates())
     ending.plates = plates_json(step.scene, step.equilibrium);
   ending.balance = balance_json(step.equilibrium);
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.largest_displacement = largest_displacement_json(step);
-  ending.no_intervals = known(step.no_intervals);
+  ending.no_intervals = words_or_null(step.no_intervals);
   ending.von_mises = von_mises_json(step.peaks, step.unbounded);
 }
 
@@ -149,19 +149,19 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
   const bool began_elsewhere = !scene_file.empty();
   Record entries{
       {"status", json_string(status)},
-      {"stopped_by", known(stopped_by)},
-      {"message", known(message)},
+      {"stopped_by", words_or_null(stopped_by)},
+      {"message", words_or_null(message)},
       {"scene", json_string(began_elsewhere ? fs::path(scene_file).stem().string() : scene.name)},
-      {"scene_file", known(began_elsewhere    ? scene_file
-                           : scene.parameters ? scene.parameters->file_name()
-                                              : "")},
+      {"scene_file", words_or_null(began_elsewhere    ? scene_file
+                                   : scene.parameters ? scene.parameters->file_name()
+                                                      : "")},
       {"title", json_string(scene.title)},
       {"program", json_string("hpvi " + version())},
       {"build", json_string(build_type())},
       {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
       {"units", units_json(scene.length_unit, scene.stress_unit)},
-      {"normal_contact", known(normal_contact)},
-      {"linear", known(linear)},
+      {"normal_contact", words_or_null(normal_contact)},
+      {"linear", words_or_null(linear)},
       {"processes", text(processes)},
       {"threads", text(n_threads(scene, processes))},
       {"loads", loads_json(loads)},

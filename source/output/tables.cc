@@ -43,11 +43,6 @@ std::string transition_list(const std::vector<Point<dim>> &points)
   return list;
 }
 
-std::string known(const double value)
-{
-  return std::isfinite(value) ? text(value) : "";
-}
-
 /** Directions are the same all along one contact boundary alone; else empty. */
 template <int dim>
 std::string resultant(const std::vector<ContactState<dim>> &contact,

@@ -19,7 +19,7 @@ namespace
 constexpr unsigned int maximum_problems = 200;
 constexpr unsigned int patience = 30; ///< problems in which the residual must halve
 
-[[noreturn]] void give_up(const NewtonReport &report)
+[[noreturn]] void give_up_on_friction(const NewtonReport &report)
 {
   std::ostringstream line;
   line << "friction that follows the pressure has not converged after " << report.tresca_problems
@@ -154,7 +154,7 @@ NewtonReport FrictionIteration<dim>::solve(DistributedVector &v,
             : acceleration.next(x, change);
     take_limits(x, v, lambda);
   }
-  give_up(report);
+  give_up_on_friction(report);
 }
 
 template class FrictionIteration<2>;

@@ -12,9 +12,9 @@ using namespace dealii;
 namespace
 {
 // Softer springs need fewer steps: on prm/block-space.prm at its angle of friction plus 2e-4 of it 1e-3 fails, 1e-6 takes three.
-constexpr double softness = 1e-6;     ///< of the springs beside a body as thick as this one
-constexpr double balanced = 1e-9;     ///< of forces and moments, in parts of all of them
-constexpr unsigned int patience = 40; ///< proximal steps
+constexpr double softness = 1e-6;       ///< of the springs beside a body as thick as this one
+constexpr double balanced = 1e-9;       ///< of forces and moments, in parts of all of them
+constexpr unsigned int most_steps = 40; ///< proximal steps
 } // namespace
 
 Mooring::Mooring(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix)
@@ -63,7 +63,7 @@ NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<Contac
   NewtonReport report;
   NewtonSettings settings = wanted;
   std::string words;
-  for (unsigned int step = 0; step < patience; ++step)
+  for (unsigned int step = 0; step < most_steps; ++step)
   {
     drop_anchors(v);
     report += inner(settings);
@@ -79,7 +79,7 @@ NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<Contac
     if (is_met) // as the error of the mesh allows, but forces shall balance
       settings = {std::clamp(0.1 * left, 1e-10, 1e-3), 0., settings.maximum_steps};
   }
-  throw NumericalFailure("no equilibrium found in " + std::to_string(patience) +
+  throw NumericalFailure("no equilibrium found in " + std::to_string(most_steps) +
                          " steps: " + words +
                          "; add a support, raise friction, lower the loads or raise "
                          "Geometry/Subdivisions");

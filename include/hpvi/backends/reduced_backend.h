@@ -10,6 +10,8 @@
 #include <hpvi/evaluation/legendre_smoothness.h>
 #include <hpvi/intervals/resultant_intervals.h>
 
+#include <array>
+
 namespace hpvi
 {
 /**
@@ -97,14 +99,22 @@ private:
     ErrorBound result;
     ErrorBounds anew; // which steps had one before must not decide about the last bits
     ErrorBounds &bounds = scene.error_bound_last ? anew : error_bounds;
+    std::array<double, 2> seconds{};
     const auto part = [&](const unsigned int k)
     {
+      StageTimer timer(seconds[k]);
       if (k == 1)
         nodal_forces();
       else
         result = bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
     };
-    for_all(2, 1, part);
+    double both = 0; // less than their sum where there are two threads
+    {
+      StageTimer timer(both);
+      for_all(2, 1, part);
+    }
+    times.bound += both * seconds[0] / (seconds[0] + seconds[1]);
+    times.recover += both * seconds[1] / (seconds[0] + seconds[1]);
     return result;
   }
   /** Of the step whose system is assembled. */

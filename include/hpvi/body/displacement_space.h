@@ -36,9 +36,13 @@ public:
   /** As in DofNumbering. */
   dealii::ArrayView<const dealii::types::global_dof_index> cell_dofs(unsigned int cell) const;
 
+  /** strain_points() of a cell, of a scene with initial strains. */
+  unsigned int strain_points(unsigned int cell) const;
+
 private:
   const DofNumbering<dim> dof_numbering;
   const dealii::AffineConstraints<double> affine_constraints;
+  std::vector<unsigned int> n_strain_points; ///< by active cell index
 };
 } // namespace hpvi
 

@@ -51,19 +51,10 @@ dealii::Tensor<1, dim> initial_stress_divergence(const Scene<dim> &scene, const 
   return result;
 }
 
-/**
- * Gauss points per direction for integrals with the initial strain eps_0 in a cell: as many, at least p + 3, as give its moments
- * with polynomials of degree 2 to round-off. Then the discrete equations are those of the polynomial through its values at
- * these points, which equilibrated stresses count on.
- */
-unsigned int initial_strain_points(const Scene<2> &scene,
-                                   const dealii::Triangulation<2>::cell_iterator &cell,
-                                   unsigned int degree, const ShapeTables<2> &tables);
-
-/** The square in energy of what that polynomial misses of eps_0 in the cell, seen at more points. */
+/** The square in energy of what the polynomial through @p n x n points misses of eps_0 in the cell, seen at more of them. */
 double initial_stress_error(const Scene<2> &scene,
-                            const dealii::Triangulation<2>::cell_iterator &cell,
-                            unsigned int degree, const ShapeTables<2> &tables);
+                            const dealii::Triangulation<2>::cell_iterator &cell, unsigned int n,
+                            const ShapeTables<2> &tables);
 
 /**
  * `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length]. Where div v counts projected only, that of eps_0 is

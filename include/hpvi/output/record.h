@@ -14,6 +14,9 @@ namespace hpvi
 /** Names and values of one row of a table; an empty value is an empty field. */
 using Record = std::vector<std::pair<std::string, std::string>>;
 
+/** A field; empty where @p value is infinite or NaN. */
+std::string known(double value);
+
 /** Of a column; empty where there is none. */
 std::string value_of(const Record &record, const std::string &column);
 
