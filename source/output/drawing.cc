@@ -26,7 +26,7 @@ bool is_between(const PagePoint &from, const PagePoint &middle, const PagePoint 
 /** Without points between others, all those since the last that is there: of a gentle curve each alone is between its neighbours. */
 std::string path(const std::vector<PagePoint> &points)
 {
-  constexpr std::size_t most = 50; // so that a long line takes no more than its points
+  constexpr std::size_t most = 500; // so that a long line takes no more than its points
   std::string d;
   std::size_t last = 0;
   for (std::size_t k = 0; k < points.size(); ++k)

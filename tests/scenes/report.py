@@ -156,6 +156,13 @@ class Report(RunTest):
                     self.assertLess(said, 111 * bound["relative"])
                 self.assertEqual(self.check_charts(page), of)
                 self.assertGreater(summary["seconds"]["report"], 0)
+                # What is round-off is 0.
+                self.assertNotRegex(page.split("<h2>Forces")[1].split("</table>")[0], r"e-1\d")
+                # Small on paper, so that there are two pages.
+                self.assertEqual('<body class="many">' in page, page.count("<figure>") > 6)
+                if scene == "lap-joint":
+                    self.assertRegex(page, r"normal resultant -200 N, friction \S+ N, force \(\S+, 200\) N through")
+                    self.assertIn("Forces [N] and moments [N mm] on the body", page)
                 # One source: what the files hold tells the same.
                 self.assertIn(f"report in {self.out}/report.html", self.afterwards())
                 self.assertEqual(self.page(), page)
@@ -170,8 +177,11 @@ class Report(RunTest):
         self.assertEqual([line[:17] for line in different], ['<p class="times">'])
 
     def test_what_was_switched_off_is_said(self):
-        self.run_scene(SHORT, "Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false", "Error/Bound=false")
+        self.run_scene(SHORT, "Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false", "Error/Bound=false",
+                       "Material soft/Where=x < 1", "Material soft/Young's modulus=10")
         page, _ = self.check_page()
+        # What the second material leaves to the first is not printed.
+        self.assertRegex(page, r'<span class="default">\s*set Poisson.s ratio *=\s*</span>')
         for entry in ("Output/VTU = true", "Output/Mesh picture = true", "Output/Contact tables = true"):
             self.assertIn(entry, page)
         self.assertNotIn("guaranteed", page.split("<h2>The scene")[0].replace("No bound is guaranteed", ""))
