@@ -2,6 +2,7 @@
 // Pictures of scenes: parts of boundaries on any mesh, materials, texts that find room.
 #include <gtest/gtest.h>
 #include <hpvi/output/boundary_part.h>
+#include <hpvi/output/chart.h>
 #include <hpvi/output/drawing.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
@@ -163,6 +164,20 @@ TEST(Drawing, LinesFollowTheirPoints)
   EXPECT_LT(line.size(), 50u);
   for (std::size_t k = 1; k < line.size(); ++k) // a chord of this length is so far from its arc
     EXPECT_LT(curvature * std::pow(line[k][0] - line[k - 1][0], 2) / 4, 0.03);
+}
+
+/** An axis with one number cannot be read, and one with many neither. */
+TEST(Chart, LogarithmicAxesHaveSomeNumbers)
+{
+  for (const double low : {0.3, 0.1, 0.022, 0.011, 1e-3, 1e-5, 1e-12, 1e-30})
+  {
+    Chart chart;
+    chart.is_logarithmic = true;
+    chart.lines = {{"", "#000", "", true, {{{0., 0.44}}, {{1., low}}}}};
+    const unsigned int n = count(chart.svg(), "text-anchor=\"end\"");
+    EXPECT_GE(n, 2u) << low;
+    EXPECT_LE(n, 10u) << low;
+  }
 }
 
 /** Resultants are in stress times area: the label of stress says it where it divides by that of length. */
