@@ -246,7 +246,7 @@ std::string contact_plots(const Scene<dim> &scene, const RunFiles &files)
 
 namespace
 {
-/** Force over displacement where that changes; else nothing. */
+/** Force over displacement where that changes from load step to load step; else nothing. */
 template <int dim>
 std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::string &boundary,
                  const unsigned int component)
@@ -254,13 +254,10 @@ std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::stri
   const std::string end = boundary + "_" + "xyz"[component], axis(1, "xyz"[component]);
   const ChartLine line =
       line_of(files.loads, "displacement_" + end, "force_" + end, {"", blue, "", true, {}});
-  double least = 0, largest = 0; // at t = 0 nothing has moved
-  for (const auto &[x, y] : line.points)
-  {
-    least = std::min(least, x);
-    largest = std::max(largest, x);
-  }
-  if (!(largest > least) || !has_points(line))
+  const auto [least, largest] = std::minmax_element(line.points.begin(), line.points.end());
+  const double change = (*largest)[0] - (*least)[0],
+               size = std::max(std::abs((*largest)[0]), std::abs((*least)[0]));
+  if (!(change > 1e-9 * size) || !has_points(line))
     return {};
   Chart chart;
   chart.x_label = with_unit_of("u" + axis + " of " + boundary, scene.length_unit);

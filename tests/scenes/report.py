@@ -16,7 +16,8 @@ SHORT = "Adaptivity/Maximum steps=4"
 SCENES_OF_ALL_KINDS = (
     ("han-6-12", {"contact", "convergence"}, SHORT),
     ("fretting", {"contact", "convergence", "energies", "loop"}, "Loading/Steps=5", "Adaptivity/Maximum steps=2"),
-    ("lap-joint", {"contact", "convergence", "energies", "loop"}, "Loading/Steps=4", "Adaptivity/Maximum steps=2"),
+    ("lap-joint", {"contact", "convergence", "energies", "loop"}, "Loading/Steps=4", "Adaptivity/Maximum steps=2",
+     "Boundary upper strap.right/Displacement=0.04*sin(2*pi*t); -0.001"),  # what moves once and stays there has no loop
     ("punch-plate", {"contact", "convergence"}, "Adaptivity/Maximum steps=2"),
     ("dome", set(), "Adaptivity/Maximum steps=1"))
 # Members of summary.json whose numbers the page shows with six digits.
@@ -120,7 +121,7 @@ class Report(RunTest):
                 seen.add("energies")
             elif chart.caption.startswith("Load history: force"):
                 direction, boundary = re.match(r"u(.) of (.+) \[mm\]", chart.x_label).groups()
-                self.assertEqual(chart.y_label, f"force {direction} on {boundary} [N]")
+                self.assertEqual((direction, chart.y_label), ("x", f"force x on {boundary} [N]"))
                 self.check_line(chart, "", [[float(row[f"{of}_{boundary}_{direction}"]) for of in ("displacement", "force")]
                                             for row in loads])
                 seen.add("loop")
@@ -161,7 +162,7 @@ class Report(RunTest):
                 # Small on paper, so that there are two pages.
                 self.assertEqual('<body class="many">' in page, page.count("<figure>") > 6)
                 if scene == "lap-joint":
-                    self.assertRegex(page, r"normal resultant -200 N, friction \S+ N, force \(\S+, 200\) N through")
+                    self.assertRegex(page, r"normal resultant -\S+ N, friction \S+ N, force \(\S+, \S+\) N through")
                     self.assertIn("Forces [N] and moments [N mm] on the body", page)
                 # One source: what the files hold tells the same.
                 self.assertIn(f"report in {self.out}/report.html", self.afterwards())
