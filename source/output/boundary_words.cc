@@ -89,19 +89,45 @@ std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::b
 
 namespace
 {
-/** "N" where stresses are in N/mm^2 and lengths in mm, else as in "MPa mm^2"; of a moment with another length. Empty where one of both has no name. */
-template <int dim>
-std::string force_unit(const Scene<dim> &scene, const bool is_moment)
+/** As in "N" of N/mm^2 and mm, or of MPa and mm; empty where the product has no name of its own. */
+std::string short_name(const std::string &stress, const std::string &length)
 {
-  const std::string stress = unit_name(scene.stress_unit), length = unit_name(scene.length_unit),
-                    area = "/" + length + "^2";
-  if (stress.empty() || length.empty())
-    return {};
-  if (stress.size() > area.size() && stress.substr(stress.size() - area.size()) == area)
-    return stress.substr(0, stress.size() - area.size()) + (is_moment ? " " + length : "");
-  return stress + " " + length + (is_moment ? "^3" : "^2");
+  for (const std::string &square : {length + "^2", length + "2", length + "²"})
+    if (const std::size_t n = square.size() + 1;
+        stress.size() > n && stress.substr(stress.size() - n) == "/" + square)
+      return stress.substr(0, stress.size() - n);
+  struct Name
+  {
+    const char *stress, *length, *force;
+  };
+  for (const Name &name : {Name{"Pa", "m", "N"}, Name{"kPa", "m", "kN"}, Name{"MPa", "m", "MN"},
+                           Name{"GPa", "m", "GN"}, Name{"MPa", "mm", "N"}, Name{"GPa", "mm", "kN"}})
+    if (stress == name.stress && length == name.length)
+      return name.force;
+  return {};
 }
 
+std::string unit_of_load(const std::string &stress, const std::string &length, const bool is_moment)
+{
+  const std::string s = unit_name(stress), l = unit_name(length), name = short_name(s, l);
+  if (s.empty() || l.empty())
+    return {};
+  return name.empty() ? s + " " + l + (is_moment ? "^3" : "^2") : name + (is_moment ? " " + l : "");
+}
+} // namespace
+
+std::string force_unit(const std::string &stress, const std::string &length)
+{
+  return unit_of_load(stress, length, false);
+}
+
+std::string moment_unit(const std::string &stress, const std::string &length)
+{
+  return unit_of_load(stress, length, true);
+}
+
+namespace
+{
 /** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free". */
 template <int dim>
 void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
@@ -119,8 +145,10 @@ void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
       phrases.push_back(names(m)[0] + " = " +
                         with_unit(*plate.displacement[m], m < dim ? scene.length_unit : "rad"));
     else if (plate.force[m] != 0)
-      phrases.push_back(names(m)[1] + " = " +
-                        with_unit(scene.thickness * plate.force[m], force_unit(scene, m == dim)));
+      phrases.push_back(
+          names(m)[1] + " = " +
+          with_unit(scene.thickness * plate.force[m],
+                    (m < dim ? force_unit : moment_unit)(scene.stress_unit, scene.length_unit)));
     else
       phrases.push_back(names(m)[0] + " free");
 }

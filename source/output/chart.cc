@@ -141,11 +141,16 @@ void ChartSheet::draw_y_axis()
     draw_grid_line(y, words);
     widest = std::max(widest, text_width(words, Drawing::font_size, false));
   };
-  if (chart.is_logarithmic && y_range.high - y_range.low > 1.2)
+  const double n_decades = chart.is_logarithmic ? y_range.high - y_range.low : 0;
+  if (n_decades > 1.2)
   {
-    const int apart = std::ceil((y_range.high - y_range.low) / 8);
-    for (int k = std::ceil(y_range.low); k <= y_range.high; k += apart)
-      label(k, text(std::pow(10., k), 3));
+    // Of few decades 2 and 5 have labels, too.
+    const int apart = std::ceil(n_decades / 8), factors[] = {1, 2, 5};
+    for (int k = std::floor(y_range.low); k <= y_range.high; k += apart)
+      for (const int factor : factors)
+        if (const double y = k + std::log10(factor);
+            y >= y_range.low && y <= y_range.high && (factor == 1 || n_decades < 3))
+          label(y, text(factor * std::pow(10., k), 3));
   }
   else if (chart.is_logarithmic)
     for (const double y : tick_marks(std::pow(10., y_range.low), std::pow(10., y_range.high), 6.))

@@ -23,16 +23,21 @@ bool is_between(const PagePoint &from, const PagePoint &middle, const PagePoint 
          std::abs(part[0] * way[1] - part[1] * way[0]) < 0.02 * way.norm();
 }
 
+/** Without points between others, all those since the last that is there: of a gentle curve each alone is between its neighbours. */
 std::string path(const std::vector<PagePoint> &points)
 {
+  constexpr std::size_t most = 500; // so that a long line takes no more than its points
   std::string d;
-  PagePoint last;
+  std::size_t last = 0;
   for (std::size_t k = 0; k < points.size(); ++k)
   {
-    if (k > 0 && k + 1 < points.size() && is_between(last, points[k], points[k + 1]))
+    if (k > 0 && k + 1 < points.size() && k - last < most &&
+        std::all_of(points.begin() + last + 1, points.begin() + k + 1,
+                    [&](const PagePoint &point)
+                    { return is_between(points[last], point, points[k + 1]); }))
       continue;
     d += (k == 0 ? "M" : "L") + on_page(points[k]);
-    last = points[k];
+    last = k;
   }
   return d;
 }

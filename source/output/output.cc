@@ -331,19 +331,23 @@ void Output<dim>::write_state()
     write("state.dat", state);
 }
 
-/** It says what summary.json is about to say. Known by its head: it is listed when it is there. */
+/**
+ * It says what summary.json is about to say, but for the seconds that it takes: equal runs have equal pages. Known by its
+ * head: it is listed when it is there.
+ */
 template <int dim>
 void Output<dim>::write_report()
 {
   if (!scene.output.report || summary.steps == 0)
     return;
+  const StageTimer timer(summary.seconds_of_report);
   write("report.html", report(scene, path, summary.json(scene, {})));
   directory->add("report.html");
 }
 
 /** The state comes after all else: there is nothing to finish where it says that nothing is left to do. */
 template <int dim>
-void Output<dim>::finish()
+double Output<dim>::finish()
 {
   summary.status = "done";
   write_together(communicator,
@@ -355,6 +359,7 @@ void Output<dim>::finish()
                    write_summary();
                    write_state();
                  });
+  return summary.seconds_of_report;
 }
 
 template <int dim>

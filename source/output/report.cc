@@ -44,7 +44,11 @@ pre { font: 12px/1.3 "DejaVu Sans Mono", Consolas, monospace; white-space: pre-w
 .listing pre { columns: 3; column-gap: 1.5em; }
 .default { color: #666; }
 .print-only { display: none; }
-@media screen and (max-width: 760px) { .pair { grid-template-columns: 1fr; } .listing pre { columns: 1; } }
+@media screen and (max-width: 760px) {
+  .pair { grid-template-columns: 1fr; }
+  .listing pre { columns: 1; }
+  table { display: block; overflow-x: auto; }
+}
 @media print {
   body { font-size: 7.4pt; line-height: 1.22; margin: 0; padding: 0; max-width: none; }
   h2 { margin: 0.5em 0 0.1em; break-after: avoid; }
@@ -52,8 +56,11 @@ pre { font: 12px/1.3 "DejaVu Sans Mono", Consolas, monospace; white-space: pre-w
   .words p { margin: 0; }
   .pair { gap: 0 1.2em; }
   figure { margin: 0.1em 0; }
-  figure svg { max-height: 46mm; width: auto; }
-  th, td { padding: 0 0.5em; }
+  section > p { break-after: avoid; }
+  figure svg { max-height: 64mm; width: auto; }
+  .many .charts svg { max-height: 46mm; }
+  .many .charts { grid-template-columns: 1fr 1fr 1fr; }
+  th, td { padding: 0.1em 0.5em; }
   pre { font-size: 5.3pt; line-height: 1.12; margin: 0.2em 0; }
   .listing pre { columns: 4; }
   .listing .default { display: none; }
@@ -168,6 +175,15 @@ std::string convergence_part(const RunFiles &files, const unsigned int dim)
                              : convergence_plot(files) + mesh_part(files, dim);
 }
 
+/** Too many for paper in their full size: there they are small, and three beside each other. */
+bool are_many(const std::string &charts)
+{
+  unsigned int n = 0;
+  for (std::size_t at = 0; (at = charts.find("<figure>", at)) != std::string::npos; ++at)
+    ++n;
+  return n > 4;
+}
+
 /** Begins with a capital. */
 template <int dim>
 std::string charts_title(const Scene<dim> &scene)
@@ -224,19 +240,19 @@ std::string report(const Scene<dim> &scene, const std::string &directory,
                    const std::string &summary)
 {
   const RunFiles files = read_run(directory, summary, dim);
-  const std::string title = scene.title.empty() ? scene.name : scene.title;
+  const std::string title = scene.title.empty() ? scene.name : scene.title,
+                    charts = contact_plots(scene, files) + loading_plots(scene, files) +
+                             convergence_part(files, dim);
   return "<!-- " + results::report_head +
          " -->\n<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n" +
-         element("title", title) + "\n<style>" + style + "</style>\n</head>\n<body>\n" +
-         element("h1", title) + "\n" + about(files.summary) +
-         ending_words(files.summary, scene.adaptivity) +
+         element("title", title) + "\n<style>" + style + "</style>\n</head>\n<body" +
+         (are_many(charts) ? " class=\"many\"" : "") + ">\n" + element("h1", title) + "\n" +
+         about(files.summary) + ending_words(files.summary, scene.adaptivity) +
          section("The answer", pair(answer_words(scene, files), field_part(scene, files))) +
          section("The scene", tried([&]() { return scene_part(scene, last_of(scene)); },
                                     "The scene cannot be said in words")) +
-         section(charts_title(scene), "<div class=\"pair\">\n" + contact_plots(scene, files) +
-                                          loading_plots(scene, files) +
-                                          convergence_part(files, dim) + "</div>\n") +
+         section(charts_title(scene), "<div class=\"pair charts\">\n" + charts + "</div>\n") +
          section("Forces", forces_words(scene, files)) + section("Steps", steps_table(files)) +
          section("Warnings", warnings_list(files.summary)) +
          section("Times", times_line(files.summary)) +

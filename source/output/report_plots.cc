@@ -42,6 +42,8 @@ ChartLine line_of(const std::vector<Record> &rows, const std::string &x, const s
 
 std::string convergence_plot(const RunFiles &files)
 {
+  if (files.steps.size() == 1)
+    return missing("There is one step, and no curve of its error.");
   const bool is_history = !files.loads.empty();
   const std::string over = is_history ? "step" : "dofs_free";
   Chart chart;
@@ -73,8 +75,19 @@ namespace
 /** Rows of one contact, in the order along it. */
 struct ContactRows
 {
-  std::string name; ///< of its member in summary.json
+  std::string name; ///< of a pair, else of the boundary
   std::vector<Record> rows;
+
+  std::string boundary() const
+  {
+    return value_of(rows.front(), "boundary");
+  }
+
+  /** As in "joint (upper.bottom)", of which answer and forces tell. */
+  std::string title() const
+  {
+    return name + (name == boundary() ? "" : " (" + boundary() + ")");
+  }
 };
 
 std::vector<ContactRows> by_contact(const std::vector<Record> &contact)
@@ -112,11 +125,14 @@ std::vector<double> arc_lengths(const std::vector<Record> &rows,
 }
 
 /** Where the first zone begins. */
-std::optional<std::array<double, 2>> begin_of(const JsonTree &summary, const std::string &name)
+std::optional<std::array<double, 2>> begin_of(const JsonTree &summary, const ContactRows &rows)
 {
   const JsonTree *const contacts = member(summary, "contact");
-  const JsonTree *const contact = contacts ? member(*contacts, name) : nullptr;
-  const JsonTree *const zones = contact ? member(*contact, "zones") : nullptr;
+  const JsonTree *zones = nullptr;
+  if (contacts) // a pair that has a part of a side alone is named behind it
+    for (const std::string &name : {rows.boundary(), rows.boundary() + " (" + rows.name + ")"})
+      if (const JsonTree *const contact = member(*contacts, name))
+        zones = member(*contact, "zones");
   if (!zones || zones->empty())
     return std::nullopt;
   const JsonTree *const from = member(zones->front().second, "from");
@@ -165,11 +181,9 @@ ChartLine friction_limit(const std::vector<Record> &rows, const std::vector<doub
 
 std::string contact_plot(const Scene<2> &scene, const RunFiles &files, const ContactRows &contact)
 {
-  const std::vector<double> lengths =
-      arc_lengths(contact.rows, begin_of(files.summary, contact.name));
-  const std::string unit = unit_name(scene.stress_unit);
+  const std::vector<double> lengths = arc_lengths(contact.rows, begin_of(files.summary, contact));
   Chart chart;
-  chart.title = legible(contact.name);
+  chart.title = legible(contact.title());
   chart.x_label = with_unit_of("arc length", scene.length_unit);
   chart.y_label = with_unit_of("traction", scene.stress_unit);
   ChartLine pressure{"pressure -T_n", black, "", false, {}},
@@ -198,7 +212,7 @@ std::string contact_plot(const Scene<2> &scene, const RunFiles &files, const Con
     chart.names.emplace_back(state, state_colour(state));
   const bool is_cut = *std::max_element(up.begin(), up.end()) > *chart.highest ||
                       *std::max_element(down.begin(), down.end()) > -*chart.lowest;
-  return figure(chart.svg(), "Contact " + contact.name +
+  return figure(chart.svg(), "Contact " + contact.title() +
                                  " over its arc length; below it open, slip and stick." +
                                  (is_cut ? " Values at its ends are larger than the chart." : ""));
 }
@@ -232,7 +246,7 @@ std::string contact_plots(const Scene<dim> &scene, const RunFiles &files)
 
 namespace
 {
-/** Force over displacement where that changes; else nothing. */
+/** Force over displacement where that changes from load step to load step; else nothing. */
 template <int dim>
 std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::string &boundary,
                  const unsigned int component)
@@ -240,27 +254,25 @@ std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::stri
   const std::string end = boundary + "_" + "xyz"[component], axis(1, "xyz"[component]);
   const ChartLine line =
       line_of(files.loads, "displacement_" + end, "force_" + end, {"", blue, "", true, {}});
-  double least = 0, largest = 0; // at t = 0 nothing has moved
-  for (const auto &[x, y] : line.points)
-  {
-    least = std::min(least, x);
-    largest = std::max(largest, x);
-  }
-  if (!(largest > least) || !has_points(line))
+  const auto [least, largest] = std::minmax_element(line.points.begin(), line.points.end());
+  const double change = (*largest)[0] - (*least)[0],
+               size = std::max(std::abs((*largest)[0]), std::abs((*least)[0]));
+  if (!(change > 1e-9 * size) || !has_points(line))
     return {};
   Chart chart;
   chart.x_label = with_unit_of("u" + axis + " of " + boundary, scene.length_unit);
-  chart.y_label = "force " + axis + " on " + boundary;
+  chart.y_label = with_unit_of("force " + axis + " on " + boundary,
+                               force_unit(scene.stress_unit, scene.length_unit));
   chart.lines = {line};
   return figure(chart.svg(), "Load history: force over displacement of " + boundary +
                                  "; the area of a loop is what a cycle takes.");
 }
 
-std::string energies_plot(const RunFiles &files)
+std::string energies_plot(const RunFiles &files, const std::string &unit)
 {
   Chart chart;
   chart.x_label = "t";
-  chart.y_label = "energy";
+  chart.y_label = with_unit_of("energy", unit);
   for (const ChartLine &line :
        {line_of(files.loads, "t", "work", {"work", black, "", false, {}}),
         line_of(files.loads, "t", "stored_energy", {"stored", blue, "6 3", false, {}}),
@@ -273,7 +285,7 @@ std::string energies_plot(const RunFiles &files)
 template <int dim>
 std::string loading_plots(const Scene<dim> &scene, const RunFiles &files)
 {
-  if (files.loads.empty())
+  if (files.loads.size() < 2)
     return {};
   std::string charts;
   unsigned int n_loops = 0;
@@ -285,7 +297,7 @@ std::string loading_plots(const Scene<dim> &scene, const RunFiles &files)
         charts += chart;
         ++n_loops;
       }
-  return charts + energies_plot(files);
+  return charts + energies_plot(files, moment_unit(scene.stress_unit, scene.length_unit));
 }
 
 template std::string contact_plots(const Scene<2> &, const RunFiles &);

@@ -7,6 +7,7 @@
 #include <hpvi/output/results_report.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hpvi
@@ -36,26 +37,19 @@ HtmlTable without_empty_columns(const HtmlTable &table)
   return result;
 }
 
-/** As in "N" of stresses in N/mm^2 and lengths in mm; empty where that is not known. */
-std::string force_unit(std::string stress, const std::string &length)
+/** Forces that are round-off beside the largest are none, for it is another on each machine. */
+double force_round_off(const std::vector<Record> &forces)
 {
-  const auto ends_with = [&](const std::string &end)
-  { return stress.size() > end.size() && stress.substr(stress.size() - end.size()) == end; };
-  for (const std::string &square : {length + "^2", length + "2", length + "²"})
-    if (ends_with("/" + square))
-      return stress.substr(0, stress.size() - square.size() - 1);
-  const bool is_mm = length == "mm", is_m = length == "m";
-  for (const auto &[pressure, force] : {std::pair<std::string, std::string>{"Pa", "N"},
-                                        {"kPa", "kN"},
-                                        {"MPa", "MN"},
-                                        {"GPa", "GN"}})
-    if (is_m && stress == pressure)
-      return force;
-  return is_mm && stress == "MPa" ? "N" : is_mm && stress == "GPa" ? "kN" : "";
+  double largest = 0;
+  for (const Record &row : forces)
+    for (std::size_t k = 5; k < row.size(); k += 2)
+      largest = std::max(largest, std::abs(number(row[k].second).value_or(0)));
+  return 1e-12 * largest;
 }
 
 HtmlTable forces_table(const std::vector<Record> &forces)
 {
+  const double least = force_round_off(forces);
   HtmlTable table{{"boundary", "kind"}, {}};
   for (const Record &row : forces)
   {
@@ -67,11 +61,18 @@ HtmlTable forces_table(const std::vector<Record> &forces)
       const std::optional<double> centre = number(row[k].second),
                                   half_width = number(row[k + 1].second);
       fields.push_back(centre && half_width ? interval_in_words({*centre, *half_width})
-                                            : shown(row[k].second));
+                       : centre && std::abs(*centre) < least ? "0"
+                                                             : shown(row[k].second));
     }
     table.rows.push_back(fields);
   }
   return without_empty_columns(table);
+}
+
+/** As in " [N]"; empty where there is no name. */
+std::string bracketed(const std::string &unit)
+{
+  return unit.empty() ? "" : " [" + unit + "]";
 }
 
 std::string balance_words(const JsonTree &summary)
@@ -89,17 +90,17 @@ std::string balance_words(const JsonTree &summary)
   return element("p", words + ".") + "\n";
 }
 
-std::string loading_words(const JsonTree &summary)
+std::string loading_words(const JsonTree &summary, const std::string &energy)
 {
   const JsonTree *const loading = member(summary, "loading");
   if (!loading)
     return {};
   const auto of = [&](const std::string &name) { return shown(words_of(*loading, name)); };
   return element("p", "Load history: " + of("finished") + " of " + of("load_steps") +
-                          " load steps, to t = " + of("t") + "; work " + of("work") + ", stored " +
-                          of("stored_energy") + ", dissipated by friction " +
-                          of("dissipated_energy") + ", released " + of("released_energy") +
-                          ", unbalanced " + of("unbalanced_energy") + ".") +
+                          " load steps, to t = " + of("t") + "; energies" + bracketed(energy) +
+                          ": work " + of("work") + ", stored " + of("stored_energy") +
+                          ", dissipated by friction " + of("dissipated_energy") + ", released " +
+                          of("released_energy") + ", unbalanced " + of("unbalanced_energy") + ".") +
          "\n";
 }
 } // namespace
@@ -107,8 +108,9 @@ std::string loading_words(const JsonTree &summary)
 template <int dim>
 std::string forces_words(const Scene<dim> &scene, const RunFiles &files)
 {
-  const std::string unit = force_unit(unit_name(scene.stress_unit), unit_name(scene.length_unit));
-  std::string note = "Forces on the body" + (unit.empty() ? "" : " [" + legible(unit) + "]");
+  const std::string moment = moment_unit(scene.stress_unit, scene.length_unit);
+  std::string note = "Forces" + bracketed(force_unit(scene.stress_unit, scene.length_unit)) +
+                     " and moments" + bracketed(moment) + " on the body";
   if (scene.is_axisymmetric())
     note += ", of the full turn";
   else if (dim == 2)
@@ -117,7 +119,7 @@ std::string forces_words(const Scene<dim> &scene, const RunFiles &files)
     note += "; without an interval: " + why;
   return (files.forces.empty() ? "" : element("p", note + ".") + "\n") +
          html(forces_table(files.forces)) + balance_words(files.summary) +
-         loading_words(files.summary);
+         loading_words(files.summary, moment);
 }
 
 namespace
@@ -176,6 +178,7 @@ std::string warnings_list(const JsonTree &summary)
   return list.empty() ? element("p", "None.") + "\n" : "<ul>\n" + list + "</ul>\n";
 }
 
+/** Without that of the report itself, which is not over when a run writes it. */
 std::string times_line(const JsonTree &summary)
 {
   std::string words;
@@ -183,6 +186,8 @@ std::string times_line(const JsonTree &summary)
   if (const JsonTree *const stages = member(summary, "seconds"))
     for (const auto &[stage, seconds] : *stages)
     {
+      if (stage == "report")
+        continue;
       const double value = number(seconds.data()).value_or(0);
       total += value;
       words += ", " + stage + " " + text(value, 3);

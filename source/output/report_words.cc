@@ -90,7 +90,13 @@ std::string ending_words(const JsonTree &summary, const Adaptivity &adaptivity)
 
 namespace
 {
-std::string bound_words(const JsonTree &bound)
+/** As in " N"; empty where it has no name. */
+std::string behind(const std::string &unit)
+{
+  return unit_name(unit).empty() ? "" : " " + unit_name(unit);
+}
+
+std::string bound_words(const JsonTree &bound, const std::string &energy)
 {
   const std::optional<double> relative = number_of(bound, "relative");
   std::string words = relative ? "The energy error is at most " + at_most(100 * *relative) +
@@ -99,14 +105,15 @@ std::string bound_words(const JsonTree &bound)
                                      at_most(number_of(bound, "energy_norm").value_or(0)) +
                                      ", guaranteed";
   if (const std::string interval = place(bound, "energy"); !interval.empty())
-    words += "; the least energy lies in [" + interval.substr(1, interval.size() - 2) + "]";
+    words += "; the least energy lies in [" + interval.substr(1, interval.size() - 2) + "]" +
+             behind(energy);
   return words + ".";
 }
 
-std::string error_words(const JsonTree &summary)
+std::string error_words(const JsonTree &summary, const std::string &energy)
 {
   if (const JsonTree *const bound = member(summary, "error_bound"))
-    return item(bound_words(*bound), "Error.");
+    return item(bound_words(*bound, energy), "Error.");
   const JsonTree *const last = member(summary, "final");
   const std::optional<double> indicator =
       last ? number_of(*last, "estimate_relative") : std::nullopt;
@@ -117,7 +124,8 @@ std::string error_words(const JsonTree &summary)
   if (const std::string why = words_of(summary, "no_error_bound"); !why.empty())
     words += " No bound is guaranteed: " + why + ".";
   if (const JsonTree *const earlier = member(summary, "last_error_bound"))
-    words += " In step " + words_of(*earlier, "step") + " there was one: " + bound_words(*earlier);
+    words += " In step " + words_of(*earlier, "step") +
+             " there was one: " + bound_words(*earlier, energy);
   return words.empty() ? "" : item(words, "Error.");
 }
 
@@ -131,19 +139,19 @@ std::string true_error_words(const JsonTree &summary)
 }
 
 /** With its interval where there is one. */
-std::string measured(const std::string &value, const std::string &bound)
+std::string measured(const std::string &value, const std::string &bound, const std::string &unit)
 {
   const std::optional<double> centre = number(value), half_width = number(bound);
   if (!centre)
     return "";
-  return half_width ? interval_in_words({*centre, *half_width}) + " (guaranteed)"
-                    : text(*centre, shown_digits);
+  return half_width ? interval_in_words({*centre, *half_width}) + behind(unit) + " (guaranteed)"
+                    : with_unit(*centre, unit, shown_digits);
 }
 
 /** A sentence for each place where a stress has no bound. */
 std::string unbounded_words(const std::string &name, const JsonTree &tree,
                             const std::string &member_name, const std::string &stress,
-                            const std::string &length)
+                            const std::string &length, const std::string &force = "1")
 {
   const JsonTree *const list = member(tree, member_name);
   std::string words;
@@ -152,7 +160,7 @@ std::string unbounded_words(const std::string &name, const JsonTree &tree,
       words += "; " + name + " is unbounded" + at(peak, "at") + " (" +
                shown(peak, "value", stress) + " there, more in each step" +
                (member(peak, "force") ? ", of which the last " + shown(peak, "within", length) +
-                                            " carry " + shown(number_of(peak, "force"))
+                                            " carry " + shown(peak, "force", force)
                                       : "") +
                "), beyond " + shown(peak, "beyond", length) + " from there it is up to " +
                shown(peak, "largest", stress) + at(peak, "largest_at");
@@ -175,36 +183,40 @@ std::string zones_words(const JsonTree &contact, const std::string &length)
   if (!zones)
     words += "; open " + shown(number_of(contact, "open_area")) + ", slip " +
              shown(number_of(contact, "slipping_area")) + " of the area " +
-             shown(number_of(contact, "area"));
+             shown(number_of(contact, "area")) +
+             (unit_name(length).empty() ? "" : " " + unit_name(length) + "^2");
   return words;
 }
 
 /** A number, or in space a vector. */
-std::string value_words(const JsonTree &tree, const std::string &name)
+std::string value_words(const JsonTree &tree, const std::string &name, const std::string &unit)
 {
   const JsonTree *const value = member(tree, name);
-  return !value ? "" : value->empty() ? shown(number(value->data())) : place(tree, name);
+  return !value
+             ? ""
+             : (value->empty() ? shown(number(value->data())) : place(tree, name)) + behind(unit);
 }
 
 template <int dim>
 std::string contact_words(const Scene<dim> &scene, const RunFiles &files, const std::string &name,
                           const JsonTree &contact)
 {
-  std::string normal = value_words(contact, "normal_resultant"),
-              friction = value_words(contact, "friction_resultant");
+  const std::string stress = scene.stress_unit, length = scene.length_unit,
+                    force = force_unit(stress, length);
+  std::string normal = value_words(contact, "normal_resultant", force),
+              friction = value_words(contact, "friction_resultant", force);
   for (const Record &row : files.forces)
     if (value_of(row, "name") == name && value_of(row, "kind") == "contact")
     {
       if (!value_of(row, "normal_bound").empty())
-        normal = measured(value_of(row, "normal"), value_of(row, "normal_bound"));
+        normal = measured(value_of(row, "normal"), value_of(row, "normal_bound"), force);
       if (!value_of(row, "friction_bound").empty())
-        friction = measured(value_of(row, "friction"), value_of(row, "friction_bound"));
+        friction = measured(value_of(row, "friction"), value_of(row, "friction_bound"), force);
     }
-  const std::string stress = scene.stress_unit, length = scene.length_unit;
   const std::string unbounded =
-      unbounded_words("pressure", contact, "unbounded_pressure", stress, length);
+      unbounded_words("pressure", contact, "unbounded_pressure", stress, length, force);
   std::string words = "normal resultant " + normal + ", friction " + friction + ", force " +
-                      place(contact, "force") +
+                      value_words(contact, "force", force) +
                       (member(contact, "through") ? " through " + place(contact, "through") : "");
   if (number_of(contact, "largest_pressure").value_or(0) > 0 && unbounded.empty())
     words += "; pressure up to " + shown(contact, "largest_pressure", stress) +
@@ -252,7 +264,8 @@ std::string probes_words(const Scene<dim> &scene, const RunFiles &files)
           column.rfind(begin, 0) == 0 && !value.empty() &&
           (column.size() < 6 || column.substr(column.size() - 6) != "_bound"))
         list += (list.empty() ? "" : ", ") + column.substr(begin.size()) + " " +
-                measured(value, value_of(last, column + "_bound"));
+                measured(value, value_of(last, column + "_bound"),
+                         column[begin.size()] == 'u' ? scene.length_unit : scene.stress_unit);
     if (!list.empty())
       words += item(list + ".", "Probe " + probe.name + ":");
   }
@@ -277,7 +290,8 @@ template <int dim>
 std::string answer_words(const Scene<dim> &scene, const RunFiles &files)
 {
   const JsonTree &summary = files.summary;
-  std::string words = error_words(summary) + true_error_words(summary);
+  std::string words = error_words(summary, moment_unit(scene.stress_unit, scene.length_unit)) +
+                      true_error_words(summary);
   if (const JsonTree *const contacts = member(summary, "contact"))
     for (const auto &[name, contact] : *contacts)
       words += contact_words(scene, files, name, contact);

@@ -44,9 +44,11 @@ bool is_default(const Defaults &defaults, const std::string &section, const std:
   const std::size_t set = line.find("set "), equals = line.find('=');
   if (set == std::string::npos || equals == std::string::npos)
     return false;
+  const std::string value = trimmed(line.substr(equals + 1));
   const auto found =
       defaults.find({kind_of(section), trimmed(line.substr(set + 4, equals - set - 4))});
-  return found != defaults.end() && found->second == trimmed(line.substr(equals + 1));
+  // What a further material leaves open is that of elsewhere.
+  return value.empty() || (found != defaults.end() && found->second == value);
 }
 } // namespace
 

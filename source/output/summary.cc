@@ -147,6 +147,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
           ? normal_contact_names[static_cast<unsigned int>(scene.normal_contact())]
           : "";
   const bool began_elsewhere = !scene_file.empty();
+  Record seconds = stage_record(times);
+  seconds.emplace_back("report", text(seconds_of_report, 6));
   Record entries{
       {"status", json_string(status)},
       {"stopped_by", words_or_null(stopped_by)},
@@ -177,7 +179,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"von_mises", ending.von_mises},
       {"largest_displacement", ending.largest_displacement},
       {"no_intervals", ending.no_intervals},
-      {"seconds", json_object(stage_record(times))},
+      {"seconds", json_object(seconds)},
       {"warnings", json_lines(warnings)},
       {"files", json_lines(files)}};
   if (scene.has_plates())

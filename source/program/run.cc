@@ -136,6 +136,7 @@ std::string balance_in_words(const StepReport<dim> &step)
 struct Ending
 {
   StageTimes times;
+  double seconds_of_report = 0;
   std::vector<std::string> warnings;
   std::string words, reason;
   std::string last_bound; ///< of the last step that has one
@@ -207,7 +208,7 @@ void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::s
 template <int dim>
 void print_end(const Scene<dim> &scene, const Ending &ending, const std::string &directory)
 {
-  print_stages(ending.times);
+  print_stages(ending.times, ending.seconds_of_report);
   std::cout << ending.words;
   for (const std::string &warning : ending.warnings)
     std::cout << "\nwarning: " << warning;
@@ -221,10 +222,10 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
 /** Of a larger mesh a state takes more than it saves: all numbers of all cells, from one process. */
 constexpr dealii::types::global_dof_index largest_state = 300000; // unknowns
 
-/** @p state: where it goes on. */
+/** @p state: where it goes on. Returns the seconds of the report. */
 template <int dim>
-void solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
-           const std::string &directory, const RunListener<dim> &listener)
+double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
+             const std::string &directory, const RunListener<dim> &listener)
 {
   const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
                             : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
@@ -253,7 +254,7 @@ void solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
     output.give_up("failed", failure_line(error)); // the finished steps stay
     throw;
   }
-  output.finish();
+  return output.finish();
 }
 
 template <int dim>
@@ -282,7 +283,7 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
     print_row(step);
     ending.hear(step);
   };
-  solve<dim>(state, scene, directory, {about_to, begun, finished});
+  ending.seconds_of_report = solve<dim>(state, scene, directory, {about_to, begun, finished});
   progress.erase();
   print_end(scene, ending, directory);
 }

@@ -151,6 +151,7 @@ class Adaptive(RunTest):
                 self.assertEqual(value or "", written)
             else:
                 self.assertEqual(value, float(written))
+        self.assertGreater(summary["seconds"].pop("report"), 0)  # of the run, and of none of its steps
         for stage, seconds in summary["seconds"].items():
             self.assertLess(abs(seconds - sum(float(row["seconds_" + stage]) for row in rows)),
                             1e-4 * seconds + 1e-12)

@@ -120,6 +120,17 @@ class RunTest(unittest.TestCase):
         with open(self.out / name, newline="") as file:
             return list(csv.DictReader(file))
 
+    def page(self):
+        return (self.out / "report.html").read_text()
+
+    def afterwards(self, *more, status=0, directory=None):
+        """The report of a run that is over, by --report; returns the line that it printed."""
+        done = subprocess.run([PROGRAM, "--report", directory or self.out, *more], capture_output=True, text=True, env=ENVIRONMENT,
+                              check=False, timeout=100)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 0 if status == 0 else 1, done.stderr)
+        return done.stderr or done.stdout
+
     def check_whole(self):
         """Every file of every step that the tables name is there and whole, and no other one."""
         steps = len(self.rows())

@@ -2,13 +2,16 @@
 // Pictures of scenes: parts of boundaries on any mesh, materials, texts that find room.
 #include <gtest/gtest.h>
 #include <hpvi/output/boundary_part.h>
+#include <hpvi/output/chart.h>
 #include <hpvi/output/drawing.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <regex>
+#include <sstream>
 
 using namespace dealii;
 using namespace hpvi;
@@ -135,6 +138,48 @@ TEST(Drawing, NotesDoNotOverlap)
   EXPECT_GE(drawing.extent().height(), 12 * Drawing::font_size);
 }
 
+/** Points on straight lines are left out; those of a gentle curve, each of which is between its neighbours, are not all. */
+TEST(Drawing, LinesFollowTheirPoints)
+{
+  const auto corners = [](const double curvature)
+  {
+    std::vector<PagePoint> points;
+    for (unsigned int k = 0; k < 200; ++k)
+      points.emplace_back(k, curvature * k * k);
+    Drawing drawing;
+    drawing.line(points, "");
+    std::string d = drawing.svg("");
+    d = d.substr(d.find("d=\"M") + 4);
+    d = d.substr(0, d.find('"'));
+    std::replace(d.begin(), d.end(), 'L', ' ');
+    std::istringstream in(d);
+    std::vector<PagePoint> result;
+    for (PagePoint corner; in >> corner[0] >> corner[1];)
+      result.push_back(corner);
+    return result;
+  };
+  EXPECT_EQ(corners(0).size(), 2u);
+  const double curvature = 1e-3;
+  const std::vector<PagePoint> line = corners(curvature);
+  EXPECT_LT(line.size(), 50u);
+  for (std::size_t k = 1; k < line.size(); ++k) // a chord of this length is so far from its arc
+    EXPECT_LT(curvature * std::pow(line[k][0] - line[k - 1][0], 2) / 4, 0.03);
+}
+
+/** An axis with one number cannot be read, and one with many neither. */
+TEST(Chart, LogarithmicAxesHaveSomeNumbers)
+{
+  for (const double low : {0.3, 0.1, 0.022, 0.011, 1e-3, 1e-5, 1e-12, 1e-30})
+  {
+    Chart chart;
+    chart.is_logarithmic = true;
+    chart.lines = {{"", "#000", "", true, {{{0., 0.44}}, {{1., low}}}}};
+    const unsigned int n = count(chart.svg(), "text-anchor=\"end\"");
+    EXPECT_GE(n, 2u) << low;
+    EXPECT_LE(n, 10u) << low;
+  }
+}
+
 /** Resultants are in stress times area: the label of stress says it where it divides by that of length. */
 TEST(SceneWords, ForcesOfPlatesHaveUnits)
 {
@@ -152,7 +197,8 @@ TEST(SceneWords, ForcesOfPlatesHaveUnits)
     return line;
   };
   EXPECT_EQ(words("N/mm^2", "mm"), "rigid plate; Fx = 20000 N; uy free; moment = 1.5 N mm; ");
-  EXPECT_EQ(words("MPa", "m"), "rigid plate; Fx = 20000 MPa m^2; uy free; moment = 1.5 MPa m^3; ");
+  EXPECT_EQ(words("MPa", "m"), "rigid plate; Fx = 20000 MN; uy free; moment = 1.5 MN m; ");
+  EXPECT_EQ(words("bar", "m"), "rigid plate; Fx = 20000 bar m^2; uy free; moment = 1.5 bar m^3; ");
   EXPECT_EQ(words("MPa", "1"), "rigid plate; Fx = 20000; uy free; moment = 1.5; ");
 }
 

@@ -24,6 +24,15 @@ bool all_zero(const std::vector<double> &values);
 /** A number of so many @p digits with its unit, unless that is 1. */
 std::string with_unit(double value, const std::string &unit, int digits = 6);
 
+/**
+ * "N" where stresses are in N/mm^2 or MPa and lengths in mm, else as in "bar mm^2", the product of both. Empty where one of
+ * them has no name.
+ */
+std::string force_unit(const std::string &stress, const std::string &length);
+
+/** That of moments and energies, as in "N mm" or "bar mm^3". */
+std::string moment_unit(const std::string &stress, const std::string &length);
+
 /** The least and the largest of @p values, as in "0.3 mm" or, where they differ, "0 to 0.3 mm". */
 std::string range_in_words(const std::vector<double> &values, const std::string &unit);
 

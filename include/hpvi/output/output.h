@@ -89,8 +89,8 @@ public:
   void write_step(const StepReport<dim> &step,
                   const std::optional<RunState<dim>> &state = std::nullopt);
 
-  /** Write that the run is done. Throws OutputFailure. */
-  void finish();
+  /** Write that the run is done. Returns the seconds of the report. Throws OutputFailure. */
+  double finish();
 
   /**
    * Write how a run ended that did not get through, if that can be written: @p status is "failed"

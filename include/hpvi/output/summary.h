@@ -23,9 +23,10 @@ struct Summary
   std::string linear;             ///< what solved the linear systems of the primal path
   std::string scene_file;         ///< of a run that goes on: the file with which it began
   unsigned int processes = 1;
-  unsigned int steps = 0; ///< finished ones
-  Record last_row;        ///< of the last of them in convergence.csv
-  StageTimes times;       ///< sums over them
+  unsigned int steps = 0;       ///< finished ones
+  Record last_row;              ///< of the last of them in convergence.csv
+  StageTimes times;             ///< sums over them
+  double seconds_of_report = 0; ///< to make report.html, which cannot tell them
   std::vector<std::string> warnings;
   /** As JSON, of the last step of this load step that has one, whatever ends the run. */
   std::string last_error_bound = "null";

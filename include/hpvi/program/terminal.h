@@ -20,7 +20,7 @@ std::string replacement_in_words(const std::string &scene_file, const std::strin
 void check_standard_output(const std::string &complete);
 
 /** Time per stage, summed over the steps. */
-void print_stages(const StageTimes &times);
+void print_stages(const StageTimes &times, double seconds_of_report);
 
 /** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
 class ProgressLine
