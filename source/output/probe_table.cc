@@ -10,7 +10,7 @@ namespace hpvi
 {
 namespace
 {
-std::string known(const double value)
+std::string finite(const double value)
 {
   return std::isfinite(value) ? text(value) : "";
 }
@@ -18,7 +18,7 @@ std::string known(const double value)
 /** About the value that stands beside it. */
 std::string bound_of(const Measured *const number)
 {
-  return number ? known(number->half_width_about(number->value)) : "";
+  return number ? finite(number->half_width_about(number->value)) : "";
 }
 
 /** By the ends of their names, as columns_of() has them. */
@@ -45,11 +45,11 @@ Record probe_record(const StepReport<dim> &step)
     for (unsigned int d = 0; d < dim; ++d)
     {
       const std::string column = name + "_u" + "xyz"[d];
-      record.emplace_back(column, known(value.displacement[d].value));
+      record.emplace_back(column, finite(value.displacement[d].value));
       record.emplace_back(column + "_bound", bound_of(&value.displacement[d]));
     }
     for (const auto &[end, number] : invariants<dim>(value.stress))
-      record.emplace_back(name + "_" + end, known(number));
+      record.emplace_back(name + "_" + end, finite(number));
   }
   return record;
 }
@@ -70,14 +70,14 @@ std::string probe_table(const ProbeLine<dim> &line)
     for (unsigned int d = 0; d < dim; ++d)
       row.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
     for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(std::string("u") + "xyz"[d], known(point.displacement[d]));
+      row.emplace_back(std::string("u") + "xyz"[d], finite(point.displacement[d]));
     for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[d], known(point.stress[d][d]));
+      row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[d], finite(point.stress[d][d]));
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int e = d + 1; e < dim; ++e)
-        row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[e], known(point.stress[d][e]));
+        row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[e], finite(point.stress[d][e]));
     for (const auto &[end, number] : invariants<dim>(point.stress))
-      row.emplace_back(end, known(number));
+      row.emplace_back(end, finite(number));
     rows.push_back(row);
   }
   return csv(rows);

@@ -631,6 +631,33 @@ TEST(CurvedBodies, FindEdgesAsIfTheyLookedAtAll)
   }
 }
 
+/** So are faces in space: a roof of many slopes, whose normals alternate. */
+TEST(CurvedBodies, FindFacesAsIfTheyLookedAtAll)
+{
+  Side<3> side;
+  const unsigned int n = 12;
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      Side<3>::Piece piece;
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        const unsigned int x = i + v % 2, y = j + v / 2;
+        piece[v] = Point<3>(double(x) / n, double(y) / n, x % 2 * 0.03 + x * x * 0.004);
+      }
+      side.pieces.push_back(piece);
+    }
+  const SideNormals<3> normals(side);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-0.2, 1.2);
+  for (unsigned int k = 0; k < 300; ++k)
+  {
+    const Point<3> beside(any(random), any(random), any(random)),
+        x = k % 3 == 0 ? side.pieces[k % side.pieces.size()][k % 4] : beside;
+    EXPECT_EQ(normals(x), side.normal(x)) << x;
+  }
+}
+
 /** A polygon has no normals at its corners: the other side is the slave, and two polygons make no pair. */
 TEST(CurvedBodies, WantASmoothSlave)
 {
