@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace hpvi
@@ -136,13 +137,16 @@ std::string material_in_words(const Scene<dim> &scene, const Material &material)
 
 namespace
 {
-/** As in "box from (0, 0) to (4, 4) mm, 16 coarse cells". */
+/** As in "box from (0, 0) to (4, 4) mm, 16 coarse cells", "mesh file body.msh from (0, 0) ...". */
 template <int dim>
 std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   const bool has_shape = scene.parameters && scene.parameters->has("Geometry", "Shape");
-  const std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "",
-                    unit = unit_name(scene.length_unit);
+  const std::string unit = unit_name(scene.length_unit);
+  std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "";
+  if (shape == "file")
+    shape = "mesh file " +
+            printable(std::filesystem::path(scene.parameters->text("Geometry", "File")).filename());
   const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
   const auto ends = box.get_boundary_points();
   const unsigned int n = mesh.n_active_cells();

@@ -301,6 +301,8 @@ class Words(PictureTest):
                                        (self.scene, everywhere[:1], ["elsewhere", "upper"])):
             found = re.findall(r"^material (.*?):", "\n".join(self.words(*settings, scene=scene)), re.M)
             self.assertEqual(found, names)
+        self.assertEqual(self.words(scene=SCENES / "foot.prm")[0],
+                         "body: mesh file foot.msh from (-2, 0, -2) to (2, 2, 2), 32 coarse cells")
         self.assertNotIn("material elsewhere", "\n".join(self.draw(*everywhere).words("key")))
 
     def test_probes(self):
