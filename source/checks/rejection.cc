@@ -14,7 +14,8 @@ std::string mention(const Scene<dim> &scene, const std::string &section, const s
                     const std::string &value)
 {
   const std::string shown = scene.parameters ? scene.parameters->text(section, name) : value;
-  return section + "/" + name + (scene.parameters || !shown.empty() ? " = " + shown : "");
+  return section + "/" + name +
+         (scene.parameters || !shown.empty() ? " = " + printable(shown) : "");
 }
 
 template <int dim>

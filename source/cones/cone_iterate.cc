@@ -10,7 +10,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double round_off = 1e-15; ///< of terms that cancel
+constexpr double cancellation = 1e-15; ///< of terms that cancel
 } // namespace
 
 ConeIterate::ConeIterate(const ConeProgram &program, const Mprgp::Settings &settings,
@@ -76,7 +76,7 @@ double ConeIterate::measure()
   }
   const double nu = std::hypot(norm(phi), norm(beta)),
                gap = program.balance.imbalance(nearest, noise, balance_noise * settings.tolerance),
-               cancelled = round_off / settings.tolerance * sizes_of_terms(nearest),
+               cancelled = cancellation / settings.tolerance * sizes_of_terms(nearest),
                residual = std::max(nu == 0. ? 0. : nu / std::max(reference, cancelled),
                                    gap / balance_noise);
   if (set == &program.set && residual < residual_of_best)

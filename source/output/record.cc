@@ -10,12 +10,12 @@ namespace hpvi
 {
 namespace
 {
-using Field = std::string Record::value_type::*;
+using NameOrValue = std::string Record::value_type::*;
 
-void add_line(std::string &table, const Record &record, const Field field)
+void add_line(std::string &table, const Record &record, const NameOrValue part)
 {
   for (std::size_t i = 0; i < record.size(); ++i)
-    table += (i > 0 ? "," : "") + record[i].*field;
+    table += (i > 0 ? "," : "") + record[i].*part;
   table += '\n';
 }
 } // namespace

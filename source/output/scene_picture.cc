@@ -192,7 +192,7 @@ void draw_axes(SceneSheet &sheet)
 }
 
 /** Which material has which colour, where there are several. */
-void draw_key(SceneSheet &sheet)
+void draw_key(SceneSheet &sheet, const Triangulation<2> &mesh)
 {
   const Scene<2> &scene = sheet.scene;
   if (scene.materials.size() < 2)
@@ -201,10 +201,8 @@ void draw_key(SceneSheet &sheet)
   const double left = 0;
   double y = drawing.extent().bottom + 12.;
   drawing.begin("key");
-  for (std::size_t k = 0; k < scene.materials.size(); ++k)
+  for (const std::size_t k : materials_of(mesh))
   {
-    if (!is_anywhere(scene, k))
-      continue;
     drawing.area({{left, y}, {left + 24., y}, {left + 24., y + 14.}, {left, y + 14.}},
                  "fill=\"" + material_colour(k) + "\" " + stroke("#333", 0.8));
     drawing.text_at({left + 32., y + 11.}, {name_in_words(scene, k) + ": " +
@@ -252,7 +250,7 @@ std::string scene_picture(const Scene<2> &scene)
   draw_probes(sheet, parts);
   sheet.drawing.write_notes();
   draw_axes(sheet);
-  draw_key(sheet);
+  draw_key(sheet, mesh);
   draw_title(sheet, mesh.n_active_cells(), scene.has_load_history());
   return sheet.drawing.svg(results::picture_head);
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace hpvi
@@ -69,21 +70,13 @@ Scene<dim> at_the_end(const Scene<dim> &scene)
   return load_step(scene, loading.steps, past);
 }
 
-bool is_anywhere(const Scene<2> &scene, const std::size_t material)
+template <int dim>
+std::set<std::size_t> materials_of(const Triangulation<dim> &mesh)
 {
-  if (scene.geometry.bodies.empty() || material > 0)
-    return true; // a named one is
-  const CoarseMesh &mesh = *scene.geometry.mesh;
-  const EdgeCurves curves(mesh);
-  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-    if (scene.material_of_coarse_cell(BlendedCell(curves, c).point(0.5, 0.5), c) == material)
-      return true;
-  return false;
-}
-
-bool is_anywhere(const Scene<3> &, std::size_t)
-{
-  return true;
+  std::set<std::size_t> result;
+  for (const auto &cell : mesh.active_cell_iterators())
+    result.insert(cell->material_id());
+  return result;
 }
 
 template <int dim>
@@ -144,13 +137,16 @@ std::string material_in_words(const Scene<dim> &scene, const Material &material)
 
 namespace
 {
-/** As in "box from (0, 0) to (4, 4) mm, 16 coarse cells". */
+/** As in "box from (0, 0) to (4, 4) mm, 16 coarse cells", "mesh file body.msh from (0, 0) ...". */
 template <int dim>
 std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   const bool has_shape = scene.parameters && scene.parameters->has("Geometry", "Shape");
-  const std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "",
-                    unit = unit_name(scene.length_unit);
+  const std::string unit = unit_name(scene.length_unit);
+  std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "";
+  if (shape == "file")
+    shape = "mesh file " +
+            printable(std::filesystem::path(scene.parameters->text("Geometry", "File")).filename());
   const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
   const auto ends = box.get_boundary_points();
   const unsigned int n = mesh.n_active_cells();
@@ -210,12 +206,11 @@ std::string mesh_in_words(const Scene<dim> &scene)
 }
 
 template <int dim>
-std::string materials_in_words(const Scene<dim> &scene)
+std::string materials_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::string lines;
-  for (std::size_t k = 0; k < scene.materials.size(); ++k)
-    if (is_anywhere(scene, k))
-      lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
+  for (const std::size_t k : materials_of(mesh))
+    lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
   const std::string temperature = temperature_in_words(scene);
   return lines + (temperature.empty() ? "" : temperature + "\n");
 }
@@ -305,7 +300,7 @@ std::string scene_in_words(const Scene<dim> &scene)
   for (const std::string &remark : scene.remarks)
     remarks += remark + "\n";
   return (last.geometry.bodies.empty() ? body_in_words(last, mesh) : bodies_in_words(last, mesh)) +
-         mesh_in_words(last) + remarks + materials_in_words(last) +
+         mesh_in_words(last) + remarks + materials_in_words(last, mesh) +
          (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
                                          " load steps; what follows is at t = 1\n"
                                    : "") +
@@ -315,6 +310,7 @@ std::string scene_in_words(const Scene<dim> &scene)
 
 template std::string body_force_unit(const Scene<2> &);
 template std::string temperature_in_words(const Scene<2> &);
+template std::set<std::size_t> materials_of(const Triangulation<2> &);
 template Scene<2> at_the_end(const Scene<2> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);
 template std::string material_in_words(const Scene<2> &, const Material &);

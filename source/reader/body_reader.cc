@@ -69,7 +69,7 @@ std::string common_value(const Parameters &parameters, const std::vector<Materia
           parameters.text(named_by, entry) != parameters.text(section, entry))
         parameters.reject(section, entry,
                           "contradicts " + named_by + "/" + entry + " = " +
-                              parameters.text(named_by, entry) +
+                              printable(parameters.text(named_by, entry)) +
                               "; the body has one, give it once");
       named_by = section;
     }

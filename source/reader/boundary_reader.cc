@@ -7,11 +7,13 @@
 #include <hpvi/reader/plate_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/side_normals.h>
 
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <regex>
 
@@ -145,22 +147,20 @@ template <int dim>
 class TurningLoad : public Function<dim>
 {
 public:
-  using Direction = Tensor<1, dim> (Side<dim>::*)(const Point<dim> &) const;
+  using Direction = std::function<Tensor<1, dim>(const Point<dim> &)>;
 
-  TurningLoad(const Expression<dim> &load, const Side<dim> &side, const Direction direction,
-              const unsigned int component)
-      : load(load), side(side), direction(direction), component(component)
+  TurningLoad(const Expression<dim> &load, const Direction &direction, const unsigned int component)
+      : load(load), direction(direction), component(component)
   {
   }
 
   double value(const Point<dim> &x, const unsigned int = 0) const override
   {
-    return load->value(x) * (side.*direction)(x)[component];
+    return load->value(x) * direction(x)[component];
   }
 
 private:
   const Expression<dim> load;
-  const Side<dim> side;
   const Direction direction;
   const unsigned int component;
 };
@@ -174,22 +174,22 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
   using Direction = typename TurningLoad<dim>::Direction;
   const std::vector<Point<dim>> points = side.sample();
   boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
-  const auto add = [&](const std::string &entry, const double sign, const Direction direction)
+  const auto add = [&](const std::string &entry, const double sign, const Direction &direction)
   {
     const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
     for (unsigned int c = 0; c < dim; ++c)
       boundary.traction[c] =
-          side.is_flat()
-              ? sum<dim>(boundary.traction[c], sign * (side.*direction)(points.front())[c], load)
-              : sum<dim>(boundary.traction[c], sign,
-                         load ? std::make_shared<TurningLoad<dim>>(load, side, direction, c)
-                              : Expression<dim>());
+          side.is_flat() ? sum<dim>(boundary.traction[c], sign * direction(points.front())[c], load)
+                         : sum<dim>(boundary.traction[c], sign,
+                                    load ? std::make_shared<TurningLoad<dim>>(load, direction, c)
+                                         : Expression<dim>());
   };
   if (points.empty()) // parts have taken it all
     return;
-  add("Pressure", -1, &Side<dim>::normal);
+  const auto normal = std::make_shared<const SideNormals<dim>>(side);
+  add("Pressure", -1, [normal](const Point<dim> &x) { return (*normal)(x); });
   if constexpr (dim == 2)
-    add("Shear", 1, &Side<dim>::tangent);
+    add("Shear", 1, [normal](const Point<dim> &x) { return -cross_product_2d((*normal)(x)); });
 }
 
 /** Glued on before anything happens: springs know no time. */

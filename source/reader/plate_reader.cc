@@ -30,7 +30,7 @@ void check_one(const Parameters &parameters, const std::string &section, const b
   if (both)
     parameters.reject(section, force,
                       "contradicts " + section + "/" + motion + " = " +
-                          parameters.text(section, motion) + component +
+                          printable(parameters.text(section, motion)) + component +
                           "; a plate has one of the two, write `free` for the other");
 }
 } // namespace

@@ -5,24 +5,41 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace hpvi
 {
 using namespace dealii;
 
-DrawnSide::DrawnSide(const Geometry<2> &geometry, const unsigned int side)
+namespace
 {
+std::vector<EdgePath> paths_of(const Geometry<2> &geometry, const unsigned int side)
+{
+  std::vector<EdgePath> result;
   for (const CoarseFace<2> &face : coarse_faces(geometry, side))
   {
     const EdgePath path{{{face.corners[0], face.corners[1]}}, face.curve};
     const bool runs_round = path.normal(0.5) * (path.point(0.5) - face.inside) > 0;
-    paths.push_back(runs_round ? path : path.reversed());
-    Disc disc{path.point(0.5), 0};
-    for (unsigned int k = 0; k <= 8; ++k)
-      disc.radius = std::max(disc.radius, 1.01 * disc.centre.distance(path.point(k / 8.)));
-    discs.push_back(disc);
+    result.push_back(runs_round ? path : path.reversed());
   }
+  return result;
+}
+
+std::vector<BoundingBox<2>> boxes_around(const std::vector<EdgePath> &paths)
+{
+  std::vector<BoundingBox<2>> result;
+  for (const EdgePath &path : paths)
+    result.push_back(box_around(path));
+  return result;
+}
+} // namespace
+
+DrawnSide::DrawnSide(const Geometry<2> &geometry, const unsigned int side)
+    : DrawnSide(paths_of(geometry, side))
+{
+}
+
+DrawnSide::DrawnSide(const std::vector<EdgePath> &edges) : paths(edges), tree(boxes_around(edges))
+{
 }
 
 const std::vector<EdgePath> &DrawnSide::edges() const
@@ -32,33 +49,17 @@ const std::vector<EdgePath> &DrawnSide::edges() const
 
 unsigned int DrawnSide::nearest_edge(const Point<2> &x) const
 {
-  double enough = std::numeric_limits<double>::max(); // centres of discs lie on their edges
-  for (const Disc &disc : discs)
-    enough = std::min(enough, disc.centre.distance(x));
-  unsigned int result = 0;
-  double least = std::numeric_limits<double>::max();
-  for (unsigned int e = 0; e < paths.size(); ++e)
-  {
-    if (discs[e].centre.distance(x) - discs[e].radius > std::min(enough, least))
-      continue;
-    if (const double here = paths[e].point(paths[e].nearest(x)).distance(x); here < least)
-    {
-      least = here;
-      result = e;
-    }
-  }
-  return result;
+  return tree.nearest(x, [&](const unsigned int e)
+                      { return paths[e].point(paths[e].nearest(x)).distance(x); });
 }
 
 std::optional<DrawnSide::Place> DrawnSide::opposite(const Point<2> &x, const Tensor<1, 2> &n) const
 {
-  const Tensor<1, 2> across = cross_product_2d(n);
   std::optional<Place> result;
-  for (unsigned int e = 0; e < paths.size(); ++e)
-    if (std::abs((discs[e].centre - x) * across) <= discs[e].radius)
-      if (const auto place = place_opposite(paths[e], x, n);
-          place && (!result || std::abs(place->distance) < std::abs(result->place.distance)))
-        result = Place{e, *place};
+  for (const unsigned int e : tree.along(x, n))
+    if (const auto place = place_opposite(paths[e], x, n);
+        place && (!result || std::abs(place->distance) < std::abs(result->place.distance)))
+      result = Place{e, *place};
   return result;
 }
 

@@ -10,6 +10,8 @@ source "$(dirname "$0")/rows.sh"
 
 # --- the shape, and entries of another one
 invalid "Geometry/Shape = ring" "give box, quadrilateral, ring sector, half disc, plate with hole or file" -- "Geometry/Shape=ring"
+invalid "Geometry/Subdivisions = 2, 6000" "more than Adaptivity/Maximum unknowns = 1500" -- \
+  "Geometry/Subdivisions=2, 6000" "Adaptivity/Maximum unknowns=1500" # read in seconds: each normal once took all edges
 base=mesh.prm
 invalid "Geometry/Shape = fil" "plate with hole or file" -- "Geometry/Shape=fil"
 foreign() { # BASE NAME ENTRY=VALUE:SHAPE...

@@ -123,7 +123,8 @@ def of_numbers(directory, names, summary):
             high = min(high, number(step, "energy_high")) if step.get("energy_high") else high
     if low > high + ROUND_OFF * (norm**2 + abs(low)):
         return "intervals of energy do not meet"
-    moduli = re.findall(r"^ *set (?:Young's modul|Thickness|Upper corner|Spring).*?=(.*)", (directory / "scene.prm").read_text(), re.M)
+    scene = (directory / "scene.prm").read_bytes().decode("latin-1")  # bytes of the scene, which need not be UTF-8
+    moduli = re.findall(r"^ *set (?:Young's modul|Thickness|Upper corner|Spring).*?=(.*)", scene, re.M)
     stiffness = math.prod(max([1., *map(float, re.findall(NUMBER, text))]) for text in moduli)
     return of_forces(table(directory / "forces.csv"), steps, summary, stiffness) if "forces.csv" in names else ""
 

@@ -294,6 +294,17 @@ class Words(PictureTest):
             "free: top, front, back",
             "loads: force (36 -6 4), moment (0 8 28) about (2 2 1)"])
 
+    def test_materials_are_those_that_cells_have(self):
+        """Of a mesh file all cells may have named ones, of a box too: nothing is elsewhere then."""
+        everywhere = ("Material upper/Where=y - 1", "Material lower/Where=1")
+        for scene, settings, names in ((SCENES / "foot.prm", (), ["rubber"]), (self.scene, everywhere, ["upper", "lower"]),
+                                       (self.scene, everywhere[:1], ["elsewhere", "upper"])):
+            found = re.findall(r"^material (.*?):", "\n".join(self.words(*settings, scene=scene)), re.M)
+            self.assertEqual(found, names)
+        self.assertEqual(self.words(scene=SCENES / "foot.prm")[0],
+                         "body: mesh file foot.msh from (-2, 0, -2) to (2, 2, 2), 32 coarse cells")
+        self.assertNotIn("material elsewhere", "\n".join(self.draw(*everywhere).words("key")))
+
     def test_probes(self):
         """A cross, a circle of the disc's size, lines along a side and through the body; and the same in words."""
         probes = ("Probe tip/At=1, 2", "Probe core/At=2, 2", "Probe core/Size=0.5", "Probe foot/On=bottom",

@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -138,6 +139,18 @@ class Sweeps(RunTest):
         (self.out / "sweep.csv").write_text("mine\n")
         self.assertIn("no table of a sweep", self.sweep(f"{BOUND}=1, 1.5, 2, 3", status=1))
         self.assertEqual(self.names(), [*(f"Friction bound={k}" for k in (1, 1.5, 2, 3)), "sweep.csv"])
+
+    def test_a_mesh_file_that_has_changed_is_noticed(self):
+        scene, mesh = self.home / "bracket.prm", self.home / "meshes/bracket.msh"
+        shutil.copytree(SCENES / "meshes", mesh.parent)
+        shutil.copy(SCENES / "bracket.prm", scene)
+        sweep, settings, before = "Boundary sole/Friction coefficient=0.2", ("Adaptivity/Maximum steps=1",), mesh.read_bytes()
+        self.sweep(sweep, settings=settings, scene=scene)
+        mesh.write_bytes(before + b"\n")
+        line = self.sweep(sweep, settings=settings, scene=scene, status=1)
+        self.assertIn("its Friction coefficient=0.2 has results of a mesh file that has changed; choose another", line)
+        mesh.write_bytes(before)
+        self.assertRegex(self.sweep(sweep, settings=settings, scene=scene), "(?m)^Friction coefficient=0.2 .* before$")
 
     def test_one_that_fails_does_not_end_the_others(self):
         line = self.sweep("Boundary top/Traction=0.9*1.75; 0 | 1.1*1.75; 0 | 0.8*1.75; 0", scene=LIMIT, status=2)

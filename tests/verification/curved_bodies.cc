@@ -9,13 +9,18 @@
 #include <hpvi/evaluation/contact_residuals.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/side_normals.h>
 #include <hpvi/shapes/ring_sector.h>
 #include <hpvi/shapes/shape.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
 #include <tuple>
 
 namespace
@@ -570,6 +575,87 @@ TEST(CurvedBodies, TakeTheEdgesThatFaceEachOther)
   EXPECT_FALSE(ring.pairs[0].slave);
   EXPECT_EQ(ring.boundaries[ring.pairs[0].parts[0]].name, "in.outer");
   EXPECT_FALSE(ring.boundaries[ring.pairs[0].parts[0]].gap);
+}
+
+/** Of a side with gaps, arcs and edges of any length, what is found in a tree of its edges is what all of them say. */
+TEST(CurvedBodies, FindEdgesAsIfTheyLookedAtAll)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (unsigned int n : {1, 2, 7, 40, 300})
+  {
+    std::vector<EdgePath> edges;
+    Side<2> side;
+    std::vector<Point<2>> points{{0, 0}}; // as far from all edges of half of the sides
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const double step = 2 * numbers::PI / n, from = k * step,
+                   to = from + (n % 2 == 0 ? 1 : 0.5 + 0.5 * any(random)) * step;
+      const auto circle =
+          std::make_shared<const Circle>(Point<2>(0, 0), 1 + (n % 2) * 0.2 * any(random));
+      edges.push_back({{{circle->point(from), circle->point(to)}}});
+      if (n > 2 && (n % 2 == 0 || any(random) > 0))
+        edges.back().curve = {circle, from, to};
+      side.pieces.push_back({{edges.back().ends[0], edges.back().ends[1]}});
+      side.curves.push_back(edges.back().curve);
+      points.push_back(edges.back().ends[0]); // of two edges
+      points.push_back(edges.back().point(0.5 + 0.5 * any(random)));
+      points.push_back(Point<2>(2 * any(random), 2 * any(random)));
+    }
+    const DrawnSide drawn(edges);
+    const SideNormals<2> normals(side);
+    for (const Point<2> &x : points)
+    {
+      std::vector<double> distances;
+      for (const EdgePath &edge : edges)
+        distances.push_back(edge.point(edge.nearest(x)).distance(x));
+      const unsigned int nearest =
+          std::min_element(distances.begin(), distances.end()) - distances.begin();
+      EXPECT_EQ(drawn.nearest_edge(x), nearest) << n << " edges, " << x;
+      EXPECT_EQ(normals(x), side.normal(x)) << n << " edges, " << x;
+      const double angle = numbers::PI * any(random);
+      const Tensor<1, 2> along({std::cos(angle), std::sin(angle)});
+      std::optional<DrawnSide::Place> first;
+      for (unsigned int e = 0; e < n; ++e)
+        if (const auto place = place_opposite(edges[e], x, along);
+            place && (!first || std::abs(place->distance) < std::abs(first->place.distance)))
+          first = DrawnSide::Place{e, *place};
+      const auto opposite = drawn.opposite(x, along);
+      ASSERT_EQ(bool(opposite), bool(first)) << n << " edges, " << x;
+      if (first)
+      {
+        EXPECT_EQ(opposite->edge, first->edge);
+        EXPECT_EQ(opposite->place.distance, first->place.distance);
+      }
+    }
+  }
+}
+
+/** So are faces in space: a roof of many slopes, whose normals alternate. */
+TEST(CurvedBodies, FindFacesAsIfTheyLookedAtAll)
+{
+  Side<3> side;
+  const unsigned int n = 12;
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      Side<3>::Piece piece;
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        const unsigned int x = i + v % 2, y = j + v / 2;
+        piece[v] = Point<3>(double(x) / n, double(y) / n, x % 2 * 0.03 + x * x * 0.004);
+      }
+      side.pieces.push_back(piece);
+    }
+  const SideNormals<3> normals(side);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-0.2, 1.2);
+  for (unsigned int k = 0; k < 300; ++k)
+  {
+    const Point<3> beside(any(random), any(random), any(random)),
+        x = k % 3 == 0 ? side.pieces[k % side.pieces.size()][k % 4] : beside;
+    EXPECT_EQ(normals(x), side.normal(x)) << x;
+  }
 }
 
 /** A polygon has no normals at its corners: the other side is the slave, and two polygons make no pair. */

@@ -6,6 +6,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/output/output.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 
@@ -372,6 +373,26 @@ TEST(Boundaries, AFaceOfNoneIsNoticed)
 }
 
 // ---------------------------------------------------------------- messages
+
+/** An entry that contradicts the one at hand is quoted, too: InputError is one line for users of the library as well. */
+TEST(Messages, QuoteOtherEntriesPrintably)
+{
+  const std::string control("1\0\x01", 3);
+  for (const Overrides &bad : {Overrides{{"Boundary top/Pressure", control}},
+                               Overrides{{"Boundary top/Force", "1; free"},
+                                         {"Boundary top/Displacement", control + "; free"}}})
+    try
+    {
+      read_scene<2>("prm/han-6-12.prm", Overrides{{"Boundary top/Rigid", "true"}} + bad);
+      FAIL() << bad.front().first;
+    }
+    catch (const InputError &error)
+    {
+      const std::string line = error.what();
+      EXPECT_NE(line.find("contradicts " + bad.back().first + " = 1"), std::string::npos) << line;
+      EXPECT_EQ(line, printable(line, 2000));
+    }
+}
 
 TEST(Messages, ArePrintable)
 {

@@ -7,6 +7,7 @@
 #include <hpvi/intervals/resultant_intervals.h>
 #include <hpvi/reader/scene_reader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -20,9 +21,9 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 struct Numbers
 {
   std::map<std::string, std::vector<Interval>> intervals;
-  std::map<std::string, double> last; ///< as the discrete solution has them
-  double bound = 0, radius = 0;       ///< of the last step
-  std::string none;                   ///< of the last step: why some have no interval
+  std::map<std::string, double> last;     ///< as the discrete solution has them
+  double bound = 0, radius = 0, data = 0; ///< of the last step
+  std::string none;                       ///< of the last step: why some have no interval
   unsigned int n_steps = 0;
 
   void add(const std::string &name, const Measured &number)
@@ -44,6 +45,7 @@ Numbers numbers_of(const Scene<2> &scene)
         ++result.n_steps;
         result.bound = step.bound->total;
         result.radius = step.bound->radius;
+        result.data = step.bound->data;
         // A circle about the middle of both stresses has half the radius; gap, b and O make it larger.
         EXPECT_GE(result.radius, 0.5 * step.bound->stress);
         EXPECT_LE(result.radius, result.bound);
@@ -219,6 +221,23 @@ TEST(Intervals, FallAlongFriction)
   ASSERT_EQ(friction.falls().size(), 1u);
   EXPECT_NEAR(friction.falls()[0].from.norm(), 0., 1e-14);
   EXPECT_NEAR(friction.falls()[0].work(scene, 0.25), 0.2 * 0.25 / 2, 1e-14);
+  // Between the cuts of an edge, whichever way it runs, w is linear: rules see the end of the fall.
+  for (const double begin : {0., 0.1, 0.25, 0.8})
+    for (const double end : {0.2, 0.3, 1.})
+    {
+      const auto w = [&](const double s)
+      {
+        const Point<2> x(begin + s * (end - begin), 0);
+        return friction.conditions(bottom, x, {0.25}).back().value;
+      };
+      std::vector<double> cuts =
+          friction.kinks(bottom, Point<2>(begin, 0), Point<2>(end, 0), {0.25});
+      std::sort(cuts.begin(), cuts.end());
+      ASSERT_GE(cuts.size(), 2u);
+      for (unsigned int k = 1; k < cuts.size(); ++k)
+        EXPECT_NEAR(w((cuts[k - 1] + cuts[k]) / 2), (w(cuts[k - 1]) + w(cuts[k])) / 2, 1e-12)
+            << begin << " to " << end;
+    }
   EXPECT_FALSE(TestMotion(scene, sides, bottom, BoundaryMotion::normal).flaw().empty());
   EXPECT_TRUE(TestMotion(scene, sides, left, BoundaryMotion::x).flaw().empty());
   EXPECT_EQ(TestMotion(scene, sides, left, BoundaryMotion::x).falls().size(), 1u);
@@ -289,6 +308,27 @@ TEST(Intervals, OfMeansHaveTheNormOfABar)
               1e-9);
   EXPECT_NEAR(numbers.radius / numbers.bound, 0.5, 0.01);
   EXPECT_NEAR(numbers.intervals.at("end.y").back().centre, -0.1, 1e-12);
+}
+
+/** What prescribed displacements miss counts on top: (M) has B + |d|_a, and R takes the place of B alone. */
+TEST(Intervals, OfMeansCountDisplacementsThatAreNoPolynomials)
+{
+  Scene<2> scene = block();
+  scene.materials.front().poisson = 0.;
+  scene.boundary("bottom").displacement = {
+      {expression<2>(0.),
+       expression<2>([](const Point<2> &x) { return 0.1 * std::exp(-6 * x[0]); })}};
+  scene.adaptivity.maximum_steps = 1;
+  Probe<2> probe;
+  probe.name = "end";
+  probe.kind = ProbeKind::boundary;
+  probe.on = {scene.boundary("top").id};
+  scene.probes = {probe};
+  const Numbers numbers = numbers_of(scene);
+  const Interval &interval = numbers.intervals.at("end.y").back();
+  // By Betti with the bar under tension: what the load makes of it, and the mean of what is prescribed.
+  EXPECT_NEAR(interval.centre, -0.1 + 0.1 * (1 - std::exp(-6)) / 6, interval.half_width);
+  EXPECT_GE(interval.half_width, (1 - 1e-9) * (numbers.radius + numbers.data) * std::sqrt(0.1));
 }
 
 /** The mean over a disc has that of a smooth density, and what that is from it. */

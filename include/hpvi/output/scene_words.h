@@ -4,6 +4,11 @@
 
 #include <hpvi/output/boundary_words.h>
 
+#include <deal.II/grid/tria.h>
+
+#include <cstddef>
+#include <set>
+
 namespace hpvi
 {
 /** The unit of a body force, as in "kN/m^2/m"; empty where one of both has no name. */
@@ -26,9 +31,9 @@ std::string temperature_in_words(const Scene<dim> &scene);
 template <int dim>
 std::string name_in_words(const Scene<dim> &scene, std::size_t number);
 
-/** Has any body the unnamed material, where several name theirs? */
-bool is_anywhere(const Scene<2> &scene, std::size_t material);
-bool is_anywhere(const Scene<3> &scene, std::size_t material);
+/** Those that cells have: where all are named, none has the unnamed one. */
+template <int dim>
+std::set<std::size_t> materials_of(const dealii::Triangulation<dim> &mesh);
 
 /**
  * What a scene says, a line each: body, materials, each boundary that is not free, the resultant of all loads. Throws

@@ -2,6 +2,7 @@
 #ifndef hpvi_drawn_side_h
 #define hpvi_drawn_side_h
 
+#include <hpvi/scene/box_tree.h>
 #include <hpvi/scene/edge_path.h>
 #include <hpvi/scene/expression.h>
 #include <hpvi/scene/geometry.h>
@@ -18,6 +19,8 @@ public:
   /** The edges of the coarse mesh along the side number @p side. */
   DrawnSide(const Geometry<2> &geometry, unsigned int side);
 
+  explicit DrawnSide(const std::vector<EdgePath> &edges);
+
   const std::vector<EdgePath> &edges() const;
 
   /** Of the edge that is nearest to @p x. */
@@ -32,15 +35,8 @@ public:
   std::optional<Place> opposite(const dealii::Point<2> &x, const dealii::Tensor<1, 2> &n) const;
 
 private:
-  /** A disc that holds an edge. */
-  struct Disc
-  {
-    dealii::Point<2> centre;
-    double radius;
-  };
-
   std::vector<EdgePath> paths;
-  std::vector<Disc> discs;
+  BoxTree<2> tree;
 };
 
 /**
