@@ -255,6 +255,8 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
                                      : std::string("Error/Bound = false");
   if (result.missing.empty())
     result.missing = missing.empty() ? unresolved_loads(unresolved, *loads) : missing;
+  if (result.missing.empty())
+    result.missing = unresolved_springs(*solution);
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");

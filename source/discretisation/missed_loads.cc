@@ -4,6 +4,7 @@
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/missed_loads.h>
+#include <hpvi/discretisation/springs.h>
 
 #include <algorithm>
 #include <vector>
@@ -52,6 +53,35 @@ std::string missed_loads(const Discretisation<2> &discretisation, const LoadRule
   return "loads sum to " + to_string(Point<2>(force)) + " on this mesh and to " +
          to_string(Point<2>(loads.sum().force)) +
          " on the coarse one: something in them is too narrow to be seen";
+}
+
+std::string unresolved_springs(const Solution<2> &solution)
+{
+  const std::vector<SpringFace> seen = spring_faces(solution.scene, solution.displacement_space,
+                                                    solution.tables),
+                                finer = spring_faces(solution.scene, solution.displacement_space,
+                                                     solution.tables, 2);
+  double largest = 0, most = 0;
+  const SpringFace *worst = nullptr;
+  for (unsigned int k = 0; k < seen.size(); ++k)
+  {
+    FullMatrix<double> missed(finer[k].matrix);
+    missed.add(-1., seen[k].matrix);
+    largest = std::max(largest, finer[k].matrix.frobenius_norm());
+    if (const double difference = missed.frobenius_norm(); difference > most)
+    {
+      most = difference;
+      worst = &seen[k];
+    }
+  }
+  if (most <= 1e-9 * largest)
+    return {};
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    if (cell->active_cell_index() == worst->cell)
+      return "the springs on " + solution.scene.boundaries[worst->boundary].name +
+             " are not resolved near " + to_string(cell->face(worst->face)->center()) + ", by " +
+             text(most / largest, 2) + " of the stiffest";
+  return {};
 }
 
 std::string unresolved_loads(const std::vector<UnresolvedLoad<2>> &unresolved,

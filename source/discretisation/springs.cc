@@ -19,10 +19,10 @@ namespace
 FullMatrix<double> matrix_of(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
                              const CellMap<2> &map, const unsigned int face,
                              const unsigned int degree, const ShapeTables<2> &tables,
-                             const std::vector<unsigned int> &shapes)
+                             const std::vector<unsigned int> &shapes, const unsigned int times)
 {
   const QGauss<1> &rule = spring_rule(boundary, degree, tables);
-  const ShapeTable<2> &table = tables.face(degree, face, rule.size());
+  const ShapeTable<2> &table = tables.face(degree, face, times * rule.size());
   const unsigned int n = degree + 1;
   FullMatrix<double> result(2 * n, 2 * n);
   for (unsigned int q = 0; q < table.points.size(); ++q)
@@ -42,7 +42,7 @@ FullMatrix<double> matrix_of(const Scene<2> &scene, const BoundaryCondition<2> &
 
 template <int dim>
 std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                     const ShapeTables<dim> &tables)
+                                     const ShapeTables<dim> &tables, const unsigned int times)
 {
   static_assert(dim == 2, "two components along an edge");
   std::vector<SpringFace> result;
@@ -63,7 +63,7 @@ std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const Displacement
           shapes.push_back(numbering.shape[i]);
         }
         face.matrix = matrix_of(scene, scene.boundaries[face.boundary], map_of<dim>(cell), f, p,
-                                tables, shapes);
+                                tables, shapes, times);
         result.push_back(std::move(face));
       }
   return result;
@@ -89,5 +89,5 @@ double add_spring_forces(const std::vector<SpringFace> &faces, const Vector<doub
 }
 
 template std::vector<SpringFace> spring_faces(const Scene<2> &, const DisplacementSpace<2> &,
-                                              const ShapeTables<2> &);
+                                              const ShapeTables<2> &, unsigned int);
 } // namespace hpvi

@@ -155,7 +155,11 @@ const std::vector<Reason> reasons = {
      with(held, {{"Boundary top/Displacement", "0; -0.01*exp(-((x - 0.37)/0.001)^2)"}}),
      "a prescribed displacement or gap is not smooth along the edge at (0.3", " mm"},
     {"load", with(held, {{"Boundary top/Traction", "0; sin(1e5*x*x)"}}),
-     "traction on top is not resolved near (", " of all loads"}};
+     "traction on top is not resolved near (", " of all loads"},
+    {"springs",
+     with(held, {{"Boundary right/Traction", "1; 0"},
+                 {"Boundary top/Spring", "10*if(x < 0.37, 1, 0.3); 0"}}),
+     "the springs on top are not resolved near (0.25, 1)", " of the stiffest"}};
 
 class AnyReason : public ::testing::TestWithParam<Reason>
 {

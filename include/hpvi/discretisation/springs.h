@@ -20,10 +20,13 @@ struct SpringFace
   dealii::FullMatrix<double> matrix; ///< int k_n v_n w_n + k_t v_t w_t of two of their functions
 };
 
-/** All of a mesh, by the one rule that everything has: of degree 2p + 1 where k is constant, ten more where it varies. */
+/**
+ * All of a mesh, by the one rule that everything has: of degree 2p + 1 where k is constant, ten more where it varies. Or by one with
+ * @p times as many points, to see what that rule misses.
+ */
 template <int dim>
 std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                     const ShapeTables<dim> &tables);
+                                     const ShapeTables<dim> &tables, unsigned int times = 1);
 
 const dealii::QGauss<1> &spring_rule(const BoundaryCondition<2> &boundary, unsigned int degree,
                                      const ShapeTables<2> &tables);
