@@ -292,17 +292,22 @@ TEST(Intervals, AreAsNarrowUnderLoadsOnTheContact)
   EXPECT_NEAR(width(loaded), width(plain), 0.1 * width(plain));
 }
 
+void add_probe_of_end(Scene<2> &scene)
+{
+  Probe<2> probe;
+  probe.name = "end";
+  probe.kind = ProbeKind::boundary;
+  probe.on = {scene.boundary("top").id};
+  scene.probes = {probe};
+}
+
 // Half-widths of a mean along the loaded end of a bar: |q|_*^2 = length/(E area) with nu = 0.
 TEST(Intervals, OfMeansHaveTheNormOfABar)
 {
   Scene<2> scene = block();
   scene.materials.front().poisson = 0.;
   scene.boundary("bottom").displacement = {{expression<2>(0.), expression<2>(0.)}};
-  Probe<2> probe;
-  probe.name = "end";
-  probe.kind = ProbeKind::boundary;
-  probe.on = {scene.boundary("top").id};
-  scene.probes = {probe};
+  add_probe_of_end(scene);
   const Numbers numbers = numbers_of(scene);
   EXPECT_NEAR(numbers.intervals.at("end.y").back().half_width / numbers.radius, std::sqrt(0.1),
               1e-9);
@@ -319,11 +324,7 @@ TEST(Intervals, OfMeansCountDisplacementsThatAreNoPolynomials)
       {expression<2>(0.),
        expression<2>([](const Point<2> &x) { return 0.1 * std::exp(-6 * x[0]); })}};
   scene.adaptivity.maximum_steps = 1;
-  Probe<2> probe;
-  probe.name = "end";
-  probe.kind = ProbeKind::boundary;
-  probe.on = {scene.boundary("top").id};
-  scene.probes = {probe};
+  add_probe_of_end(scene);
   const Numbers numbers = numbers_of(scene);
   const Interval &interval = numbers.intervals.at("end.y").back();
   // By Betti with the bar under tension: what the load makes of it, and the mean of what is prescribed.
@@ -400,11 +401,7 @@ TEST(Intervals, OfBodiesThatContactHoldsAreNone)
   scene.boundary("bottom").contact = Contact::bilateral;
   scene.boundary("bottom").friction.bound = expression<2>(0.5);
   scene.boundary("left").symmetry = false;
-  Probe<2> probe;
-  probe.name = "end";
-  probe.kind = ProbeKind::boundary;
-  probe.on = {scene.boundary("top").id};
-  scene.probes = {probe};
+  add_probe_of_end(scene);
   const Numbers numbers = numbers_of(scene);
   EXPECT_EQ(numbers.intervals.count("end.x"), 0u);
   EXPECT_NE(numbers.none.find("contact alone resists"), std::string::npos) << numbers.none;
