@@ -3,12 +3,15 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numbers.h>
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -195,6 +198,25 @@ void want_large_pages(void *const memory, const std::size_t bytes)
 #else
   (void)memory;
   (void)bytes;
+#endif
+}
+
+void reserve_heap()
+{
+#ifdef __GLIBC__
+  if (mapping_is_limited())
+    return;
+  mallopt(M_MMAP_THRESHOLD, 1 << 25); // the largest that there is
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  constexpr int bytes = 1 << 29, usual = 1 << 17;
+  mallopt(M_TOP_PAD, bytes);
+  // More than is left at the top, and less than what is mapped on its own.
+  if (void *const begin = std::malloc(1 << 24))
+  {
+    want_large_pages(begin, bytes);
+    std::free(begin);
+  }
+  mallopt(M_TOP_PAD, usual);
 #endif
 }
 

@@ -193,6 +193,7 @@ void end_others(const std::exception &error)
 int main(int argc, char *argv[])
 {
   do_without_threads_of_openblas(argv);
+  reserve_heap();
   occupy_standard_streams();
   survive_failed_writes();
   std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

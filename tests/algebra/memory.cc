@@ -8,10 +8,14 @@
 #include <hpvi/base/numerical_failure.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace
 {
@@ -54,6 +58,40 @@ std::string failure_of(const Action &action)
     return failure.what();
   }
   return "nothing";
+}
+
+/** Of the mapping that holds an address: the flags of the kernel. */
+std::string flags_of_mapping(const void *const address)
+{
+  const auto place = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream file("/proc/self/smaps");
+  bool is_here = false;
+  for (std::string line; std::getline(file, line);)
+  {
+    unsigned long begin, end;
+    if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2)
+      is_here = begin <= place && place < end;
+    else if (is_here && line.rfind("VmFlags:", 0) == 0)
+      return line + ' ';
+  }
+  return "";
+}
+
+/** What the heap gives, and gives again, lies in large pages. */
+TEST(Memory, HeapOfLargePages)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer has its own heap";
+#endif
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage"))
+    GTEST_SKIP() << "the kernel has no large pages";
+  reserve_heap();
+  const std::size_t size = 20'000'000;
+  for (unsigned int pass = 0; pass < 2; ++pass)
+  {
+    const std::vector<char> block(size);
+    EXPECT_NE(flags_of_mapping(block.data() + size / 2).find(" hg "), std::string::npos) << pass;
+  }
 }
 
 TEST(Memory, OfTheMachine)

@@ -52,6 +52,13 @@ constexpr std::size_t large_page = std::size_t(1) << 21;
 /** Ask the kernel for large pages under @p bytes of memory that nobody has touched yet; it may decline. */
 void want_large_pages(void *memory, std::size_t bytes);
 
+/**
+ * For a program, not for a library: 512 MB of addresses for the heap at once, in large pages, and what is given back stays there.
+ * A run asks for memory in each step that it has given back in the last, and the kernel clears each page that is asked for. Does
+ * nothing where the mapping of memory is limited.
+ */
+void reserve_heap();
+
 /** Does RLIMIT_AS or RLIMIT_DATA limit the memory that the process may map? */
 bool mapping_is_limited();
 
