@@ -66,7 +66,6 @@ private:
   std::vector<std::array<unsigned int, dim>> index; ///< of the factors of each shape function
   std::array<Derivatives1D, dim> factors;
 };
-
 } // namespace
 
 template <int dim>
@@ -99,8 +98,7 @@ ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>
         for (unsigned int b = 0; b < dim; ++b)
         {
           std::array<unsigned int, dim> order{};
-          ++order[a];
-          ++order[b];
+          ++order[a], ++order[b];
           table.derivatives(row++, i) = element.derivative(i, order);
         }
     }
@@ -110,8 +108,7 @@ ShapeTable<dim> tabulate(const unsigned int degree, const std::vector<Point<dim>
 
 namespace
 {
-constexpr unsigned int whole_cell = numbers::invalid_unsigned_int;
-constexpr unsigned int whole_face = numbers::invalid_unsigned_int;
+constexpr unsigned int whole_cell = numbers::invalid_unsigned_int, whole_face = whole_cell;
 } // namespace
 
 template <int dim>
@@ -266,8 +263,8 @@ const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int
   const auto make = [&]()
   {
     EdgeInterpolation result;
-    const std::vector<Point<1>> x = QGaussLobatto<1>(source_degree + 1).get_points();
-    const std::vector<Point<1>> targets = QGaussLobatto<1>(target_degree + 1).get_points();
+    const std::vector<Point<1>> &x = gauss_lobatto(source_degree + 1).get_points(),
+                                &targets = gauss_lobatto(target_degree + 1).get_points();
     result.nodes = select_nodes(x, trace_degree + 1);
     result.weights.reinit(targets.size(), result.nodes.size());
     for (unsigned int i = 0; i < targets.size(); ++i)
@@ -376,13 +373,19 @@ const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned in
 std::vector<double> evaluate(const FullMatrix<double> &table,
                              const std::vector<double> &coefficients)
 {
-  // A row-major matrix is its transpose to BLAS.
-  const types::blas_int rows = table.m(), shapes = table.n(),
-                        components = coefficients.size() / table.n();
+  // A row-major matrix is its transpose to BLAS. Of small matrices OpenBLAS multiplies these as they are, components first, and
+  // would copy others into a buffer that all threads share.
+  const types::blas_int rows = table.m(), shapes = table.n(), n = coefficients.size() / shapes;
   const double one = 1., zero = 0.;
-  std::vector<double> result(rows * components);
-  gemm("T", "N", &rows, &components, &shapes, &one, &table(0, 0), &shapes, coefficients.data(),
-       &shapes, &zero, result.data(), &rows);
+  std::vector<double> transposed(coefficients.size()), by_row(rows * n), result(rows * n);
+  for (int i = 0; i < shapes; ++i)
+    for (int c = 0; c < n; ++c)
+      transposed[i * n + c] = coefficients[c * shapes + i];
+  gemm("N", "N", &n, &rows, &shapes, &one, transposed.data(), &n, &table(0, 0), &shapes, &zero,
+       by_row.data(), &n);
+  for (int q = 0; q < rows; ++q)
+    for (int c = 0; c < n; ++c)
+      result[c * rows + q] = by_row[q * n + c];
   return result;
 }
 
