@@ -8,7 +8,9 @@
 //
 // As a product of a matrix with its transpose $S$ is symmetric, and positive semidefinite up to the
 // rounding of one product.
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/schur_complement.h>
+#include <hpvi/base/team.h>
 
 namespace hpvi
 {
@@ -17,7 +19,34 @@ using namespace dealii;
 // @sect3{S and d}
 //
 // One triangular solution with a dense matrix of the size of the contact, and one product. Both are
-// done by BLAS.
+// done by BLAS, some columns at a time, as many whatever the number of threads.
+namespace
+{
+/** Y := C^-1 Y, S := Y'Y */
+void reduce(const LAPACKFullMatrix<double> &C, LAPACKFullMatrix<double> &Y,
+            LAPACKFullMatrix<double> &S)
+{
+  const unsigned int n = Y.m(), n_columns = Y.n(), at_once = 64;
+  if (n_columns == 0)
+    return;
+  double *const y = &Y(0, 0), *const s = &S(0, 0);
+  in_parts(n_columns, at_once,
+           [&](const unsigned int begin, const unsigned int end) {
+             solve_triangular('N', n, end - begin, {&C(0, 0), n}, y + std::size_t(begin) * n, n);
+           });
+  in_parts(n_columns, at_once,
+           [&](const unsigned int begin, const unsigned int end)
+           {
+             double *const columns = s + std::size_t(begin) * n_columns;
+             multiply('T', 'N', end, end - begin, n, 1., {y, n}, {y + std::size_t(begin) * n, n},
+                      0., columns, n_columns);
+           });
+  for (unsigned int j = 0; j < n_columns; ++j)
+    for (unsigned int i = j + 1; i < n_columns; ++i)
+      S(i, j) = S(j, i);
+}
+} // namespace
+
 SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double> &f,
                                  const ConditionRows &rows)
     : solver(solver), schur_matrix(rows.n_rows())
@@ -35,8 +64,7 @@ SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double
   for (unsigned int i = 0; i < rows.n_rows(); ++i)
     for (const auto &[place, weight] : rows.B[i])
       Y(row_of[place], i) = weight;
-  solver.kept_factor().solve(Y);
-  Y.Tmmult(schur_matrix, Y);
+  reduce(solver.kept_factor(), Y, schur_matrix);
   set_load(f, rows.prescribed);
 }
 
