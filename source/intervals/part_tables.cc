@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/common_table.h>
 #include <hpvi/intervals/part_tables.h>
 
 #include <vector>
@@ -14,15 +15,14 @@ const ShapeTable<2> &PartTables::in(const BoundingBox<2> &box, const unsigned in
   if (box.volume() == 1.)
     return whole;
   const Point<2> &corner = box.get_boundary_points().first;
-  ShapeTable<2> &table = known[{degree, n_gauss, corner[0], corner[1], box.side_length(0)}];
-  if (table.points.empty())
+  const auto make = [&]()
   {
     std::vector<Point<2>> points;
     for (const Point<2> &q : whole.points)
       points.push_back(box.unit_to_real(q));
-    table = tabulate<2>(degree, points, whole.weights, false);
-  }
-  return table;
+    return tabulate<2>(degree, points, whole.weights, false);
+  };
+  return common_value(known, {degree, n_gauss, corner[0], corner[1], box.side_length(0)}, make);
 }
 
 void PartTables::limit()

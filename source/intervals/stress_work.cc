@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/team.h>
 #include <hpvi/body/load_quadrature.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/evaluation/common_refinement.h>
@@ -17,19 +18,21 @@ namespace hpvi
 using namespace dealii;
 using Cell = Triangulation<2>::cell_iterator;
 
-WorkOnShapes stress_on_part(const Solution<2> &solution, const Cell &a, const BoundingBox<2> &in_a,
-                            const Cell &b, const BoundingBox<2> &in_b, const unsigned int degree,
-                            PartTables &tables)
+namespace
+{
+WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
+                            const unsigned int degree, PartTables &tables)
 {
   const Scene<2> &scene = solution.scene;
-  const unsigned int cell = a->active_cell_index(), p = solution.displacement_space.degrees()[cell];
-  const CellMap<2> map = map_of<2>(a), other = map_of<2>(b);
+  const unsigned int cell = part.a->active_cell_index(),
+                     p = solution.displacement_space.degrees()[cell];
+  const CellMap<2> map = map_of<2>(part.a), other = map_of<2>(part.b);
   const bool varies = scene.has_initial_strain() || !map.is_affine();
   const unsigned int n_gauss = (p + degree) / 2 + 1 + (varies ? 3 : 0);
-  const ShapeTable<2> &of_u = tables.in(in_a, p, n_gauss, solution.tables),
-                      &of_w = tables.in(in_b, degree, n_gauss, solution.tables);
+  const ShapeTable<2> &of_u = tables.in(part.in_a, p, n_gauss, solution.tables),
+                      &of_w = tables.in(part.in_b, degree, n_gauss, solution.tables);
   const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
-  const HookesLaw<2> law(scene.material_of(a));
+  const HookesLaw<2> law(scene.material_of(part.a));
   WorkOnShapes work{std::vector<double>(2 * of_w.n_shapes), std::vector<double>(2 * of_w.n_shapes)};
   for (unsigned int q = 0; q < of_u.points.size(); ++q)
   {
@@ -37,8 +40,8 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const Cell &a, const Bo
     Tensor<2, 2> strain =
         physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
     if (scene.has_initial_strain())
-      strain -= scene.initial_strain_in(a, map.point(of_u.points[q]));
-    const double weight = of_u.weights[q] * in_a.volume() * std::abs(determinant(J));
+      strain -= scene.initial_strain_in(part.a, map.point(of_u.points[q]));
+    const double weight = of_u.weights[q] * part.in_a.volume() * std::abs(determinant(J));
     const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(strain)) *
                                 transpose(invert(other.jacobian(of_w.points[q])));
     for (unsigned int c = 0; c < 2; ++c)
@@ -51,6 +54,26 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const Cell &a, const Bo
         }
   }
   return work;
+}
+} // namespace
+
+std::vector<WorkOnPart> stress_on_parts(const Solution<2> &solution, const Triangulation<2> &mesh,
+                                        const Degrees &degrees, PartTables &tables)
+{
+  tables.limit();
+  std::vector<WorkOnPart> parts;
+  for_each_common_part(
+      solution.displacement_space.triangulation(), mesh,
+      [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b) {
+        parts.push_back({a, in_a, b, in_b, {}});
+      });
+  for_all(parts.size(), 8,
+          [&](const unsigned int k)
+          {
+            parts[k].work = stress_on_part(solution, parts[k],
+                                           degrees[parts[k].b->active_cell_index()], tables);
+          });
+  return parts;
 }
 
 namespace
@@ -150,30 +173,25 @@ bool touches(const BoundingBox<2> &box, const unsigned int face)
 StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
                               const Solution<2> &z, PartTables &tables)
 {
-  tables.limit();
   std::map<std::pair<unsigned int, unsigned int>, const EdgeTraction *> edges;
   for (const EdgeTraction &edge : bound.tractions)
     edges[{edge.cell->active_cell_index(), edge.face}] = &edge;
   TractionWork tractions;
   double energy = 0, absolute = 0;
-  for_each_common_part(
-      solution.displacement_space.triangulation(), z.displacement_space.triangulation(),
-      [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
-      {
-        const unsigned int cell = b->active_cell_index();
-        const WorkOnShapes work = stress_on_part(solution, a, in_a, b, in_b,
-                                                 z.displacement_space.degrees()[cell], tables);
-        const std::vector<double> coefficients = z.coefficients(cell);
-        for (unsigned int i = 0; i < coefficients.size(); ++i)
-        {
-          energy += work.sum[i] * coefficients[i];
-          absolute += work.absolute[i] * std::abs(coefficients[i]);
-        }
-        for (const unsigned int face : a->face_indices())
-          if (a->at_boundary(face) && touches(in_a, face))
-            EdgePart(*edges.at({a->active_cell_index(), face}), solution.scene, a, in_a, b, in_b)
-                .add_to(tractions, solution, z);
-      });
+  for (const auto &[a, in_a, b, in_b, work] : stress_on_parts(
+           solution, z.displacement_space.triangulation(), z.displacement_space.degrees(), tables))
+  {
+    const std::vector<double> coefficients = z.coefficients(b->active_cell_index());
+    for (unsigned int i = 0; i < coefficients.size(); ++i)
+    {
+      energy += work.sum[i] * coefficients[i];
+      absolute += work.absolute[i] * std::abs(coefficients[i]);
+    }
+    for (const unsigned int face : a->face_indices())
+      if (a->at_boundary(face) && touches(in_a, face))
+        EdgePart(*edges.at({a->active_cell_index(), face}), solution.scene, a, in_a, b, in_b)
+            .add_to(tractions, solution, z);
+  }
   const Vector<double> loads =
       applied_loads(solution.scene, z.displacement_space, solution.tables, *solution.spaces->loads);
   double work = 0;

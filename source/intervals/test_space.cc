@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/evaluation/common_refinement.h>
 #include <hpvi/intervals/stress_work.h>
 #include <hpvi/intervals/test_space.h>
 
@@ -338,25 +337,19 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
 // Where cells of both meshes overlap, the smaller one is integrated over.
 TestSpace::Residual TestSpace::residual(const Solution<2> &solution) const
 {
-  tables_in_parts->limit();
   Residual result{Vector<double>(space.n_dofs()), Vector<double>(space.n_dofs())};
-  using Cell = Triangulation<2>::cell_iterator;
-  for_each_common_part(
-      solution.displacement_space.triangulation(), *mesh,
-      [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b)
-      {
-        const WorkOnShapes work =
-            stress_on_part(solution, a, in_a, b, in_b, degree_of_w, *tables_in_parts);
-        const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
-        const auto dofs = space.cell_dofs(b->active_cell_index());
-        const unsigned int n_shapes = dofs.size() / 2;
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-        {
-          const unsigned int shape = numbering.component[i] * n_shapes + numbering.shape[i];
-          result.sum[dofs[i]] += work.sum[shape];
-          result.absolute[dofs[i]] += work.absolute[shape];
-        }
-      });
+  const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
+  for (const WorkOnPart &part : stress_on_parts(solution, *mesh, degrees, *tables_in_parts))
+  {
+    const auto dofs = space.cell_dofs(part.b->active_cell_index());
+    const unsigned int n_shapes = dofs.size() / 2;
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      const unsigned int shape = numbering.component[i] * n_shapes + numbering.shape[i];
+      result.sum[dofs[i]] += part.work.sum[shape];
+      result.absolute[dofs[i]] += part.work.absolute[shape];
+    }
+  }
   for (types::global_dof_index i = 0; i < applied.size(); ++i)
   {
     result.sum[i] -= applied[i];

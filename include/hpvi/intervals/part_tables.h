@@ -11,7 +11,7 @@
 
 namespace hpvi
 {
-/** Shape functions at Gauss points of parts of cells, each computed once: halves of halves repeat from cell to cell. */
+/** Shape functions at Gauss points of parts of cells, each computed once: halves of halves repeat from cell to cell. Threads may ask together. */
 class PartTables
 {
 public:

@@ -18,14 +18,23 @@ struct WorkOnShapes
 };
 
 /**
- * What sigma(u_N) does on the strains of the shape functions of degree @p degree of a cell b of another mesh, over the
- * part of the body that @p in_a of the cell a of u_N and @p in_b of b are: component by component, as
+ * A part of the body that lies in the cell a of u_N and the cell b of another mesh, which in_a and in_b are in their reference
+ * cells, and what sigma(u_N) does there on the strains of the shape functions of b: component by component, as
  * Solution::coefficients() has them.
  */
-WorkOnShapes
-stress_on_part(const Solution<2> &solution, const dealii::Triangulation<2>::cell_iterator &a,
-               const dealii::BoundingBox<2> &in_a, const dealii::Triangulation<2>::cell_iterator &b,
-               const dealii::BoundingBox<2> &in_b, unsigned int degree, PartTables &tables);
+struct WorkOnPart
+{
+  dealii::Triangulation<2>::cell_iterator a;
+  dealii::BoundingBox<2> in_a;
+  dealii::Triangulation<2>::cell_iterator b;
+  dealii::BoundingBox<2> in_b;
+  WorkOnShapes work;
+};
+
+/** All of them, by all threads; @p degrees are those of the cells of @p mesh, which descends from the coarse mesh of u_N, too. */
+std::vector<WorkOnPart> stress_on_parts(const Solution<2> &solution,
+                                        const dealii::Triangulation<2> &mesh,
+                                        const Degrees &degrees, PartTables &tables);
 
 /** The work int (s n - G) . w of what acts on a body beside its loads G. */
 struct TractionWork
