@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/team.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/discretisation/initial_stress.h>
 
@@ -40,44 +42,61 @@ std::vector<Tensor<2, 2>> stresses_of(const std::vector<Tensor<2, 2>> &strains,
   return result;
 }
 
-/**
- * Calls f(cell, map, table, q, eps_0, C eps_0, hoop, weight), hoop what these are around an axis, for all points at which
- * there is an initial strain.
- */
-template <class F>
-void for_each_point(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                    const ShapeTables<2> &tables, const Volume volume, const F &f)
+/** What the initial strain of a cell is at its points. */
+struct StrainOfCell
 {
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &space,
+               const ShapeTables<2> &tables, Volume volume,
+               const Triangulation<2>::active_cell_iterator &cell);
+
+  const unsigned int degree;
+  const CellMap<2> map;
+  const ShapeTable<2> &table;
+  std::vector<Tensor<2, 2>> strains, stresses; ///< eps_0, C eps_0
+  std::vector<Hoop> hoops;                     ///< what these are around an axis
+  std::vector<double> weights;
+};
+
+StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                           const ShapeTables<2> &tables, const Volume volume,
+                           const Triangulation<2>::active_cell_iterator &cell)
+    : degree(space.degrees()[cell->active_cell_index()]), map(map_of<2>(cell)),
+      table(tables.gradients(degree, space.strain_points(cell->active_cell_index())))
+{
+  for (const Point<2> &point : table.points)
+    strains.push_back(scene.initial_strain_in(cell, map.point(point)));
+  stresses = stresses_of(strains, scene.material_of(cell), table, degree, volume);
+  for (unsigned int q = 0; q < strains.size(); ++q)
   {
-    if (!scene.has_initial_strain() || !scene.initial_strains[cell->material_id()])
-      continue;
-    const unsigned int p = space.degrees()[cell->active_cell_index()];
-    const CellMap<2> map = map_of<2>(cell);
-    const ShapeTable<2> &table =
-        tables.gradients(p, space.strain_points(cell->active_cell_index()));
-    std::vector<Tensor<2, 2>> strains;
-    for (const Point<2> &point : table.points)
-      strains.push_back(scene.initial_strain_in(cell, map.point(point)));
-    std::vector<Tensor<2, 2>> stresses =
-        stresses_of(strains, scene.material_of(cell), table, p, volume);
-    for (unsigned int q = 0; q < strains.size(); ++q)
+    const Point<2> x = map.point(table.points[q]);
+    weights.push_back(table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) *
+                      scene.turn(x));
+    Hoop hoop{0., 0., 0.};
+    if (scene.is_axisymmetric())
     {
-      const Point<2> x = map.point(table.points[q]);
-      const double weight =
-          table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) * scene.turn(x);
-      Hoop hoop{0., 0., 0.};
-      if (scene.is_axisymmetric())
-      {
-        hoop.curvature = 1 / x[0];
-        const HookesLaw<2> law(scene.material_of(cell));
-        hoop.strain = initial_strain_across<2>(scene, cell, x);
-        hoop.stress = law.hoop_stress(strains[q], hoop.strain);
-        stresses[q] = Tensor<2, 2>(law.stress(strains[q], hoop.strain));
-      }
-      f(cell, map, table, q, strains[q], stresses[q], hoop, weight);
+      hoop.curvature = 1 / x[0];
+      const HookesLaw<2> law(scene.material_of(cell));
+      hoop.strain = initial_strain_across<2>(scene, cell, x);
+      hoop.stress = law.hoop_stress(strains[q], hoop.strain);
+      stresses[q] = Tensor<2, 2>(law.stress(strains[q], hoop.strain));
     }
+    hoops.push_back(hoop);
   }
+}
+
+/** Calls f(index, strain) for all cells that have an initial strain, by all threads. */
+template <class F>
+void for_each_strain(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                     const ShapeTables<2> &tables, const Volume volume, const F &f)
+{
+  std::vector<Triangulation<2>::active_cell_iterator> cells;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    if (scene.has_initial_strain() && scene.initial_strains[cell->material_id()])
+      cells.push_back(cell);
+  for_all(cells.size(), 4,
+          [&](const unsigned int k) {
+            f(cells[k]->active_cell_index(), StrainOfCell(scene, space, tables, volume, cells[k]));
+          });
 }
 } // namespace
 
@@ -134,62 +153,62 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
 Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpace<2> &space,
                                     const ShapeTables<2> &tables, const Volume volume)
 {
-  Vector<double> load(space.n_dofs());
-  for_each_point(
-      scene, space, tables, volume,
-      [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table, const unsigned int q,
-          const Tensor<2, 2> &, const Tensor<2, 2> &stress, const Hoop &hoop, const double weight)
+  std::vector<std::vector<double>> of_cells(space.degrees().size());
+  const auto add = [&](const unsigned int index, const StrainOfCell &cell)
+  {
+    const LocalNumbering &numbering = tables.numbering(cell.degree);
+    std::vector<double> &load = of_cells[index];
+    load.resize(numbering.shape.size());
+    for (unsigned int q = 0; q < cell.weights.size(); ++q)
+    {
+      // C eps_0 : grad v = (C eps_0 J^-T) : reference gradient of v
+      const Tensor<2, 2> pulled = cell.weights[q] * cell.stresses[q] *
+                                  transpose(invert(cell.map.jacobian(cell.table.points[q])));
+      const double hoop = cell.weights[q] * cell.hoops[q].stress * cell.hoops[q].curvature;
+      for (unsigned int i = 0; i < load.size(); ++i)
       {
-        // C eps_0 : grad v = (C eps_0 J^-T) : reference gradient of v
-        const Tensor<2, 2> pulled =
-            weight * stress * transpose(invert(map.jacobian(table.points[q])));
-        const unsigned int index = cell->active_cell_index();
-        const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
-        const auto dofs = space.cell_dofs(index);
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-        {
-          for (unsigned int r = 0; r < 2; ++r)
-            load[dofs[i]] += pulled[numbering.component[i]][r] *
-                             table.derivatives(q * table.rows_per_point + r, numbering.shape[i]);
-          if (hoop.stress != 0 && numbering.component[i] == 0)
-            load[dofs[i]] +=
-                weight * hoop.stress * hoop.curvature * table.values(q, numbering.shape[i]);
-        }
-      });
+        for (unsigned int r = 0; r < 2; ++r)
+          load[i] += pulled[numbering.component[i]][r] *
+                     cell.table.derivatives(q * cell.table.rows_per_point + r, numbering.shape[i]);
+        if (hoop != 0 && numbering.component[i] == 0)
+          load[i] += hoop * cell.table.values(q, numbering.shape[i]);
+      }
+    }
+  };
+  for_each_strain(scene, space, tables, volume, add);
+  Vector<double> load(space.n_dofs());
+  for (unsigned int index = 0; index < of_cells.size(); ++index)
+    for (unsigned int i = 0; i < of_cells[index].size(); ++i)
+      load[space.cell_dofs(index)[i]] += of_cells[index][i];
   return load;
 }
 
 double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
                       const ShapeTables<2> &tables, const Vector<double> &u)
 {
-  double sum = 0;
-  unsigned int known = numbers::invalid_unsigned_int;
-  std::vector<double> derivatives, values;
-  for_each_point(scene, space, tables, Volume::full,
-                 [&](const auto &cell, const CellMap<2> &map, const ShapeTable<2> &table,
-                     const unsigned int q, const Tensor<2, 2> &strain, const Tensor<2, 2> &stress,
-                     const Hoop &hoop, const double weight)
-                 {
-                   const unsigned int index = cell->active_cell_index();
-                   if (index != known)
-                   {
-                     const LocalNumbering &numbering = tables.numbering(space.degrees()[index]);
-                     const auto dofs = space.cell_dofs(index);
-                     std::vector<double> local(dofs.size());
-                     for (unsigned int i = 0; i < dofs.size(); ++i)
-                       local[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] =
-                           u[dofs[i]];
-                     derivatives = evaluate(table.derivatives, local);
-                     values = evaluate(table.values, local);
-                     known = index;
-                   }
-                   const Tensor<2, 2> gradient = physical_gradient<2>(
-                       derivatives, q * table.rows_per_point, table.derivatives.m(),
-                       invert(map.jacobian(table.points[q])));
-                   sum += weight * scalar_product(stress, 0.5 * strain - gradient);
-                   if (hoop.stress != 0)
-                     sum += weight * hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature);
-                 });
-  return sum;
+  std::vector<double> of_cells(space.degrees().size());
+  const auto measure = [&](const unsigned int index, const StrainOfCell &cell)
+  {
+    const LocalNumbering &numbering = tables.numbering(cell.degree);
+    const ShapeTable<2> &table = cell.table;
+    const auto dofs = space.cell_dofs(index);
+    std::vector<double> local(dofs.size());
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      local[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = u[dofs[i]];
+    const std::vector<double> derivatives = evaluate(table.derivatives, local),
+                              values = evaluate(table.values, local);
+    for (unsigned int q = 0; q < cell.weights.size(); ++q)
+    {
+      const Tensor<2, 2> gradient =
+          physical_gradient<2>(derivatives, q * table.rows_per_point, table.derivatives.m(),
+                               invert(cell.map.jacobian(table.points[q])));
+      const Hoop &hoop = cell.hoops[q];
+      of_cells[index] +=
+          cell.weights[q] * (scalar_product(cell.stresses[q], 0.5 * cell.strains[q] - gradient) +
+                             hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature));
+    }
+  };
+  for_each_strain(scene, space, tables, Volume::full, measure);
+  return sum(of_cells);
 }
 } // namespace hpvi

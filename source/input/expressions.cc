@@ -12,9 +12,13 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <mutex>
 #include <regex>
 #include <utility>
 
@@ -71,6 +75,43 @@ std::string message(const std::string &place, const std::string &problem, const 
   const std::string shown = std::isnan(value) ? "nan" : to_string(value); // it may have a sign
   return place + ": " + problem + " at " + to_string(x) + ": " + shown + "; " + remedy;
 }
+
+/** deal.II's parser has a lock for each value, which threads would hand to one another: each of them has a parser of its own here. */
+template <int dim>
+class ParserByThread : public Function<dim>
+{
+public:
+  ParserByThread(const std::string &text, const std::map<std::string, double> &constants)
+      : text(text), constants(constants)
+  {
+  }
+
+  double value(const Point<dim> &x, const unsigned int = 0) const override
+  {
+    static std::atomic<unsigned int> n_threads(0);
+    thread_local const unsigned int own = n_threads++;
+    const Parser &parser = parsers[own % parsers.size()]; // two threads may share one
+    std::call_once(parser.is_made,
+                   [&]()
+                   {
+                     parser.function = std::make_unique<FunctionParser<dim>>(1);
+                     parser.function->initialize(FunctionParser<dim>::default_variable_names(),
+                                                 text, constants);
+                   });
+    return parser.function->value(x);
+  }
+
+private:
+  struct Parser
+  {
+    mutable std::once_flag is_made;
+    mutable std::unique_ptr<FunctionParser<dim>> function;
+  };
+
+  const std::string text;
+  const std::map<std::string, double> constants;
+  std::array<Parser, 16> parsers;
+};
 
 /** @p function, which must be finite wherever it is asked. */
 template <int dim>
@@ -231,8 +272,7 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   const std::string problem = objection(spaced);
   if (!problem.empty())
     parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
-  const auto function = std::make_shared<FunctionParser<dim>>(1);
-  function->initialize(FunctionParser<dim>::default_variable_names(), spaced, constants);
+  const auto function = std::make_shared<const ParserByThread<dim>>(spaced, constants);
   const Expression result = finite<dim>(function, parameters.place(section, name),
                                         "\"" + printable(text) + "\"" + with_time(constants));
   for (const Point<dim> &point : points)
