@@ -12,6 +12,7 @@
 #include <hpvi/body/curved_edges.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace hpvi
 {
@@ -103,8 +104,11 @@ CurvePiece curve_along(const Cell &cell, const unsigned int face)
       ->piece.between(on_coarse_edge(cell, face, 0), on_coarse_edge(cell, face, 1));
 }
 
+/** deal.II takes down of what type user data are, also where they are read: one thread at a time. */
 unsigned int degree_of(const Cell &cell)
 {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
   return cell->user_index() > 0 && cell->is_active() ? cell->user_index() : without_degrees;
 }
 
