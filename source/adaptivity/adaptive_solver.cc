@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Solve, estimate, mark, refine: this file is the loop, and all other files are what it calls. Each
-// pass is one <i>step</i>: a mesh with degrees goes in, a solution with an estimate of its error
-// comes out, and so does the next mesh. Whether a step is solved on the contact boundary, by a dense
-// program, or in the whole body, on many processes, is the business of a <i>backend</i>; the loop is the
-// same, and so is all that it says of a solution.
+// Solve, estimate, mark, refine: this file is the loop, and all other files are what it calls. Each pass is one <i>step</i>: a
+// mesh with degrees goes in, a solution with an estimate of its error comes out, and so does the next mesh. Whether a step is
+// solved on the contact boundary, by a dense program, or in the whole body, on many processes, is the business of a
+// <i>backend</i>; the loop is the same, and so is all that it says of a solution.
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/all_cells.h>
 #include <hpvi/adaptivity/column_width.h>
@@ -31,8 +30,7 @@ using namespace dealii;
 
 // @sect3{What the stages share}
 //
-// What belongs to a mesh is the backend's. The loop keeps a few numbers of each step, and the marks
-// that have led from the coarse mesh to that of the current step.
+// What belongs to a mesh is the backend's. The loop keeps numbers of each step, and the marks that have led to the current mesh.
 template <int dim>
 struct AdaptiveSolver<dim>::Stages
 {
@@ -46,6 +44,7 @@ struct AdaptiveSolver<dim>::Stages
   bool is_bound_open = false;         ///< it may still be asked for
   History<dim> history;               ///< of the finished steps
   std::vector<MeshMarks> refinements; ///< from the coarse mesh to that of the current step
+  std::vector<std::string> entries;   ///< of the scene, once a state() is asked for
 
   Stages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
       : scene(scene), backend(std::move(backend)), true_error(scene), mean_intervals(scene)
@@ -336,12 +335,14 @@ AdaptiveSolver<dim>::~AdaptiveSolver() = default;
 template <int dim>
 RunState<dim> AdaptiveSolver<dim>::state(const std::optional<FinishedLoads> &finished) const
 {
-  const Backend<dim> &backend = *stages->backend;
+  Stages &all = *stages;
+  if (all.entries.empty())
+    all.entries = RunState<dim>::entries_of(all.scene, n_processes(all.backend->communicator));
   return {"the run state",
-          RunState<dim>::entries_of(stages->scene, hpvi::n_processes(backend.communicator)),
-          finished ? backend.trail() : stages->refinements,
-          backend.values(),
-          finished ? History<dim>() : stages->history,
+          all.entries,
+          finished ? all.backend->trail() : all.refinements,
+          all.backend->values(),
+          finished ? History<dim>() : all.history,
           finished};
 }
 
@@ -362,9 +363,8 @@ void AdaptiveSolver<dim>::prepare(const Announce &about_to)
 
 // @sect3{The loop}
 //
-// After so much preparation it reads as it is told. The report goes out before refinement, so that
-// whoever listens may write files, stop, or change nothing; and a step whose mesh would not change
-// again is the last one.
+// After so much preparation it reads as it is told. The report goes out before refinement, so that whoever listens may write
+// files, stop, or change nothing; and a step whose mesh would not change again is the last one.
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const Announce &about_to)

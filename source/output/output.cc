@@ -4,6 +4,7 @@
 #include <hpvi/evaluation/stored_solution.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/collection.h>
+#include <hpvi/output/finished_run.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/report.h>
 #include <hpvi/output/run_files.h>
@@ -67,6 +68,7 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
                                                                 : "",
                                scene.reference_solution});
   summary.processes = n_processes;
+  summary.mesh_files = mesh_files_of(scene);
   try
   {
     if (n_steps > 0)

@@ -4,7 +4,6 @@
 #include <hpvi/base/version.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/output/contact_report.h>
-#include <hpvi/output/finished_run.h>
 #include <hpvi/output/plate_report.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
@@ -182,7 +181,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"no_intervals", ending.no_intervals},
       {"seconds", json_object(seconds)},
       {"warnings", json_lines(warnings)},
-      {"mesh_files", json_lines(mesh_files_of(scene))},
+      {"mesh_files", json_lines(mesh_files)},
       {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
