@@ -208,6 +208,7 @@ void reserve_heap()
     return;
   mallopt(M_MMAP_THRESHOLD, 1 << 25); // the largest that there is
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MXFAST, 0); // else each large block that is given back looks through all small ones
   constexpr int bytes = 1 << 29, usual = 1 << 17;
   mallopt(M_TOP_PAD, bytes);
   // More than is left at the top, and less than what is mapped on its own.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 namespace hpvi
 {
@@ -257,42 +256,48 @@ void ParallelogramStresses::add_to_hats(const std::vector<unsigned int> &some_ce
   }
 }
 
-/** Some cells at a time: what they need on the way stays in the cache. */
+/** Some cells of one element at a time: what they need on the way stays in the cache. */
+std::vector<ParallelogramStresses::Part> ParallelogramStresses::parts() const
+{
+  constexpr std::size_t at_once = 64;
+  std::vector<Part> result;
+  for (const auto &[element, batch] : batches)
+    for (std::size_t first = 0; first < batch.cells.size(); first += at_once)
+      result.push_back({element,
+                        {batch.cells.begin() + first,
+                         batch.cells.begin() + std::min(first + at_once, batch.cells.size())}});
+  return result;
+}
+
 void ParallelogramStresses::set_data()
 {
-  constexpr unsigned int at_once = 64;
-  std::vector<std::tuple<const StressElement *, Batch *, unsigned int>>
-      parts; // and their first cells
   for (auto &[element, batch] : batches)
   {
     batch.r.resize(std::size_t(element->n_data) * batch.cells.size());
     batch.gradients.resize(std::size_t(element->n_edges) * batch.n_hats);
     batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_hats);
-    for (unsigned int first = 0; first < batch.cells.size(); first += at_once)
-      parts.emplace_back(element, &batch, first);
   }
+  const std::vector<Part> all = parts();
   const auto set_part = [&](const unsigned int number)
   {
-    const auto &[element, batch, first] = parts[number];
+    const auto &[element, some_cells] = all[number];
+    Batch &batch = batches.at(element);
     const std::size_t n = element->n_data, column = n * n_bilinear;
-    const auto begin = batch->cells.begin() + first;
-    const std::vector<unsigned int> some_cells(
-        begin, begin + std::min<std::size_t>(at_once, batch->cells.end() - begin));
     std::vector<double> r(column * some_cells.size()), by_hats;
     for (unsigned int k = 0; k < some_cells.size(); ++k)
     {
       set_data(some_cells[k], &r[column * k]);
-      std::copy(&r[column * k], &r[column * k] + n, &batch->r[n * (first + k)]);
+      std::copy(&r[column * k], &r[column * k] + n, &batch.r[n * cells[some_cells[k]].place]);
     }
     const std::size_t first_hat = cells[some_cells[0]].first_hat;
     add_to_hats(some_cells, element->edge_energy(), r, by_hats);
-    std::copy(by_hats.begin(), by_hats.end(), &batch->gradients[first_hat * element->n_edges]);
+    std::copy(by_hats.begin(), by_hats.end(), &batch.gradients[first_hat * element->n_edges]);
     by_hats.clear();
     add_to_hats(some_cells, element->conditions(), r, by_hats);
     std::copy(by_hats.begin(), by_hats.end(),
-              batch->defects.begin() + first_hat * element->n_conditions());
+              batch.defects.begin() + first_hat * element->n_conditions());
   };
-  for_all(parts.size(), 1, set_part);
+  for_all(all.size(), 1, set_part);
 }
 
 /** Of sigma with divergence -F. */
@@ -366,25 +371,21 @@ void ParallelogramStresses::measure_from(const Solution<2> &other)
 std::vector<double> ParallelogramStresses::squares(const WithTractions &with_tractions) const
 {
   std::vector<double> result(cells.size());
-  std::vector<const std::pair<const StressElement *const, Batch> *> all;
-  for (const auto &of_element : batches)
-    all.push_back(&of_element);
+  const std::vector<Part> all = parts();
   const auto measure = [&](const unsigned int number)
   {
-    const auto &[element, batch] = *all[number];
+    const auto &[element, some_cells] = all[number];
     std::vector<double> R;
-    R.reserve(std::size_t(element->n_data) * batch.cells.size());
-    for (const unsigned int index : batch.cells)
-    {
-      const std::vector<double> r = with_tractions(index);
-      R.insert(R.end(), r.begin(), r.end());
-    }
-    element->half_energy(R, batch.cells.size());
-    for (unsigned int k = 0; k < batch.cells.size(); ++k)
+    R.reserve(std::size_t(element->n_data) * some_cells.size());
+    for (const unsigned int index : some_cells)
+      for (const double value : with_tractions(index))
+        R.push_back(value);
+    element->half_energy(R, some_cells.size());
+    for (unsigned int k = 0; k < some_cells.size(); ++k)
     {
       const double *const y = &R[std::size_t(k) * element->n_data];
-      result[batch.cells[k]] =
-          std::pow(cells[batch.cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
+      result[some_cells[k]] =
+          std::pow(cells[some_cells[k]].h, 2) * std::inner_product(y, y + element->n_data, y, 0.);
     }
   };
   for_all(all.size(), 1, measure);

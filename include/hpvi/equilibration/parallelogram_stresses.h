@@ -75,6 +75,14 @@ private:
     std::vector<double> gradients, defects; ///< G r and N' r by hat function
   };
 
+  /** Some cells of one element. */
+  struct Part
+  {
+    const StressElement *element;
+    std::vector<unsigned int> some_cells;
+  };
+
+  std::vector<Part> parts() const;
   void set_cells(const std::vector<unsigned int> &marked_corners);
   void set_data();
   void set_stress(unsigned int cell, const Solution<2> &of);
