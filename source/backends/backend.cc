@@ -57,6 +57,12 @@ std::string Backend<dim>::bound_forces(const ErrorBound &, std::vector<Resultant
 }
 
 template <int dim>
+std::unique_ptr<Backend<dim>> Backend<dim>::ahead(const Refinement &)
+{
+  return nullptr;
+}
+
+template <int dim>
 double Backend<dim>::round_off_estimate() const
 {
   return round_off_of_estimate(field());

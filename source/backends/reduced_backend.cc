@@ -32,23 +32,23 @@ using namespace dealii;
 //
 // The mesh is a shared pointer to a constant: a solution that a user keeps also keeps the mesh it lives on.
 template <int dim>
-ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene,
-                                    std::shared_ptr<const ShapeTables<dim>> all_tables)
-    : Backend<dim>(scene, MPI_COMM_SELF), tables(std::move(all_tables)), elements(scene, *tables),
-      smoothness(scene.adaptivity.reading), resultant_intervals(scene)
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, std::shared_ptr<Kept> all_kept)
+    : Backend<dim>(scene, MPI_COMM_SELF), kept(std::move(all_kept)),
+      smoothness(scene.adaptivity.reading)
 {
   prepare_blas();
 }
 
 template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
-    : ReducedBackend(scene, std::make_shared<const ShapeTables<dim>>())
+    : ReducedBackend(scene,
+                     std::make_shared<Kept>(scene, std::make_shared<const ShapeTables<dim>>()))
 {
   const auto coarse = std::make_shared<Triangulation<dim>>();
   make_mesh(scene, *coarse);
   cell_degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
   set_edge_degrees(*coarse, cell_degrees);
-  match_nested(scene, *tables, *coarse, cell_degrees);
+  match_nested(scene, *kept->tables, *coarse, cell_degrees);
   mesh = coarse;
   look_at_loads(1);
 }
@@ -56,14 +56,10 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
 template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &last,
                                     const PastSlip<dim> &past)
-    : ReducedBackend(scene, last.tables)
+    : ReducedBackend(scene, std::make_shared<Kept>(scene, last.kept->tables))
 {
-  mesh = last.mesh;
-  cell_degrees = last.cell_degrees;
-  this->refined = last.refined;
+  take_over(last);
   look_at_loads(1);
-  previous = last.previous;
-  motion = last.motion;
   past_slip = past;
   is_load_step = true;
   if (last.factored)
@@ -72,11 +68,37 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &las
   factored = std::move(last.factored);
 }
 
+// The bound of one step and the solution of the next touch nothing in common but what steps share.
+template <int dim>
+ReducedBackend<dim>::ReducedBackend(ReducedBackend &here, const Refinement &refinement)
+    : ReducedBackend(here.scene, here.kept)
+{
+  take_over(here);
+  loads = here.loads;
+  finer_loads = here.finer_loads;
+  seen_late = here.seen_late;
+  past_slip = here.past_slip;
+  is_load_step = here.is_load_step;
+  here.factored.reset(); // there may not be room for two
+  refine(refinement);
+}
+
+/** Mesh and start. */
+template <int dim>
+void ReducedBackend<dim>::take_over(const ReducedBackend &last)
+{
+  mesh = last.mesh;
+  cell_degrees = last.cell_degrees;
+  this->refined = last.refined;
+  previous = last.previous;
+  motion = last.motion;
+}
+
 /** The same on all meshes with these coarse cells. */
 template <int dim>
 void ReducedBackend<dim>::look_at_loads(const unsigned int finer)
 {
-  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, tables, finer);
+  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, kept->tables, finer);
   finer_loads = finer;
 }
 
@@ -108,8 +130,8 @@ void ReducedBackend<dim>::build()
   std::shared_ptr<const Spaces<dim>> spaces;
   {
     StageTimer timer(times.setup);
-    spaces =
-        std::make_shared<const Spaces<dim>>(scene, mesh, cell_degrees, tables, loads, past_slip);
+    spaces = std::make_shared<const Spaces<dim>>(scene, mesh, cell_degrees, kept->tables, loads,
+                                                 past_slip);
   }
   begin("assembling " + std::to_string(cell_degrees.size()) + " elements");
   if (scene.geometry.has_curves())
@@ -118,7 +140,7 @@ void ReducedBackend<dim>::build()
   unresolved = loads->unresolved(*mesh);
   missed_displacements = loads->missed_displacements(*mesh, cell_degrees);
   // The previous one goes last: it keeps the element matrices that the new one shares.
-  discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, elements);
+  discretisation = std::make_unique<const Discretisation<dim>>(scene, spaces, kept->elements);
 }
 
 // Where contact alone holds the body, statics has a say before anything is factored. Loads whose
@@ -191,16 +213,16 @@ void ReducedBackend<dim>::solve()
                   " multipliers"
             : "finding the displacement");
   program = {};
-  program.z = previous.values(contact_space, *tables);
+  program.z = previous.values(contact_space, *kept->tables);
   if (system.f.all_zero()) // the start would set the tolerance of a solution that may be zero
     program.z = 0.;
   const auto &motions = discretisation->free_motions;
   if (motions)
     program.motion = motions->from_basis(motion);
   const Timer timer;
-  Vector<double> u =
-      IterativeRefinement<dim>(*discretisation, elements, factored->solver, factored->reduction)
-          .solve(program, algebraic);
+  Vector<double> u = IterativeRefinement<dim>(*discretisation, kept->elements, factored->solver,
+                                              factored->reduction)
+                         .solve(program, algebraic);
   times.qp += program.seconds;
   times.recover += timer.wall_time() - program.seconds;
   if (drop_round_off(*discretisation, program.z, u))
@@ -293,14 +315,6 @@ void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
   discretisation->spaces->keep_bound(scene, refinement);
 }
 
-template <int dim>
-double ReducedBackend<dim>::missed(const std::optional<ErrorBound> &bound) const
-{
-  if (!unresolved.empty() || !missed_displacements.empty())
-    return std::numeric_limits<double>::infinity();
-  return bound ? bound->oscillation : 0.;
-}
-
 // @sect3{Refine}
 //
 // A copy of the mesh, for less than a hundredth of a step, so that every solution keeps its own.
@@ -354,26 +368,6 @@ ProblemSize ReducedBackend<dim>::size() const
 }
 
 template <int dim>
-std::optional<ReducedPart<dim>> ReducedBackend<dim>::reduced() const
-{
-  return ReducedPart<dim>{*solution,
-                          discretisation->system,
-                          algebraic,
-                          program.qp,
-                          program.coulomb,
-                          program.condition_raw,
-                          program.condition_scaled};
-}
-
-template <int dim>
-SolutionValues ReducedBackend<dim>::values() const
-{
-  SolutionValues result{solution->u, solution->z, motion, resultant_intervals.levels()};
-  result.kept.push_back(finer_loads);
-  return result;
-}
-
-template <int dim>
 bool ReducedBackend<dim>::restore(const SolutionValues &values)
 {
   const Spaces<dim> &spaces = *discretisation->spaces;
@@ -390,7 +384,7 @@ bool ReducedBackend<dim>::restore(const SolutionValues &values)
   }
   levels.pop_back();
   keep_start(values.z, values.motion);
-  resultant_intervals.begin_with(levels);
+  kept->resultant_intervals.begin_with(levels);
   take(values.u, values.z);
   return true;
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -19,6 +20,7 @@ struct Job
 {
   const unsigned int n, at_once;
   const std::function<void(unsigned int, unsigned int)> &work;
+  const Job *const outer; ///< a part of which has begun it; null: none
   unsigned int next = 0, n_at_work = 0;
   unsigned int first_failed = -1; ///< where the part begins that threw
   std::exception_ptr failure{};   ///< what it threw
@@ -27,18 +29,28 @@ struct Job
   {
     return next < n && !failure;
   }
+
+  /** Does @p other wait for it? */
+  bool is_inside(const Job *const other) const
+  {
+    const Job *job = this;
+    while (job && job != other)
+      job = job->outer;
+    return job == other;
+  }
 };
 } // namespace
 
 struct Team::Crew
 {
   std::mutex mutex; ///< of all that follows
-  std::condition_variable begun, finished;
+  std::condition_variable begun,
+      changed;             ///< for those who have nothing to do, and who wait for a job
   std::vector<Job *> jobs; ///< that are not done; those that parts of others have begun come last
   bool is_over = false;
   std::vector<std::thread> threads;
 
-  Job *open_job() const;
+  Job *open_job(const Job *inside) const;
   void take_parts(Job &of, std::unique_lock<std::mutex> &lock);
   void help();
   void end();
@@ -48,20 +60,23 @@ namespace
 {
 thread_local Team::Crew *serving = nullptr; ///< the calling thread
 thread_local bool has_team = false;         ///< has it one, or is it of one?
+thread_local const Job *at_work = nullptr;  ///< whose part it is working on
 std::atomic<bool> are_cores_taken(false);   ///< by the team of any thread
 } // namespace
 
-/** The innermost with parts that nobody has taken; null: none. */
-Job *Team::Crew::open_job() const
+/** The innermost with parts that nobody has taken, of those inside of one; of all, if that is null. Null: none. */
+Job *Team::Crew::open_job(const Job *const inside) const
 {
   const auto found =
-      std::find_if(jobs.rbegin(), jobs.rend(), [](const Job *job) { return job->has_more(); });
+      std::find_if(jobs.rbegin(), jobs.rend(),
+                   [&](const Job *job) { return job->has_more() && job->is_inside(inside); });
   return found == jobs.rend() ? nullptr : *found;
 }
 
 /** With the mutex held, but for the work itself. */
 void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
 {
+  const Job *const before = std::exchange(at_work, &of);
   for (++of.n_at_work; of.has_more();)
   {
     const unsigned int begin = of.next, end = of.next + std::min(of.at_once, of.n - of.next);
@@ -84,6 +99,8 @@ void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
     }
   }
   --of.n_at_work;
+  at_work = before;
+  changed.notify_all();
 }
 
 void Team::Crew::help()
@@ -94,11 +111,10 @@ void Team::Crew::help()
   std::unique_lock<std::mutex> lock(mutex);
   for (;;)
   {
-    begun.wait(lock, [&]() { return is_over || open_job(); });
+    begun.wait(lock, [&]() { return is_over || open_job(nullptr); });
     if (is_over)
       return;
-    take_parts(*open_job(), lock);
-    finished.notify_all();
+    take_parts(*open_job(nullptr), lock);
   }
 }
 
@@ -161,12 +177,17 @@ void in_parts(const unsigned int n, const unsigned int at_once,
     return;
   }
   Team::Crew &crew = *serving;
-  Job job{n, at_once, work};
+  Job job{n, at_once, work, at_work};
   std::unique_lock<std::mutex> lock(crew.mutex);
   crew.jobs.push_back(&job);
   crew.begun.notify_all();
+  crew.changed.notify_all();
   crew.take_parts(job, lock); // the first one without letting others come before
-  crew.finished.wait(lock, [&]() { return job.n_at_work == 0; });
+  while (job.n_at_work > 0)
+    if (Job *const inner = crew.open_job(&job))
+      crew.take_parts(*inner, lock); // of which those have begun that this waits for
+    else
+      crew.changed.wait(lock);
   crew.jobs.erase(std::find(crew.jobs.begin(), crew.jobs.end(), &job));
   if (job.failure)
     std::rethrow_exception(job.failure);

@@ -5,189 +5,17 @@
 #include <gtest/gtest.h>
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/base/common_table.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/team.h>
 
 #include <atomic>
-#include <chrono>
-#include <map>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace
 {
 using namespace verification;
-
-TEST(Team, DoesAllWorkOnce)
-{
-  for (const unsigned int n_threads : {1U, 2U, 5U})
-  {
-    const Team team(n_threads);
-    EXPECT_EQ(team_size(), n_threads);
-    for (const unsigned int n : {0U, 1U, 7U, 1000U})
-      for (const unsigned int at_once : {1U, 3U, 2000U})
-      {
-        std::vector<unsigned int> times(n, 0);
-        for_all(n, at_once, [&](const unsigned int k) { ++times[k]; });
-        EXPECT_EQ(times, std::vector<unsigned int>(n, 1));
-      }
-  }
-  EXPECT_EQ(team_size(), 1U);
-}
-
-/** It is several threads that work. */
-TEST(Team, WorksTogether)
-{
-  const Team team(3);
-  const Team none(7); // the outer one serves
-  EXPECT_EQ(team_size(), 3U);
-  std::atomic<unsigned int> n_there(0);
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  for_all(3, 1,
-          [&](unsigned int)
-          {
-            const Team of_a_part(2);
-            EXPECT_EQ(team_size(), 3U);
-            ++n_there;
-            while (n_there < 3 && std::chrono::steady_clock::now() < patience)
-              std::this_thread::yield();
-          });
-  EXPECT_EQ(n_there, 3U);
-}
-
-/** Who has done a part helps with what is inside of another: none of these would end without. */
-TEST(Team, HelpsInsideOfParts)
-{
-  const Team team(3);
-  for (unsigned int repetition = 0; repetition < 20; ++repetition)
-  {
-    std::atomic<unsigned int> n_there(0), n_done(0);
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    for_all(2, 1,
-            [&](const unsigned int part)
-            {
-              if (part == 1)
-                return for_all(30, 2, [&](unsigned int) { ++n_done; });
-              for_all(3, 1,
-                      [&](unsigned int)
-                      {
-                        ++n_there;
-                        while (n_there < 3 && std::chrono::steady_clock::now() < patience)
-                          std::this_thread::yield();
-                        for_all(10, 1, [&](unsigned int) { ++n_done; });
-                      });
-            });
-    EXPECT_EQ(n_there, 3U);
-    EXPECT_EQ(n_done, 60U);
-    try
-    {
-      for_all(4, 1,
-              [&](const unsigned int part)
-              {
-                for_all(9, 1,
-                        [&](const unsigned int k)
-                        {
-                          if (part >= 2 && k >= 3)
-                            throw NumericalFailure(std::to_string(part) + std::to_string(k));
-                        });
-              });
-      ADD_FAILURE() << "nothing was thrown";
-    }
-    catch (const NumericalFailure &failure)
-    {
-      EXPECT_EQ(failure.what(), std::string("23"));
-    }
-  }
-}
-
-/** Two threads do not share the cores twice. */
-TEST(Team, IsOneAtATime)
-{
-  const Team team(2);
-  std::thread other(
-      []()
-      {
-        const Team another(2);
-        EXPECT_EQ(team_size(), 1U);
-        unsigned int sum = 0;
-        for_all(100, 1, [&](const unsigned int k) { sum += k; });
-        EXPECT_EQ(sum, 4950U);
-      });
-  other.join();
-  EXPECT_EQ(team_size(), 2U);
-}
-
-/** Whoever is first to throw, what the first part in order has thrown goes on; then it works as before. */
-TEST(Team, ThrowsWhatTheFirstThrew)
-{
-  for (const unsigned int n_threads : {1U, 2U, 3U})
-  {
-    const Team team(n_threads);
-    for (unsigned int repetition = 0; repetition < 50; ++repetition)
-    {
-      const auto work = [&](const unsigned int k)
-      {
-        if (k == 11)
-          std::this_thread::yield();
-        if (k == 11 || k == 12 || k == 17)
-          throw NumericalFailure("part " + std::to_string(k));
-      };
-      try
-      {
-        for_all(40, 1, work);
-        ADD_FAILURE() << "nothing was thrown";
-      }
-      catch (const NumericalFailure &failure)
-      {
-        EXPECT_EQ(failure.what(), std::string("part 11"));
-      }
-    }
-    unsigned int sum = 0;
-    for_all(1, 1, [&](unsigned int) { ++sum; });
-    EXPECT_EQ(sum, 1U);
-  }
-}
-
-TEST(CommonTable, MakesWhatIsMissing)
-{
-  const Team team(3);
-  std::map<unsigned int, double> squares;
-  for_all(2000, 7,
-          [&](const unsigned int k)
-          {
-            const unsigned int key = k % 50;
-            EXPECT_EQ(common_value(squares, key, [&]() { return double(key) * key; }), key * key);
-          });
-  EXPECT_EQ(squares.size(), 50U);
-}
-
-/** By the first place of each key; and none is left where making one fails. */
-TEST(CommonTable, KeepsTheOrder)
-{
-  const std::vector<unsigned int> keys = {3, 1, 3, 2, 1, 5};
-  for (const unsigned int n_threads : {1U, 3U})
-  {
-    const Team team(n_threads);
-    std::map<unsigned int, unsigned int> places = {{2, 77}};
-    const auto values = ordered_values(places, keys, [](const unsigned int k) { return k; });
-    const std::vector<unsigned int> expected = {0, 1, 0, 77, 1, 5};
-    for (unsigned int k = 0; k < keys.size(); ++k)
-      EXPECT_EQ(*values[k], expected[k]);
-    std::map<unsigned int, unsigned int> others = {{2, 77}};
-    EXPECT_THROW(ordered_values(others, keys,
-                                [](const unsigned int k) -> unsigned int
-                                {
-                                  if (k == 5)
-                                    throw NumericalFailure("no");
-                                  return k;
-                                }),
-                 NumericalFailure);
-    EXPECT_EQ(others.size(), 1U);
-  }
-}
 
 /** Of a grid of n x n unknowns, each coupled to its neighbours and to those two away. */
 SymmetricMatrix grid(const unsigned int n)
@@ -315,6 +143,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"bolt", {steps("3")}}, Kind{"press-ring", {steps("4")}},
                       Kind{"press-ring-axi", {steps("4")}}, Kind{"punch-plate", {steps("5")}},
                       Kind{"bimetal", {steps("4")}},
+                      Kind{
+                          "hertz", // ends by the bound: no step is solved ahead that may be in vain
+                          {{"Adaptivity/Tolerance", "0.05"}, {"Adaptivity/Tolerance on", "bound"}}},
+                      Kind{"propped", {steps("5"), {"Error/Bound", "last step"}}},
                       Kind{"fretting", {steps("2"), {"Loading/Steps", "2"}}}),
     [](const auto &kind)
     {
@@ -323,22 +155,47 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-/** Whoever listens may give up at any stage, and nothing stays behind. */
+/** Whoever listens may give up at any stage; the steps before are told, and nothing stays behind. */
 TEST(ThreadsAtTheEnd, EndWhenTheListenerHasEnough)
 {
   const Scene<2> scene =
       shipped_scene("han-6-12", {{"Solver/Threads", "3"}, {"Adaptivity/Maximum steps", "6"}});
-  for (const unsigned int last : {3U, 20U, 30U})
+  for (const unsigned int last : {3U, 12U, 13U, 14U, 15U, 16U, 17U, 18U, 30U})
   {
-    unsigned int n_heard = 0;
-    EXPECT_THROW(AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {},
-                                              [&](const Progress &)
+    unsigned int n_heard = 0, n_told = 0, step = 0;
+    EXPECT_THROW(AdaptiveSolver<2>(scene).run([&](const StepReport<2> &) { ++n_told; },
+                                              [&](const Progress &progress)
                                               {
+                                                step = progress.step;
                                                 if (++n_heard == last)
                                                   throw NumericalFailure("enough");
                                               }),
                  NumericalFailure);
+    EXPECT_EQ(n_told, step - 1);
     EXPECT_EQ(team_size(), 1U);
+  }
+}
+
+/** With threads the next step is on its way before this one is told, and their seconds are shares of the time that passes. */
+TEST(ThreadsAtTheEnd, SolveTheNextStepMeanwhile)
+{
+  for (const unsigned int n_threads : {1U, 2U})
+  {
+    const Scene<2> scene =
+        shipped_scene("han-6-12", {{"Solver/Threads", std::to_string(n_threads)}, steps("5")});
+    unsigned int heard = 0;
+    const dealii::Timer timer;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_EQ(heard, step.number + (n_threads > 1 && step.number < 5 ? 1 : 0));
+          EXPECT_LE(step.seconds, timer.wall_time());
+          for (const auto &[name, seconds] : step.times.named())
+            EXPECT_GE(seconds, 0.) << name;
+          EXPECT_GT(step.times.bound, 0.);
+          EXPECT_GT(step.times.factor, 0.);
+        },
+        [&](const Progress &progress) { heard = progress.step; });
   }
 }
 

@@ -12,6 +12,9 @@
 
 namespace hpvi
 {
+template <int dim>
+struct StepStages;
+
 /**
  * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene, by the backend that
  * SolverSettings::path asks for. Owns the stages; prints nothing and writes no file: each finished step
@@ -54,7 +57,8 @@ public:
 
   /**
    * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
-   * may throw to give up the step. Until it returns, in the callbacks too, dense algebra has
+   * may throw to give up the step. With several threads it hears of the next step before @p finished_step has
+   * this one, for one thread solves that meanwhile. Until it returns, in the callbacks too, dense algebra has
    * OneThread. Throws NumericalFailure.
    */
   void run(
@@ -71,8 +75,7 @@ public:
   std::optional<ReducedPart<dim>> reduced() const;
 
 private:
-  struct Stages;
-  std::unique_ptr<Stages> stages;
+  std::unique_ptr<StepStages<dim>> stages;
 };
 } // namespace hpvi
 

@@ -141,6 +141,12 @@ public:
   virtual void refine(const Refinement &refinement) = 0;
   virtual Degrees degrees() const = 0;
 
+  /**
+   * In the place of refine(): one for the next step, which may be solved by one thread while another asks this one about its
+   * own. What steps share goes on to it, so that this one is not to solve() any more. Null where there is none.
+   */
+  virtual std::unique_ptr<Backend> ahead(const Refinement &refinement);
+
   /** All refinements since the coarse mesh, those of discretise() among them. */
   const std::vector<MeshMarks> &trail() const
   {

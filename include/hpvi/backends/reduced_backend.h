@@ -11,6 +11,7 @@
 #include <hpvi/intervals/resultant_intervals.h>
 
 #include <array>
+#include <limits>
 
 namespace hpvi
 {
@@ -50,12 +51,22 @@ public:
     return *known_forces;
   }
 
-  std::optional<ReducedPart<dim>> reduced() const override;
+  std::optional<ReducedPart<dim>> reduced() const override
+  {
+    return ReducedPart<dim>{*solution,
+                            discretisation->system,
+                            algebraic,
+                            program.qp,
+                            program.coulomb,
+                            program.condition_raw,
+                            program.condition_scaled};
+  }
+
   BoundOfStep bound(double own_stress) override;
   std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override
   {
     this->begin("bounding forces");
-    return resultant_intervals.set(*solution, bound, forces);
+    return kept->resultant_intervals.set(*solution, bound, forces);
   }
   double decay_rate(const unsigned int cell) const override
   {
@@ -63,16 +74,33 @@ public:
   }
 
   void mark_unresolved(Refinement &refinement) const override;
-  double missed(const std::optional<ErrorBound> &bound) const override;
+  double missed(const std::optional<ErrorBound> &bound) const override
+  {
+    if (!unresolved.empty() || !missed_displacements.empty())
+      return std::numeric_limits<double>::infinity();
+    return bound ? bound->oscillation : 0.;
+  }
+
   Warnings warnings(const std::vector<ContactState<dim>> &contact,
                     const Equilibrium<dim> &balance) const override;
   void refine(const Refinement &refinement) override;
+  std::unique_ptr<Backend<dim>> ahead(const Refinement &refinement) override
+  {
+    return std::unique_ptr<Backend<dim>>(new ReducedBackend(*this, refinement));
+  }
+
   Degrees degrees() const override
   {
     return cell_degrees;
   }
 
-  SolutionValues values() const override;
+  SolutionValues values() const override
+  {
+    SolutionValues result{solution->u, solution->z, motion, kept->resultant_intervals.levels()};
+    result.kept.push_back(finer_loads);
+    return result;
+  }
+
   bool restore(const SolutionValues &values) override;
   std::unique_ptr<Backend<dim>> next_load_step(const Scene<dim> &scene,
                                                const PastSlip<dim> &past) override
@@ -85,8 +113,25 @@ private:
   using Backend<dim>::times;
   using Backend<dim>::begin;
 
-  ReducedBackend(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> tables);
+  /** What steps share. */
+  struct Kept
+  {
+    Kept(const Scene<dim> &scene, std::shared_ptr<const ShapeTables<dim>> tables)
+        : tables(std::move(tables)), elements(scene, *this->tables), resultant_intervals(scene)
+    {
+    }
 
+    const std::shared_ptr<const ShapeTables<dim>> tables;
+    CondensedElements<dim> elements; ///< of the step that is solved
+    // Of the step whose error is bounded, which may be the one before:
+    ErrorBounds error_bounds;
+    ResultantIntervals resultant_intervals;
+  };
+
+  ReducedBackend(const Scene<dim> &scene, std::shared_ptr<Kept> kept);
+  ReducedBackend(ReducedBackend &here, const Refinement &refinement); ///< ahead()
+
+  void take_over(const ReducedBackend &last);
   void look_at_loads(unsigned int finer);
   void assemble();
   void build();
@@ -98,7 +143,7 @@ private:
   {
     ErrorBound result;
     ErrorBounds anew; // which steps had one before must not decide about the last bits
-    ErrorBounds &bounds = scene.error_bound_last ? anew : error_bounds;
+    ErrorBounds &bounds = scene.error_bound_last ? anew : kept->error_bounds;
     std::array<double, 2> seconds{};
     const auto part = [&](const unsigned int k)
     {
@@ -127,14 +172,11 @@ private:
 
   std::shared_ptr<const dealii::Triangulation<dim>> mesh;
   Degrees cell_degrees;
-  const std::shared_ptr<const ShapeTables<dim>> tables;
-  CondensedElements<dim> elements;
+  const std::shared_ptr<Kept> kept;
   std::shared_ptr<const LoadRules<dim>> loads;
   unsigned int finer_loads = 1;   ///< how close it looks
   std::string missing, seen_late; ///< missed_loads() of this mesh, of an earlier one
   const LegendreSmoothness<dim> smoothness;
-  ErrorBounds error_bounds;
-  ResultantIntervals resultant_intervals;
   std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as all that follows
   std::vector<MissedDisplacement<dim>> missed_displacements;
   std::unique_ptr<const Discretisation<dim>> discretisation;

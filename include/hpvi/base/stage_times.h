@@ -46,13 +46,26 @@ struct StageTimes
 
   StageTimes &operator+=(const StageTimes &other)
   {
-    for (const auto stage : {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor,
-                             &StageTimes::qp, &StageTimes::recover, &StageTimes::estimate,
-                             &StageTimes::bound, &StageTimes::decide, &StageTimes::refine})
+    for (double StageTimes::*const stage : stages)
       this->*stage += other.*stage;
     return *this;
   }
+
+  StageTimes &operator*=(const double factor)
+  {
+    for (double StageTimes::*const stage : stages)
+      this->*stage *= factor;
+    return *this;
+  }
+
+private:
+  static const std::array<double StageTimes::*, 9> stages;
 };
+
+inline const std::array<double StageTimes::*, 9> StageTimes::stages = {
+    {&StageTimes::setup, &StageTimes::assemble, &StageTimes::factor, &StageTimes::qp,
+     &StageTimes::recover, &StageTimes::estimate, &StageTimes::bound, &StageTimes::decide,
+     &StageTimes::refine}};
 
 /** Adds the wall time of its own life to a stage. */
 class StageTimer

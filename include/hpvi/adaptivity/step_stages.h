@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_step_stages_h
+#define hpvi_step_stages_h
+
+#include <hpvi/adaptivity/checkpoint.h>
+#include <hpvi/adaptivity/mean_intervals.h>
+#include <hpvi/adaptivity/step_ahead.h>
+#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/base/progress.h>
+#include <hpvi/scene/data_scale.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/** The stages of one step after the other, and what they share. What belongs to a mesh is the backend's. Functions are collective. */
+template <int dim>
+struct StepStages
+{
+  const Scene<dim> &scene;
+  std::unique_ptr<Backend<dim>> backend;
+  std::unique_ptr<StepAhead<dim>> ahead; ///< the next step, if it is solved
+  bool is_solved = false;                ///< it was ahead
+  std::function<void(const Progress &)> about_to;
+  const TrueError<dim> true_error;
+  MeanIntervals<dim> mean_intervals;
+  DataScale data;
+  ErrorEstimate estimate; ///< of the current step, as all that follows
+  EstimateNorms norms;
+  Energies energies;
+  BoundOfStep bound;
+  bool is_bound_open = false; ///< it may still be asked for
+  Refinement refinement;
+  History<dim> history;               ///< of the steps that are solved
+  std::vector<MeshMarks> refinements; ///< from the coarse mesh to that of the current step
+  std::vector<std::string> entries;   ///< of the scene, once a state() is asked for
+
+  StepStages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
+      : scene(scene), backend(std::move(backend)), true_error(scene), mean_intervals(scene)
+  {
+    together(this->backend->communicator, [&]() { data = data_scale(scene); });
+  }
+
+  void hear(const std::function<void(const Progress &)> &listener);
+  void announce(Backend<dim> &of);
+  void solve();
+  void judge();
+  double own_stress() const;
+  bool has_late_bound() const;
+  bool asks_for_bound(const StepReport<dim> &step) const;
+  void close_bound();
+  void bound_unless_late();
+  Refinement mark() const;
+  PastStep<dim> past_step() const;
+  bool goes_on() const;
+  StepReport<dim> tell();
+  StepReport<dim> report();
+  std::string end_of_run() const;
+  void add_results(StepReport<dim> &step);
+  void add_bound(StepReport<dim> &step);
+  void count(StepReport<dim> &step);
+  void refine();
+  void resume(const RunState<dim> &state);
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The stages of a step, in the order in which the loop calls them. They see numbers of a step, and ask its backend for those.
+#include <hpvi/adaptivity/all_cells.h>
+#include <hpvi/adaptivity/column_width.h>
+#include <hpvi/adaptivity/late_bound.h>
+#include <hpvi/adaptivity/limits.h>
+#include <hpvi/adaptivity/marking.h>
+#include <hpvi/adaptivity/step_stages.h>
+#include <hpvi/base/memory.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/processes.h>
+#include <hpvi/base/team.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+// Every stage announces itself before it begins; the library itself prints nothing.
+template <int dim>
+void StepStages<dim>::hear(const std::function<void(const Progress &)> &listener)
+{
+  about_to = listener;
+  announce(*backend);
+}
+
+/** As stages of the step after those of the history. */
+template <int dim>
+void StepStages<dim>::announce(Backend<dim> &of)
+{
+  const unsigned int number = history.size() + 1;
+  of.about_to = [this, number](const std::string &stage, const std::string &note) {
+    about_to({number, stage, note});
+  };
+}
+
+template <int dim>
+void StepStages<dim>::solve()
+{
+  if (std::exchange(is_solved, false))
+    return;
+  backend->discretise();
+  backend->solve();
+}
+
+// @sect3{Estimate}
+//
+// Two answers to two questions. The residual indicator $\eta_K$ (4.50) says where the error is,
+// costs next to nothing and exists for every scene. The guaranteed bound says how large the error
+// is at most, and costs half of a step; where the last one alone shall have it, it waits for the limits.
+// Numbers that double precision does not support any more end the run here, with one line, before anybody reads them.
+template <int dim>
+void StepStages<dim>::judge()
+{
+  estimate = backend->estimate();
+  norms = hpvi::norms(estimate, backend->communicator);
+  check_finite("the error indicator", norms.total);
+  {
+    StageTimer timer(backend->times.recover);
+    energies = backend->energies();
+  }
+  check_numbers(scene, backend->field().largest_displacement(), energies);
+  if (const auto reduced = backend->reduced())
+    check_algebraic_error(reduced->algebraic);
+  history.push_back(past_step());
+}
+
+/** Of the step before. */
+template <int dim>
+double StepStages<dim>::own_stress() const
+{
+  return history.size() < 2 ? 0. : history[history.size() - 2].own_stress;
+}
+
+template <int dim>
+bool StepStages<dim>::has_late_bound() const
+{
+  return scene.error_bound && scene.error_bound_last && backend->reduced();
+}
+
+/** Where it is open: nothing follows, or it may be the end of the run. */
+template <int dim>
+bool StepStages<dim>::asks_for_bound(const StepReport<dim> &step) const
+{
+  return is_bound_open && (!step.stopped_by.empty() || may_meet_tolerance(scene, history));
+}
+
+template <int dim>
+void StepStages<dim>::close_bound()
+{
+  bound = backend->bound(has_late_bound() ? 0. : own_stress());
+  is_bound_open = false;
+}
+
+template <int dim>
+void StepStages<dim>::bound_unless_late()
+{
+  if (is_bound_open && !has_late_bound())
+    close_bound();
+}
+
+// @sect3{Mark}
+//
+// The strategy sees numbers only: degrees, indicators, and on demand the decay rate of a cell,
+// which costs a transformation of its coefficients and is asked for marked cells alone. Some
+// things override it, because no indicator can see them.
+template <int dim>
+Refinement StepStages<dim>::mark() const
+{
+  backend->begin("deciding on h and p");
+  StageTimer timer(backend->times.decide);
+  const bool by_bound = scene.adaptivity.indicator == Indicator::bound && bound.bound;
+  Refinement refinement =
+      hpvi::mark(scene.adaptivity, backend->degrees(),
+                 by_bound ? bound.bound->indicators() : of_all_cells(estimate, backend->field()),
+                 [&](const unsigned int cell) { return backend->decay_rate(cell); });
+  if (scene.adaptivity.method != Method::pu)
+    backend->mark_unresolved(refinement);
+  return refinement;
+}
+
+// @sect3{Refine}
+template <int dim>
+void StepStages<dim>::refine()
+{
+  refinements.emplace_back(refinement, backend->degrees());
+  if (ahead)
+  {
+    backend = std::exchange(ahead, nullptr)->take();
+    is_solved = true;
+    return;
+  }
+  announce(*backend);
+  backend->refine(refinement);
+}
+
+// @sect3{Going on where a run has ended}
+//
+// A run state holds the marks that led to the last mesh, its displacement and its multiplier. The
+// meshes are made again from the coarse one, mark by mark: the only way to get the same numbering,
+// the same element matrices, and so the same last bit.
+/** Marking is not kept in a state, because it follows from the solution. */
+template <int dim>
+void StepStages<dim>::resume(const RunState<dim> &state)
+{
+  const FileFormat &format = RunState<dim>::format();
+  backend->discretise();
+  for (const MeshMarks &marks : state.refinements)
+  {
+    const Degrees degrees = backend->degrees();
+    if (!marks.fits(degrees))
+      format.reject(state.name, "the run state has another coarse mesh");
+    refinement = marks.refinement(degrees);
+    refine();
+    backend->discretise(); // element matrices go from step to step, to the last bit
+  }
+  if (state.history.size() != state.refinements.size() + 1 || !backend->restore(state.values))
+    format.reject(state.name, "the run state has another number of steps or unknowns");
+  history = state.history;
+  estimate = backend->estimate();
+  is_bound_open = true;
+  bound_unless_late();
+  refinement = mark();
+  std::string limit = end_of_run();
+  if (is_bound_open && limit == "round-off") // what u_N misses of the data may be more
+  {
+    close_bound();
+    limit = end_of_run();
+  }
+  if (!limit.empty())
+    format.reject(state.name, "there is nothing to go on with after step " +
+                                  std::to_string(history.size()) + ": " +
+                                  (limit == "round-off" ? "exact to round-off"
+                                                        : "Adaptivity/" + limit + " ends the run"));
+  refine();
+  backend->times = {};
+}
+
+// @sect3{Report}
+//
+// What a step has to say, as one value.
+/** What limits and warnings will ask of the step. */
+template <int dim>
+PastStep<dim> StepStages<dim>::past_step() const
+{
+  const auto reduced = backend->reduced();
+  PastStep<dim> past;
+  past.seconds = history.empty() ? 0. : history.back().seconds; // count() adds its own
+  past.estimate = norms.total;
+  past.relative_estimate =
+      part_of(norms.total / std::sqrt(scene.reference_coercivity()), energies.norm);
+  past.lacks_condition = reduced && (!std::isfinite(reduced->condition_raw) ||
+                                     !std::isfinite(reduced->condition_scaled));
+  return past;
+}
+
+/** Is there a next step whatever the bound of this one says? It would be solved for nothing else. */
+template <int dim>
+bool StepStages<dim>::goes_on() const
+{
+  return end_of_run().empty() && !may_meet_tolerance(scene, history);
+}
+
+// The way to the next step needs no bound of this one, unless cells are marked by it. Where there are threads for both, and the
+// run goes on for sure, the next step is solved while this one is told: each has parts for one thread, at which the other waited.
+template <int dim>
+StepReport<dim> StepStages<dim>::tell()
+{
+  is_bound_open = true;
+  bound = open_bound();
+  if (scene.adaptivity.indicator == Indicator::bound)
+    bound_unless_late();
+  refinement = mark();
+  std::optional<StepReport<dim>> step;
+  const auto tell_all = [&]()
+  {
+    bound_unless_late();
+    step.emplace(report());
+  };
+  std::unique_ptr<Backend<dim>> next =
+      team_size() > 1 && goes_on() ? backend->ahead(refinement) : nullptr;
+  if (next)
+  {
+    announce(*next);
+    ahead = std::make_unique<StepAhead<dim>>(std::move(next), *backend, tell_all);
+  }
+  else
+    tell_all();
+  count(*step);
+  step->errors = true_error.measure(step->field, step->contact); // which nobody's seconds count
+  return std::move(*step);
+}
+
+template <int dim>
+StepReport<dim> StepStages<dim>::report()
+{
+  const Field<dim> &field = backend->field();
+  std::vector<ContactState<dim>> contact;
+  {
+    StageTimer timer(backend->times.recover);
+    contact = contact_states(field);
+    history.back().peaks = stress_peaks(stress_samples(field), scene);
+  }
+  const PastStep<dim> &past = history.back();
+  StepReport<dim> step{static_cast<unsigned int>(history.size()),
+                       scene,
+                       field,
+                       backend->size(),
+                       estimate,
+                       norms,
+                       {},
+                       bound.missing,
+                       {},
+                       {},
+                       backend->reduced(),
+                       backend->primal()};
+  step.scaled_estimate = norms.total / std::sqrt(scene.reference_coercivity());
+  step.relative_estimate = past.relative_estimate;
+  step.energies = energies;
+  step.contact = std::move(contact);
+  step.peaks = past.peaks;
+  add_results(step);
+  add_bound(step);
+  return step;
+}
+
+/** What engineers read: forces and probes. */
+template <int dim>
+void StepStages<dim>::add_results(StepReport<dim> &step)
+{
+  StageTimer timer(backend->times.recover);
+  step.equilibrium = equilibrium(scene, backend->nodal_forces(), backend->communicator);
+  step.forces = resultants(scene, step.equilibrium, step.contact);
+  step.probes = probe_values(step.field);
+  step.probe_lines = probe_lines(step.field);
+}
+
+template <int dim>
+void StepStages<dim>::add_bound(StepReport<dim> &step)
+{
+  StageTimer timer(backend->times.recover);
+  take_bound(bound, step, history.back());
+  const bool is_bounded = step.bound && scene.intervals;
+  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
+  if (is_bounded)
+    mean_intervals.set(step);
+  history.back().relative_half_width = relative_half_width(step);
+}
+
+/** Seconds and memory. */
+template <int dim>
+void StepStages<dim>::count(StepReport<dim> &step)
+{
+  step.times += backend->times;
+  history.back().seconds += Utilities::MPI::max(backend->times.total(), backend->communicator);
+  backend->times = {};
+  step.seconds = history.back().seconds;
+  step.peak_memory = Utilities::MPI::sum(peak_memory(), backend->communicator);
+}
+
+/** What makes the last step the last of all; else empty. */
+template <int dim>
+std::string StepStages<dim>::end_of_run() const
+{
+  const Field<dim> &field = backend->field();
+  const std::string limit = reached_limit(
+      scene, history,
+      {backend->size().n_free, std::max(field.largest_displacement(), data.displacement),
+       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); },
+       is_bound_open});
+  return limit.empty() && refinement.is_empty(backend->degrees()) ? nothing_marked(scene.adaptivity)
+                                                                  : limit;
+}
+
+template struct StepStages<2>;
+template struct StepStages<3>;
+} // namespace hpvi
