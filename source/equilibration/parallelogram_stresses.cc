@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
-#include <hpvi/equilibration/initial_modes.h>
 #include <hpvi/equilibration/parallelogram_stresses.h>
 #include <hpvi/equilibration/stable_modes.h>
 
@@ -130,15 +129,8 @@ void ParallelogramStresses::subtract_initial_stress(const unsigned int index)
   Cell &cell = cells[index];
   cell.initial = initial_modes(solution, patches.cells()[index].iterator, cell.B,
                                cell.element->m - 1, cell.sigma.n, cache.legendre);
-  for (unsigned int k = 0; k < cell.initial.coefficients.size(); ++k)
-    cell.sigma.coefficients[k] -= cell.initial.coefficients[k];
-}
-
-double ParallelogramStresses::missed_initial_stress(const unsigned int index) const
-{
-  const Cell &cell = cells[index];
-  return missed_initial_modes(solution, patches.cells()[index].iterator, cell.B,
-                              cell.element->m - 1, cell.initial);
+  for (unsigned int k = 0; k < cell.initial.modes.coefficients.size(); ++k)
+    cell.sigma.coefficients[k] -= cell.initial.modes.coefficients[k];
 }
 
 /**

@@ -3,6 +3,7 @@
 #define hpvi_parallelogram_stresses_h
 
 #include <hpvi/body/element_matrices.h>
+#include <hpvi/equilibration/initial_modes.h>
 #include <hpvi/equilibration/patch_problem.h>
 
 #include <functional>
@@ -48,7 +49,10 @@ public:
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
   /** The norm in complementary energy of what sigma lacks of C eps_0 on the cell, where a scene has initial strains. */
-  double missed_initial_stress(unsigned int cell) const;
+  double missed_initial_stress(const unsigned int cell) const
+  {
+    return cells[cell].initial.missed;
+  }
 
 private:
   /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
@@ -58,8 +62,8 @@ private:
     dealii::Tensor<2, 2> B;
     double h; ///< of the element [length]
     Modes<3> sigma;
-    Modes<3> initial; ///< what sigma has of -C eps_0; without modes: none
-    Modes<2> force;   ///< -F in the frame, from the points of the loads; without modes: none
+    InitialModes initial; ///< what sigma has of -C eps_0; without modes: none
+    Modes<2> force;       ///< -F in the frame, from the points of the loads; without modes: none
     unsigned int place, first_hat; ///< in its batch
   };
 
