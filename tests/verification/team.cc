@@ -51,6 +51,7 @@ TEST(Team, WorksTogether)
               std::this_thread::yield();
           });
   EXPECT_EQ(n_there, 3U);
+  EXPECT_TRUE(std::chrono::steady_clock::now() < patience); // else one after the other
 }
 
 /** Who has done a part, or waits for it, helps with what is inside of another: none of these would end without. */
@@ -78,6 +79,7 @@ TEST(Team, HelpsInsideOfParts)
             });
     EXPECT_EQ(n_there, 3U);
     EXPECT_EQ(n_done, 60U);
+    ASSERT_TRUE(std::chrono::steady_clock::now() < patience); // else one after the other
     try
     {
       for_all(4, 1,
