@@ -8,8 +8,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -203,27 +201,6 @@ void want_large_pages(void *const memory, const std::size_t bytes)
 #endif
 }
 
-namespace
-{
-std::atomic<bool> is_heap_reserved(false);
-}
-
-void reserve_heap_of_thread()
-{
-#ifdef __GLIBC__
-  if (!is_heap_reserved)
-    return;
-  // Two of the largest blocks that are not mapped on their own fill what glibc maps at once for the heap of a thread.
-  constexpr std::size_t block = 31 << 20;
-  std::array<void *, 2> blocks;
-  for (void *&memory : blocks)
-    if ((memory = std::malloc(block)))
-      want_large_pages(memory, block);
-  for (void *const memory : blocks)
-    std::free(memory);
-#endif
-}
-
 void reserve_heap()
 {
 #ifdef __GLIBC__
@@ -241,7 +218,6 @@ void reserve_heap()
     std::free(begin);
   }
   mallopt(M_TOP_PAD, usual);
-  is_heap_reserved = true;
 #endif
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/memory.h>
 #include <hpvi/base/team.h>
 
 #include <algorithm>
@@ -107,7 +106,6 @@ void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
 void Team::Crew::help()
 {
   const OneThread one_thread;
-  reserve_heap_of_thread();
   has_team = true;
   serving = this;
   std::unique_lock<std::mutex> lock(mutex);

@@ -6,9 +6,7 @@
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/team.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -93,16 +91,6 @@ TEST(Memory, HeapOfLargePages)
   {
     const std::vector<char> block(size);
     EXPECT_NE(flags_of_mapping(block.data() + size / 2).find(" hg "), std::string::npos) << pass;
-    const Team team(2);
-    std::atomic<unsigned int> n_there(0);
-    for_all(2, 1, // each thread has a heap of its own
-            [&](unsigned int)
-            {
-              for (++n_there; n_there < 2;)
-                std::this_thread::yield();
-              const std::vector<char> own(size);
-              EXPECT_NE(flags_of_mapping(own.data() + size / 2).find(" hg "), std::string::npos);
-            });
   }
 }
 

@@ -59,9 +59,6 @@ void want_large_pages(void *memory, std::size_t bytes);
  */
 void reserve_heap();
 
-/** Likewise for the calling thread, whose heap is its own; nothing, unless reserve_heap() has been called. */
-void reserve_heap_of_thread();
-
 /** Does RLIMIT_AS or RLIMIT_DATA limit the memory that the process may map? */
 bool mapping_is_limited();
 
