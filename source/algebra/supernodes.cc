@@ -3,7 +3,8 @@
 // CHOLMOD's factorisation takes one supernode after the other, and leaves threads to BLAS, whose matrices are small here: in the plane
 // half of the work is in blocks of less than a hundred rows. What can be done at once is in the elimination tree: supernodes
 // that are not above one another know nothing of each other. A supernode is complete when all below it have
-// subtracted what they add to it.
+// subtracted what they add to it. The few at the top are most of the work that is left, and large: their columns are worked on in panels,
+// which also touch the memory of the factor first where they are set, the dearest part of a large one.
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/algebra/supernodes.h>
 #include <hpvi/base/team.h>
@@ -35,6 +36,9 @@ using dealii::types::blas_int;
 
 namespace
 {
+/** Columns of a large supernode that are worked on at once, and rows below them: whatever the number of threads. */
+constexpr int panel = 64, panel_rows = 256;
+
 /** What supernode @p from does to one above it: its rows from @p first to @p end are columns there. */
 struct Update
 {
@@ -53,7 +57,8 @@ private:
   {
     std::vector<int> place,
         relative; ///< by row of the matrix: its place in the supernode; by row of an update
-    std::vector<double> product;
+    std::unique_ptr<double[]> product;
+    std::size_t size = 0; ///< of the product
   };
 
   int n_rows(const int s) const
@@ -64,23 +69,20 @@ private:
   {
     return super[s + 1] - super[s];
   }
-  double work(const Update &update) const
-  {
-    const double columns = update.end - update.first;
-    return columns * (n_rows(update.from) - update.first) * n_columns(update.from);
-  }
   double work(int s) const;
   void set_updates();
   void set_tasks();
-  void begin(int s, std::vector<int> &place);
-  void multiply(const Update &update, double *product) const;
-  void subtract(int s, const Update &update, const std::vector<int> &place, const double *product,
-                int first_column, int end_column, std::vector<int> &relative);
-  void complete(int s);
+  void begin(int s, const std::vector<int> &place, int first_column, int end_column);
+  Update part_of(const Update &update, int first_column, int end_column) const;
+  void multiply(const Update &update, Scratch &scratch) const;
+  void subtract(int s, const Update &update, const std::vector<int> &place, Scratch &scratch);
+  void set_columns(int s, const std::vector<int> &place, int first_column, int end_column,
+                   Scratch &scratch);
+  void complete(int s, int first_column, int end_column);
+  void complete_panels(int s);
   std::unique_ptr<Scratch> take_scratch();
   void give_back(std::unique_ptr<Scratch> scratch);
-  void factor_alone(int s, Scratch &scratch);
-  void factor_together(int s, Scratch &scratch);
+  void factor(int s, Scratch &scratch);
 
   const int n_super, *const super, *const pi, *const px, *const rows;
   const int *const A_start, *const A_row;
@@ -91,7 +93,8 @@ private:
   std::vector<Update> updates;     ///< of all supernodes, one after the other, as CHOLMOD has them
   std::vector<unsigned int> first; ///< of a supernode
   std::vector<std::vector<int>> tasks; ///< subtrees: their supernodes, from below
-  std::vector<int> above;              ///< all others
+  std::vector<std::vector<int>>
+      above; ///< all others: those that have none above a subtree below them, those above these ...
   std::atomic<bool> is_positive{true};
   std::mutex mutex;
   std::vector<std::unique_ptr<Scratch>> idle; ///< with the mutex held
@@ -147,7 +150,10 @@ double Supernodes::work(const int s) const
 {
   double result = double(n_columns(s)) * n_columns(s) * n_rows(s);
   for (unsigned int k = first[s]; k < first[s + 1]; ++k)
-    result += work(updates[k]);
+  {
+    const auto &[from, begin, end] = updates[k];
+    result += double(end - begin) * (n_rows(from) - begin) * n_columns(from);
+  }
   return result;
 }
 
@@ -182,28 +188,51 @@ void Supernodes::set_tasks()
   for (unsigned int k = 0; k < order.size(); ++k)
     place[order[k]] = k;
   tasks.resize(sizes.size());
+  std::vector<unsigned int> level(n_super, 0);
   for (int s = 0; s < n_super; ++s)
-    (task[s] < 0 ? above : tasks[place[task[s]]]).push_back(s);
+    if (task[s] >= 0)
+      tasks[place[task[s]]].push_back(s);
+    else
+    {
+      if (parent[s] < n_super)
+        level[parent[s]] = std::max(level[parent[s]], level[s] + 1);
+      above.resize(std::max<std::size_t>(above.size(), level[s] + 1));
+      above[level[s]].push_back(s);
+    }
 }
 
-/** The entries of A, and where its rows are. */
-void Supernodes::begin(const int s, std::vector<int> &place)
+/** The entries of A in some columns of the supernode, whose rows are at @p place. */
+void Supernodes::begin(const int s, const std::vector<int> &place, const int first_column,
+                       const int end_column)
 {
   const std::size_t m = n_rows(s);
-  std::fill(x + px[s], x + px[s] + m * n_columns(s), 0.);
-  place.resize(n);
-  for (int k = pi[s]; k < pi[s + 1]; ++k)
-    place[rows[k]] = k - pi[s];
-  for (int column = super[s]; column < super[s + 1]; ++column)
-    for (int k = A_start[column]; k < A_start[column + 1]; ++k)
-      x[px[s] + m * (column - super[s]) + place[A_row[k]]] = A_value[k];
+  std::fill(x + px[s] + m * first_column, x + px[s] + m * end_column, 0.);
+  for (int column = first_column; column < end_column; ++column)
+    for (int k = A_start[super[s] + column]; k < A_start[super[s] + column + 1]; ++k)
+      x[px[s] + m * column + place[A_row[k]]] = A_value[k];
 }
 
-/** product := what is to be subtracted, the lower triangle and what is below it. */
-void Supernodes::multiply(const Update &update, double *const product) const
+/** That of some columns, numbers of the matrix. */
+Update Supernodes::part_of(const Update &update, const int first_column, const int end_column) const
+{
+  const int *const own = rows + pi[update.from], *const end = own + update.end;
+  const int *const from = std::lower_bound(own + update.first, end, first_column);
+  return {update.from, int(from - own), int(std::lower_bound(from, end, end_column) - own)};
+}
+
+/** What is to be subtracted, the lower triangle and what is below it. */
+void Supernodes::multiply(const Update &update, Scratch &scratch) const
 {
   const blas_int m = n_rows(update.from), inner = n_columns(update.from),
                  columns = update.end - update.first, all = m - update.first, rest = all - columns;
+  const std::size_t size = std::size_t(all) * columns;
+  if (scratch.size < size)
+  {
+    scratch.product.reset(); // before there is another
+    scratch.product.reset(new double[size]);
+    scratch.size = size;
+  }
+  double *const product = scratch.product.get();
   const double one = 1., zero = 0., *const begin = x + px[update.from] + update.first;
   dsyrk_("L", "N", &columns, &inner, &one, begin, &m, &zero, product, &all);
   if (rest > 0)
@@ -211,92 +240,106 @@ void Supernodes::multiply(const Update &update, double *const product) const
                  product + columns, &all);
 }
 
-/** In some columns of the supernode. */
 void Supernodes::subtract(const int s, const Update &update, const std::vector<int> &place,
-                          const double *const product, const int first_column, const int end_column,
-                          std::vector<int> &relative)
+                          Scratch &scratch)
 {
   const std::size_t m = n_rows(s);
   const int all = n_rows(update.from) - update.first;
   const int *const own = rows + pi[update.from] + update.first;
-  int begin = 0, end = update.end - update.first;
-  while (begin < end && place[own[begin]] < first_column)
-    ++begin;
-  while (begin < end && place[own[end - 1]] >= end_column)
-    --end;
+  std::vector<int> &relative = scratch.relative;
   relative.resize(all);
-  for (int i = begin; begin < end && i < all; ++i)
+  for (int i = 0; i < all; ++i)
     relative[i] = place[own[i]];
-  for (int j = begin; j < end; ++j)
+  for (int j = 0; j < update.end - update.first; ++j)
   {
     double *const column = x + px[s] + m * relative[j];
-    const double *const values = product + std::size_t(j) * all;
+    const double *const values = scratch.product.get() + std::size_t(j) * all;
     for (int i = j; i < all; ++i)
       column[relative[i]] -= values[i];
   }
 }
 
-/** Its own Cholesky factor, and what is below it. */
-void Supernodes::complete(const int s)
+/** Some columns of the supernode: A less what all below it add to them. */
+void Supernodes::set_columns(const int s, const std::vector<int> &place, const int first_column,
+                             const int end_column, Scratch &scratch)
 {
-  const blas_int m = n_rows(s), columns = n_columns(s), rest = m - columns;
-  double *const block = x + px[s], one = 1.;
+  begin(s, place, first_column, end_column);
+  for (unsigned int k = first[s]; k < first[s + 1]; ++k)
+  {
+    const Update part = part_of(updates[k], super[s] + first_column, super[s] + end_column);
+    if (part.first == part.end)
+      continue;
+    multiply(part, scratch);
+    subtract(s, part, place, scratch);
+  }
+}
+
+/** The Cholesky factor of some columns of the supernode, and what is below it in them, where all before them has been subtracted. */
+void Supernodes::complete(const int s, const int first_column, const int end_column)
+{
+  const blas_int m = n_rows(s), columns = end_column - first_column, rest = m - end_column;
+  double *const block = x + px[s] + std::size_t(first_column) * (m + 1), one = 1.;
   blas_int info = 0;
   dealii::potrf("L", &columns, block, &m, &info);
   if (info != 0)
     is_positive = false;
-  if (rest > 0)
-    dtrsm_("R", "L", "C", "N", &rest, &columns, &one, block, &m, block + columns, &m);
+  for_all((rest + panel_rows - 1) / panel_rows, 1,
+          [&](const unsigned int k)
+          {
+            const blas_int part = std::min(panel_rows, rest - int(k) * panel_rows);
+            dtrsm_("R", "L", "C", "N", &part, &columns, &one, block, &m,
+                   block + columns + k * panel_rows, &m);
+          });
 }
 
-void Supernodes::factor_alone(const int s, Scratch &scratch)
+/** Panel by panel, each of which is subtracted from all that follow. */
+void Supernodes::complete_panels(const int s)
 {
-  begin(s, scratch.place);
-  for (unsigned int k = first[s]; k < first[s + 1]; ++k)
+  const blas_int m = n_rows(s);
+  const int columns = n_columns(s);
+  double *const block = x + px[s];
+  const double minus = -1., one = 1.;
+  for (int begin = 0; begin < columns && is_positive; begin += panel)
   {
-    const Update &update = updates[k];
-    const std::size_t size =
-        std::size_t(n_rows(update.from) - update.first) * (update.end - update.first);
-    if (scratch.product.size() < size)
-      scratch.product.resize(size);
-    multiply(update, scratch.product.data());
-    subtract(s, update, scratch.place, scratch.product.data(), 0, n_columns(s), scratch.relative);
+    const int end = std::min(begin + panel, columns);
+    complete(s, begin, end);
+    for_all((columns - end + panel - 1) / panel, 1,
+            [&](const unsigned int k)
+            {
+              const int first_column = end + k * panel;
+              const blas_int inner = end - begin, part = std::min(panel, columns - first_column),
+                             rest = m - first_column - part;
+              double *const target = block + std::size_t(first_column) * (m + 1);
+              const double *const from = block + std::size_t(begin) * m + first_column;
+              dsyrk_("L", "N", &part, &inner, &minus, from, &m, &one, target, &m);
+              if (rest > 0)
+                dealii::gemm("N", "C", &rest, &part, &inner, &minus, from + part, &m, from, &m,
+                             &one, target + part, &m);
+            });
   }
-  complete(s);
 }
 
-/** Products of some updates at a time, and then what they subtract, by columns. */
-void Supernodes::factor_together(const int s, Scratch &scratch)
+void Supernodes::factor(const int s, Scratch &scratch)
 {
-  begin(s, scratch.place);
-  constexpr std::size_t most = 1 << 20; // entries that are kept
-  std::vector<std::size_t> start;
-  for (unsigned int k = first[s]; k < first[s + 1];)
+  scratch.place.resize(n);
+  for (int k = pi[s]; k < pi[s + 1]; ++k)
+    scratch.place[rows[k]] = k - pi[s];
+  const int columns = n_columns(s);
+  if (columns <= 2 * panel)
   {
-    const unsigned int group = k;
-    std::size_t size = 0;
-    start.clear();
-    for (; k < first[s + 1] && size < most; ++k)
-    {
-      start.push_back(size);
-      size += std::size_t(n_rows(updates[k].from) - updates[k].first) *
-              (updates[k].end - updates[k].first);
-    }
-    if (scratch.product.size() < size)
-      scratch.product.resize(size);
-    for_all(k - group, 4,
-            [&](const unsigned int i)
-            { multiply(updates[group + i], &scratch.product[start[i]]); });
-    in_parts(n_columns(s), 16,
-             [&](const unsigned int begin, const unsigned int end)
-             {
-               std::vector<int> relative;
-               for (unsigned int i = 0; i < start.size(); ++i)
-                 subtract(s, updates[group + i], scratch.place, &scratch.product[start[i]], begin,
-                          end, relative);
-             });
+    set_columns(s, scratch.place, 0, columns, scratch);
+    complete(s, 0, columns);
+    return;
   }
-  complete(s);
+  for_all((columns + panel - 1) / panel, 1,
+          [&](const unsigned int k)
+          {
+            std::unique_ptr<Scratch> own = take_scratch();
+            const int begin = k * panel;
+            set_columns(s, scratch.place, begin, std::min(begin + panel, columns), *own);
+            give_back(std::move(own));
+          });
+  complete_panels(s);
 }
 
 std::unique_ptr<Supernodes::Scratch> Supernodes::take_scratch()
@@ -323,18 +366,18 @@ bool Supernodes::factor()
             std::unique_ptr<Scratch> scratch = take_scratch();
             for (const int s : tasks[k])
               if (is_positive)
-                factor_alone(s, *scratch);
+                factor(s, *scratch);
             give_back(std::move(scratch));
           });
-  Scratch scratch;
-  for (const int s : above)
-    if (is_positive)
-    {
-      if (team_size() > 1 && work(s) > 1e6)
-        factor_together(s, scratch);
-      else
-        factor_alone(s, scratch);
-    }
+  for (const std::vector<int> &level : above)
+    for_all(level.size(), 1,
+            [&](const unsigned int k)
+            {
+              std::unique_ptr<Scratch> scratch = take_scratch();
+              if (is_positive)
+                factor(level[k], *scratch);
+              give_back(std::move(scratch));
+            });
   return is_positive;
 }
 } // namespace

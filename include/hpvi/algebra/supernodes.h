@@ -8,8 +8,8 @@ namespace hpvi
 {
 /**
  * The numbers of the supernodal factor L of a matrix whose lower triangle @p A is in the order of L, columns that CHOLMOD has analysed: L
- * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the team, what is above them
- * supernode by supernode with all; each sum in CHOLMOD's order and by the same calls of BLAS, so that numbers are CHOLMOD's to the last bit.
+ * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the team; of what is above them, those
+ * that are not above one another, and each in panels of columns. Parts and sums do not depend on the number of threads, and nor does a bit.
  * Returns false where A is not positive definite.
  */
 bool factor_supernodes(const cholmod_sparse &A, cholmod_factor &L);
