@@ -4,7 +4,6 @@
 // local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
-#include <hpvi/base/team.h>
 #include <hpvi/body/plates.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/initial_stress.h>
@@ -124,33 +123,39 @@ unsigned int ElasticSystem<dim>::Contribution::add_target(const unsigned int unk
 // has gone. There is no sparsity pattern, no search in rows, and no entry that is zero.
 namespace
 {
-/** Where an unknown stands in what a cell adds. */
+/** Where unknowns stand in what cells add: small, as there is one for each unknown of each cell. */
 struct Place
 {
-  const unsigned int *targets;
-  unsigned int n_targets;
-  const double *values; ///< its column
+  unsigned int contribution, target;
 };
 
 /** Places by unknown, one after the other. */
+template <class Contribution>
 struct Places
 {
+  const std::vector<Contribution> &contributions;
   std::vector<unsigned int> first;
   std::vector<Place> all;
   std::size_t most_targets;
 };
 
-/** Appends some columns, one by one, so that one marker array finds equal entries of neighbouring cells. */
-void add_columns(const Places &places, const unsigned int begin, const unsigned int end,
-                 std::vector<int> &position, SymmetricMatrix &A)
+/** Column by column, so that one marker array finds equal entries of neighbouring cells. */
+template <class Contribution>
+void add_columns(const Places<Contribution> &places, SymmetricMatrix &A)
 {
+  const unsigned int n = places.first.size() - 1;
+  std::vector<int> position(n, -1);
   std::vector<unsigned int> upper(places.most_targets + 1); // which targets are rows of the column
-  for (unsigned int column = begin; column < end; ++column)
+  for (unsigned int column = 0; column < n; ++column)
   {
     const int start = A.row.size();
     for (unsigned int place = places.first[column]; place < places.first[column + 1]; ++place)
     {
-      const auto [targets, n_targets, values] = places.all[place];
+      const auto [contribution, target] = places.all[place];
+      const unsigned int *const targets = places.contributions[contribution].targets.data();
+      const unsigned int n_targets = places.contributions[contribution].targets.size();
+      const double *const values =
+          places.contributions[contribution].values + std::size_t(target) * n_targets;
       // Half of all targets are, in no order that a processor could guess: they are selected without a branch.
       unsigned int n_upper = 0;
       for (unsigned int i = 0; i < n_targets; ++i)
@@ -173,39 +178,13 @@ void add_columns(const Places &places, const unsigned int begin, const unsigned 
     A.column_start.push_back(A.row.size());
   }
 }
-
-/** The same of all @p n columns by several threads, each with its own; then they are put together. */
-void add_columns_together(const Places &places, const unsigned int n, SymmetricMatrix &A)
-{
-  const unsigned int at_once = std::max(512U, (n + 63) / 64), n_parts = (n + at_once - 1) / at_once;
-  std::vector<SymmetricMatrix> parts(n_parts);
-  for_all(n_parts, 1,
-          [&](const unsigned int k)
-          {
-            std::vector<int> position(n, -1);
-            add_columns(places, k * at_once, std::min(n, (k + 1) * at_once), position, parts[k]);
-          });
-  std::vector<std::size_t> first(1, 0);
-  for (const SymmetricMatrix &part : parts)
-    first.push_back(first.back() + part.row.size());
-  A.resize(first.back());
-  A.column_start.resize(n + 1);
-  for_all(n_parts, 1,
-          [&](const unsigned int k)
-          {
-            std::copy(parts[k].row.begin(), parts[k].row.end(), A.row.begin() + first[k]);
-            std::copy(parts[k].value.begin(), parts[k].value.end(), A.value.begin() + first[k]);
-            for (unsigned int column = 1; column <= parts[k].n(); ++column)
-              A.column_start[k * at_once + column] = first[k] + parts[k].column_start[column];
-          });
-}
 } // namespace
 
 template <int dim>
 void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
 {
   const unsigned int n = f.size();
-  Places places{std::vector<unsigned int>(n + 1, 0), {}, 0};
+  Places<Contribution> places{contributions, std::vector<unsigned int>(n + 1, 0), {}, 0};
   std::size_t n_entries = 0;
   for (const Contribution &contribution : contributions)
   {
@@ -217,17 +196,12 @@ void ElasticSystem<dim>::sum_up(const std::vector<Contribution> &contributions)
   std::partial_sum(places.first.begin(), places.first.end(), places.first.begin());
   places.all.resize(places.first.back());
   std::vector<unsigned int> next(places.first);
-  for (const Contribution &contribution : contributions)
-    for (unsigned int i = 0; i < contribution.targets.size(); ++i)
-      places.all[next[contribution.targets[i]]++] = {
-          contribution.targets.data(), static_cast<unsigned int>(contribution.targets.size()),
-          contribution.values + std::size_t(i) * contribution.targets.size()};
-  if (team_size() > 1)
-    return add_columns_together(places, n, A);
+  for (unsigned int c = 0; c < contributions.size(); ++c)
+    for (unsigned int i = 0; i < contributions[c].targets.size(); ++i)
+      places.all[next[contributions[c].targets[i]]++] = {c, i};
   A.reserve(n_entries); // more than there will be: what no entry touches costs nothing
   A.column_start.reserve(n + 1);
-  std::vector<int> position(n, -1);
-  add_columns(places, 0, n, position, A);
+  add_columns(places, A);
 }
 
 // @sect3{Loads}
