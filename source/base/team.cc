@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -15,6 +16,9 @@ namespace hpvi
 {
 namespace
 {
+/** How long a thread without work looks for some before it sleeps. */
+constexpr std::chrono::microseconds longest_look(50);
+
 /** One call of in_parts(). */
 struct Job
 {
@@ -49,7 +53,11 @@ struct Team::Crew
   std::vector<Job *> jobs; ///< that are not done; those that parts of others have begun come last
   bool is_over = false;
   std::vector<std::thread> threads;
+  std::atomic<unsigned int> n_changes{
+      0}; ///< jobs begun and parts done; changes with the mutex held
 
+  void tell(std::condition_variable &whom);
+  void wait(std::condition_variable &on, std::unique_lock<std::mutex> &lock);
   Job *open_job(const Job *inside) const;
   void take_parts(Job &of, std::unique_lock<std::mutex> &lock);
   void help();
@@ -63,6 +71,25 @@ thread_local bool has_team = false;         ///< has it one, or is it of one?
 thread_local const Job *at_work = nullptr;  ///< whose part it is working on
 std::atomic<bool> are_cores_taken(false);   ///< by the team of any thread
 } // namespace
+
+void Team::Crew::tell(std::condition_variable &whom)
+{
+  ++n_changes;
+  whom.notify_all();
+}
+
+/** For a change: to sleep and to be woken takes longer than most of what there is to wait for. */
+void Team::Crew::wait(std::condition_variable &on, std::unique_lock<std::mutex> &lock)
+{
+  const unsigned int before = n_changes;
+  lock.unlock();
+  const auto end = std::chrono::steady_clock::now() + longest_look;
+  while (n_changes == before && std::chrono::steady_clock::now() < end)
+    std::this_thread::yield();
+  lock.lock();
+  if (n_changes == before)
+    on.wait(lock);
+}
 
 /** The innermost with parts that nobody has taken, of those inside of one; of all, if that is null. Null: none. */
 Job *Team::Crew::open_job(const Job *const inside) const
@@ -100,7 +127,7 @@ void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
   }
   --of.n_at_work;
   at_work = before;
-  changed.notify_all();
+  tell(changed);
 }
 
 void Team::Crew::help()
@@ -111,7 +138,8 @@ void Team::Crew::help()
   std::unique_lock<std::mutex> lock(mutex);
   for (;;)
   {
-    begun.wait(lock, [&]() { return is_over || open_job(nullptr); });
+    while (!is_over && !open_job(nullptr))
+      wait(begun, lock);
     if (is_over)
       return;
     take_parts(*open_job(nullptr), lock);
@@ -123,8 +151,8 @@ void Team::Crew::end()
   {
     const std::lock_guard<std::mutex> lock(mutex);
     is_over = true;
+    tell(begun);
   }
-  begun.notify_all();
   for (std::thread &thread : threads)
     thread.join();
 }
@@ -180,14 +208,14 @@ void in_parts(const unsigned int n, const unsigned int at_once,
   Job job{n, at_once, work, at_work};
   std::unique_lock<std::mutex> lock(crew.mutex);
   crew.jobs.push_back(&job);
-  crew.begun.notify_all();
-  crew.changed.notify_all();
+  crew.tell(crew.begun);
+  crew.tell(crew.changed);
   crew.take_parts(job, lock); // the first one without letting others come before
   while (job.n_at_work > 0)
     if (Job *const inner = crew.open_job(&job))
       crew.take_parts(*inner, lock); // of which those have begun that this waits for
     else
-      crew.changed.wait(lock);
+      crew.wait(crew.changed, lock);
   crew.jobs.erase(std::find(crew.jobs.begin(), crew.jobs.end(), &job));
   if (job.failure)
     std::rethrow_exception(job.failure);
