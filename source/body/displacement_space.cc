@@ -8,7 +8,6 @@
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/plates.h>
-#include <hpvi/body/strain_points.h>
 
 namespace hpvi
 {
@@ -41,11 +40,12 @@ AffineConstraints<double> constraints_of(const Scene<dim> &scene,
 template <int dim>
 DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
                                           const Triangulation<dim> &triangulation,
-                                          const Degrees &degrees, const ShapeTables<dim> &tables)
+                                          const Degrees &degrees, const ShapeTables<dim> &tables,
+                                          const LoadRules<dim> *const rules)
     : dof_numbering(triangulation, degrees, tables),
       affine_constraints(constraints_of(scene, dof_numbering, tables))
 {
-  if (!scene.has_initial_strain())
+  if (!rules || !scene.has_initial_strain())
     return;
   std::vector<typename Triangulation<dim>::active_cell_iterator> cells;
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -53,7 +53,7 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
   n_strain_points.resize(cells.size());
   for_all(cells.size(), 16,
           [&](const unsigned int k)
-          { n_strain_points[k] = hpvi::strain_points(scene, cells[k], degrees[k], tables); });
+          { n_strain_points[k] = rules->strain_points(cells[k], degrees[k]); });
 }
 
 // @sect3{What is asked of it}

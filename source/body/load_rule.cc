@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/box_cutter.h>
+#include <hpvi/base/common_table.h>
 #include <hpvi/body/load_rule.h>
+#include <hpvi/body/strain_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -214,6 +216,14 @@ LoadRule<1> LoadRules<dim>::traction(const Cell &cell, const unsigned int face,
       *tables);
   result.cuts = cuts;
   return result;
+}
+
+template <int dim>
+unsigned int LoadRules<dim>::strain_points(const Cell &cell, const unsigned int degree) const
+{
+  const auto [coarse_cell, level, child_lower, child_upper] = cell->id().template to_binary<dim>();
+  return common_value(known_strain_points, {{coarse_cell, level, child_lower, child_upper, degree}},
+                      [&]() { return hpvi::strain_points(scene, cell, degree, *tables); });
 }
 
 template <int dim>

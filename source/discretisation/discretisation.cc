@@ -26,7 +26,7 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
     : mesh(std::move(triangulation)), tables(std::move(shape_tables)),
       loads(rules ? std::move(rules)
                   : std::make_shared<const LoadRules<dim>>(scene, *mesh, tables)),
-      past(std::move(past_slip)), displacement_space(scene, *mesh, degrees, *tables),
+      past(std::move(past_slip)), displacement_space(scene, *mesh, degrees, *tables, loads.get()),
       contact_space(scene, displacement_space, *tables, past),
       contact_operator(displacement_space, contact_space, *tables)
 {

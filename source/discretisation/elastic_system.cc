@@ -17,6 +17,31 @@ namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+/** Empty without initial strains. */
+template <int dim>
+Vector<double> strain_loads_of(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                               const ShapeTables<dim> &tables, const Volume volume)
+{
+  return scene.has_initial_strain() ? initial_strain_loads(scene, space, tables, volume)
+                                    : Vector<double>();
+}
+
+template <int dim>
+Vector<double> sum_of_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                            const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                            const Vector<double> &strain_loads)
+{
+  Vector<double> load = applied_loads(scene, space, tables, rules);
+  if (scene.has_plates())
+    load += plate_loads(scene, space, tables);
+  if (strain_loads.size() > 0)
+    load += strain_loads;
+  return load;
+}
+} // namespace
+
 // @sect3{Assembly}
 //
 // Loads first, then cells. What a body force does inside a cell is condensed to its boundary
@@ -27,7 +52,8 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   const Condensation<dim> &condensation,
                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
                                   CondensedElements<dim> &elements)
-    : f(unknowns.n()), load(load_vector(scene, space, tables, rules, elements.volume()))
+    : f(unknowns.n()), of_strains(strain_loads_of(scene, space, tables, elements.volume())),
+      load(sum_of_loads(scene, space, tables, rules, of_strains))
 {
   Vector<double> boundary_load(load);
   if (has_interior_loads(scene))
@@ -241,15 +267,10 @@ ShapeTable<dim> on_face(const unsigned int face, const unsigned int degree,
 
 template <int dim>
 Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                           const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
-                           const Volume volume)
+                           const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
 {
-  Vector<double> load = applied_loads(scene, space, tables, rules);
-  if (scene.has_plates())
-    load += plate_loads(scene, space, tables);
-  if (scene.has_initial_strain())
-    load += initial_strain_loads(scene, space, tables, volume);
-  return load;
+  return sum_of_loads(scene, space, tables, rules,
+                      strain_loads_of(scene, space, tables, Volume::full));
 }
 
 template <int dim>
@@ -326,9 +347,15 @@ const Vector<double> &ElasticSystem<dim>::loads() const
   return load;
 }
 
+template <int dim>
+const Vector<double> &ElasticSystem<dim>::strain_loads() const
+{
+  return of_strains;
+}
+
 template class ElasticSystem<2>;
 template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2> &,
-                                    const ShapeTables<2> &, const LoadRules<2> &, Volume);
+                                    const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> applied_loads(const Scene<2> &, const DisplacementSpace<2> &,
                                       const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> plate_loads(const Scene<2> &, const DisplacementSpace<2> &,

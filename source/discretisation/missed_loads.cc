@@ -2,7 +2,6 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/missed_loads.h>
 #include <hpvi/discretisation/springs.h>
 
@@ -46,7 +45,7 @@ std::string missed_loads(const Discretisation<2> &discretisation, const LoadRule
   if (scene.has_plates())
     of_mesh -= plate_loads(scene, space, tables);
   if (scene.has_initial_strain())
-    of_mesh -= initial_strain_loads(scene, space, tables);
+    of_mesh -= discretisation.system.strain_loads();
   const Tensor<1, 2> force = resultant(of_mesh, space, tables);
   if (!loads.are_missing_something(force))
     return {};

@@ -5,7 +5,6 @@
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/mesh.h>
 #include <hpvi/body/plates.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/springs.h>
 #include <hpvi/evaluation/equilibrium.h>
@@ -334,7 +333,7 @@ NodalForces<dim> nodal_forces(const Solution<dim> &solution, const ElasticSystem
     reacting -= plate_loads(solution.scene, space, tables);
   loads = reacting;
   if (solution.scene.has_initial_strain())
-    loads -= initial_strain_loads(solution.scene, space, tables);
+    loads -= system.strain_loads();
   for (types::global_dof_index dof = 0; dof < space.n_dofs(); ++dof)
     if (loads[dof] != 0.)
       result.loads.push_back({nodes.component[dof], loads[dof], nodes.x[dof], nodes.body[dof]});

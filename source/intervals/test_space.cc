@@ -66,7 +66,7 @@ TestSpace::TestSpace(const Solution<2> &solution, const std::vector<GradedPoint>
                      std::shared_ptr<PartTables> tables)
     : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points)),
       degrees(mesh->n_active_cells(), degree_of_w),
-      space(free_body(scene), *mesh, degrees, *lender->tables),
+      space(free_body(scene), *mesh, degrees, *lender->tables, lender->loads.get()),
       applied(applied_loads(scene, space, *lender->tables, *lender->loads)),
       tables_in_parts(std::move(tables))
 {

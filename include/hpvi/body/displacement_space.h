@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <hpvi/body/dof_numbering.h>
+#include <hpvi/body/load_rule.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi
@@ -19,10 +20,11 @@ class DisplacementSpace
 public:
   /**
    * @p degrees by active cell index; the triangulation must outlive the space. The finite elements
-   * are those of @p tables.
+   * are those of @p tables, the loads those of @p rules, without which there are no strain_points().
    */
   DisplacementSpace(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
-                    const Degrees &degrees, const ShapeTables<dim> &tables);
+                    const Degrees &degrees, const ShapeTables<dim> &tables,
+                    const LoadRules<dim> *rules = nullptr);
 
   const DofNumbering<dim> &numbering() const;
   const dealii::Triangulation<dim> &triangulation() const;

@@ -6,6 +6,7 @@
 #include <hpvi/body/displacement_cuts.h>
 #include <hpvi/body/load_quadrature.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -72,6 +73,9 @@ public:
   /** In reference coordinates. */
   LoadRule<dim> body_force(const Cell &cell, unsigned int degree) const;
 
+  /** As strain_points() has them, which looks for them once in each cell. */
+  unsigned int strain_points(const Cell &cell, unsigned int degree) const;
+
   /** Of the active cells of @p mesh: both rules differ by more than 1e-9 of all loads. */
   std::vector<UnresolvedLoad<dim>> unresolved(const dealii::Triangulation<dim> &mesh) const;
 
@@ -120,6 +124,8 @@ private:
   const std::shared_ptr<const ShapeTables<dim>> tables;
   const unsigned int finer;
   std::map<Place, Pieces> coarse; ///< what varies
+  mutable std::map<std::array<unsigned int, 5>, unsigned int>
+      known_strain_points; ///< by CellId and degree
   LoadSum total;
 };
 } // namespace hpvi

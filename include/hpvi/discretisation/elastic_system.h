@@ -33,6 +33,9 @@ public:
   /** L(v_i) for every displacement unknown, constrained or not. */
   const dealii::Vector<double> &loads() const;
 
+  /** Of these, what initial strains do, as initial_strain_loads() has it; empty where there are none. */
+  const dealii::Vector<double> &strain_loads() const;
+
   double work(const dealii::Vector<double> &u) const; ///< L(u)
 
 private:
@@ -50,7 +53,7 @@ private:
                       const Unknowns<dim> &unknowns, CondensedElements<dim> &elements);
   void sum_up(const std::vector<Contribution> &contributions);
 
-  dealii::Vector<double> load; ///< L(v_i) for every displacement unknown
+  dealii::Vector<double> of_strains, load; ///< for every displacement unknown
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>>
       constrained; ///< kept for the next step
 };
@@ -58,8 +61,7 @@ private:
 /** L(v_i) of all that acts in @p scene, for every displacement unknown, constrained or not: the sum of what follows. */
 template <int dim>
 dealii::Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
-                                   Volume volume = Volume::full);
+                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
 
 /** Tractions and body forces. */
 template <int dim>
