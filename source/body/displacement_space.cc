@@ -51,7 +51,7 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
   for (const auto &cell : triangulation.active_cell_iterators())
     cells.push_back(cell);
   n_strain_points.resize(cells.size());
-  for_all(cells.size(), 16,
+  for_all(cells.size(), 2, // of coarse ones there are few, with many points each
           [&](const unsigned int k)
           { n_strain_points[k] = rules->strain_points(cells[k], degrees[k]); });
 }
