@@ -32,8 +32,9 @@ void add_spring_squares(const Solution<2> &start, const Solution<2> &measured,
 using Hats = std::vector<std::pair<unsigned int, unsigned int>>;
 
 /** Not by number: patches of one shape share their factor. */
-Hats by_shape(Hats hats, const VertexPatches &vertex_patches)
+Hats by_shape(const VertexPatches::Patch &patch, const VertexPatches &vertex_patches)
 {
+  Hats hats(patch.cells.begin(), patch.cells.end());
   std::stable_sort(hats.begin(), hats.end(),
                    [&](const auto &a, const auto &b)
                    {
@@ -158,23 +159,18 @@ void EquilibratedStress::set_tractions(const bool has_long_cells)
 /** Some hundred at a time, which is enough for all threads and little to keep. */
 void EquilibratedStress::solve_patches()
 {
-  constexpr unsigned int at_once = 512;
+  constexpr std::size_t at_once = 512;
   const auto &all = vertex_patches.patches();
   std::vector<Patch> patches;
-  std::vector<const Hats *> hats;
-  for (auto vertex = all.begin(); vertex != all.end();)
+  for (std::size_t first = 0; first < all.size(); first += at_once)
   {
     patches.clear();
-    hats.clear();
-    for (; vertex != all.end() && patches.size() < at_once; ++vertex)
-    {
-      patches.push_back({vertex->first, {}, {}});
-      hats.push_back(&vertex->second);
-    }
+    patches.resize(std::min(at_once, all.size() - first));
     for_all(patches.size(), 16,
             [&](const unsigned int k)
             {
-              const Hats ordered = by_shape(*hats[k], vertex_patches);
+              patches[k].vertex = all[first + k].vertex;
+              const Hats ordered = by_shape(all[first + k], vertex_patches);
               for (const auto &[cell, hat] : ordered)
                 patches[k].cells.push_back(patch_cell(cell, hat));
               patches[k].edges = edges_of(ordered, vertex_patches, boundary, sums);

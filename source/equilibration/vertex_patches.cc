@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -83,6 +84,7 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
 {
   const Degrees &degrees = solution.displacement_space.degrees();
   all_cells.resize(degrees.size());
+  all_edges.reserve(3 * degrees.size());
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> contact;
   const auto &contact_faces = solution.contact_space.faces();
   std::set<std::pair<unsigned int, unsigned int>>
@@ -249,24 +251,49 @@ const std::map<unsigned int, double> &VertexPatches::expand(const unsigned int v
 
 void VertexPatches::set_hats(const Solution<2> &solution)
 {
+  all_hats.reserve(5 * all_cells.size());
+  std::vector<std::size_t> first; // hat of a cell
+  const auto add = [&](const unsigned int a, const unsigned int v, const double value)
+  {
+    auto hat = std::find_if(all_hats.begin() + first.back(), all_hats.end(),
+                            [a](const Hat &other) { return other.vertex == a; });
+    if (hat == all_hats.end())
+      hat = all_hats.insert(hat, {a, {{0., 0., 0., 0.}}});
+    hat->values[v] = value;
+  };
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
-    const unsigned int index = cell->active_cell_index();
-    all_cells[index].iterator = cell;
-    std::vector<Hat> &hats = all_cells[index].hats;
+    all_cells[cell->active_cell_index()].iterator = cell;
+    first.push_back(all_hats.size());
     for (unsigned int v = 0; v < 4; ++v)
-      for (const auto &[a, value] : expand(cell->vertex_index(v)))
-      {
-        auto hat = std::find_if(hats.begin(), hats.end(),
-                                [a = a](const Hat &other) { return other.vertex == a; });
-        if (hat == hats.end())
-        {
-          all_patches[a].emplace_back(index, hats.size());
-          hat = hats.insert(hats.end(), {a, {{0., 0., 0., 0.}}});
-        }
-        hat->values[v] = value;
-      }
+      if (const unsigned int vertex = cell->vertex_index(v);
+          hanging.count(vertex) == 0 && joined.count(vertex) == 0)
+        add(vertex, v, 1.);
+      else
+        for (const auto &[a, value] : expand(vertex))
+          add(a, v, value);
   }
+  first.push_back(all_hats.size());
+  for (unsigned int k = 0; k < all_cells.size(); ++k)
+    all_cells[k].hats = {all_hats.data() + first[k], first[k + 1] - first[k]};
+  set_patches(solution.displacement_space.triangulation().n_vertices());
+}
+
+/** Those of the hats that there are. */
+void VertexPatches::set_patches(const unsigned int n_vertices)
+{
+  std::vector<unsigned int> first(n_vertices + 1, 0);
+  for (const Hat &hat : all_hats)
+    ++first[hat.vertex + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  cells_of_patches.resize(all_hats.size());
+  for (unsigned int vertex = 0; vertex < n_vertices; ++vertex)
+    if (first[vertex] < first[vertex + 1])
+      all_patches.push_back(
+          {vertex, {cells_of_patches.data() + first[vertex], first[vertex + 1] - first[vertex]}});
+  for (unsigned int cell = 0; cell < all_cells.size(); ++cell)
+    for (unsigned int hat = 0; hat < all_cells[cell].hats.size(); ++hat)
+      cells_of_patches[first[all_cells[cell].hats[hat].vertex]++] = {cell, hat};
 }
 
 const std::vector<StressEdge> &VertexPatches::edges() const
@@ -279,8 +306,7 @@ const std::vector<VertexPatches::Cell> &VertexPatches::cells() const
   return all_cells;
 }
 
-const std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> &
-VertexPatches::patches() const
+const std::vector<VertexPatches::Patch> &VertexPatches::patches() const
 {
   return all_patches;
 }

@@ -2,7 +2,10 @@
 #ifndef hpvi_vertex_patches_h
 #define hpvi_vertex_patches_h
 
+#include <deal.II/base/array_view.h>
 #include <hpvi/discretisation/solution.h>
+
+#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <map>
@@ -42,8 +45,8 @@ struct StressEdge
 
   std::array<unsigned int, 2> vertices; ///< along the reference coordinate
   std::array<unsigned int, 2>
-      vertices_opposite{};     ///< likewise those of the body opposite, if there is one
-  std::vector<Side> sides;     ///< that of the whole edge first
+      vertices_opposite{}; ///< likewise those of the body opposite, if there is one
+  boost::container::static_vector<Side, 3> sides; ///< that of the whole edge first
   unsigned int degree = 0;     ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
   dealii::Tensor<1, 2> normal; ///< of the traction: towards growing xi or eta
   dealii::Tensor<1, 2> tangent;
@@ -86,6 +89,9 @@ public:
   /** For macro cells normal parts are in P_{m-1} too, and corners ask for nothing. */
   VertexPatches(const Solution<2> &solution, bool has_macro_cells);
 
+  VertexPatches(const VertexPatches &) = delete; // cells and patches refer to hats
+  VertexPatches &operator=(const VertexPatches &) = delete;
+
   const bool has_macro_cells;
 
   /** psi_a on one cell. */
@@ -99,7 +105,7 @@ public:
   {
     dealii::DoFHandler<2>::active_cell_iterator iterator;
     std::array<unsigned int, 4> edges, parts; ///< by face
-    std::vector<Hat> hats;
+    dealii::ArrayView<const Hat> hats;
     /** 1, or -1 where one of the cells at an edge has it along xi and the other along eta: its own normal is that of the edge turned. */
     std::array<double, 4> turns{{1., 1., 1., 1.}};
 
@@ -112,11 +118,18 @@ public:
     }
   };
 
+  /** Where psi_a does not vanish. */
+  struct Patch
+  {
+    unsigned int vertex; ///< a
+    dealii::ArrayView<const std::pair<unsigned int, unsigned int>>
+        cells; ///< index, and number of the hat in it
+  };
+
   const std::vector<StressEdge> &edges() const;
   const std::vector<Cell> &cells() const; ///< by active cell index
 
-  /** Cells of each patch: index and number of the hat in it; by vertex. */
-  const std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> &patches() const;
+  const std::vector<Patch> &patches() const; ///< by vertex
 
 private:
   void collect_edges(const Solution<2> &solution);
@@ -124,14 +137,18 @@ private:
   void set_directions(const Scene<2> &scene, StressEdge &edge) const;
   void set_components(const Scene<2> &scene, StressEdge &edge) const;
   void set_hats(const Solution<2> &solution);
+  void set_patches(unsigned int n_vertices);
   const std::map<unsigned int, double> &expand(unsigned int vertex);
 
   std::vector<StressEdge> all_edges;
   std::vector<Cell> all_cells;
   std::map<unsigned int, std::array<unsigned int, 2>> hanging; ///< vertex: ends of its edge
   std::map<unsigned int, unsigned int> joined; ///< vertex: that which it is one with
-  std::map<unsigned int, std::map<unsigned int, double>> values; ///< by vertex v, then a
-  std::map<unsigned int, std::vector<std::pair<unsigned int, unsigned int>>> all_patches;
+  std::map<unsigned int, std::map<unsigned int, double>>
+      values;                ///< by vertex v, if it hangs or is joined, then a
+  std::vector<Hat> all_hats; ///< cell by cell
+  std::vector<std::pair<unsigned int, unsigned int>> cells_of_patches; ///< one after the other
+  std::vector<Patch> all_patches;
 };
 } // namespace hpvi
 
