@@ -2,7 +2,6 @@
 #include <hpvi/algebra/box_cutter.h>
 #include <hpvi/base/common_table.h>
 #include <hpvi/body/load_rule.h>
-#include <hpvi/body/strain_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -221,8 +220,7 @@ LoadRule<1> LoadRules<dim>::traction(const Cell &cell, const unsigned int face,
 template <int dim>
 unsigned int LoadRules<dim>::strain_points(const Cell &cell, const unsigned int degree) const
 {
-  const auto [coarse_cell, level, child_lower, child_upper] = cell->id().template to_binary<dim>();
-  return common_value(known_strain_points, {{coarse_cell, level, child_lower, child_upper, degree}},
+  return common_value(known_strain_points, cell_key(cell, degree),
                       [&]() { return hpvi::strain_points(scene, cell, degree, *tables); });
 }
 

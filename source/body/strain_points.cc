@@ -9,6 +9,12 @@ namespace hpvi
 {
 using namespace dealii;
 
+CellKey cell_key(const Triangulation<2>::cell_iterator &cell, const unsigned int number)
+{
+  const CellId::binary_type id = cell->id().to_binary<2>();
+  return {{id[0], id[1], id[2], id[3], number}};
+}
+
 unsigned int strain_points(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
                            const unsigned int degree, const ShapeTables<2> &tables)
 {

@@ -245,9 +245,7 @@ void DataError::add_initial_strain(const Solution<2> &solution, const Equilibrat
           [&](const unsigned int cell)
           {
             oscillation[cell] += stress.missed_initial_stress(cell);
-            squares[cell] = initial_stress_error(
-                solution.scene, stress.patches().cells()[cell].iterator,
-                solution.displacement_space.strain_points(cell), solution.tables);
+            squares[cell] = stress.initial_stress_error(solution, cell);
           });
   const double norm = std::sqrt(
       internal_forces(solution.scene, solution.displacement_space, solution.tables, solution.u)

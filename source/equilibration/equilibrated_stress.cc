@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/team.h>
+#include <hpvi/base/common_table.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/springs.h>
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/equilibration/patches.h>
@@ -122,6 +123,16 @@ double EquilibratedStress::missed_force(const unsigned int cell) const
 double EquilibratedStress::missed_initial_stress(const unsigned int cell) const
 {
   return plain_stresses ? plain_stresses->missed_initial_stress(cell) : 0.;
+}
+
+double EquilibratedStress::initial_stress_error(const Solution<2> &solution,
+                                                const unsigned int cell) const
+{
+  const auto &iterator = vertex_patches.cells()[cell].iterator;
+  const unsigned int n = solution.displacement_space.strain_points(cell);
+  return common_value(
+      cache.initial_stress_errors, cell_key(iterator, n),
+      [&]() { return hpvi::initial_stress_error(solution.scene, iterator, n, solution.tables); });
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned int hat) const

@@ -5,8 +5,8 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <hpvi/body/displacement_cuts.h>
 #include <hpvi/body/load_quadrature.h>
+#include <hpvi/body/strain_points.h>
 
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -123,9 +123,8 @@ private:
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   const unsigned int finer;
-  std::map<Place, Pieces> coarse; ///< what varies
-  mutable std::map<std::array<unsigned int, 5>, unsigned int>
-      known_strain_points; ///< by CellId and degree
+  std::map<Place, Pieces> coarse;                              ///< what varies
+  mutable std::map<CellKey, unsigned int> known_strain_points; ///< by cell and degree
   LoadSum total;
 };
 } // namespace hpvi

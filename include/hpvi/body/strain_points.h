@@ -5,8 +5,14 @@
 #include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
+#include <array>
+
 namespace hpvi
 {
+/** A cell, the same in all meshes with its coarse cells, and a number: the key of what steps share of it. */
+using CellKey = std::array<unsigned int, 5>;
+CellKey cell_key(const dealii::Triangulation<2>::cell_iterator &cell, unsigned int number);
+
 /**
  * Gauss points per direction for integrals with the initial strain eps_0 in a cell: as many, at least p + 3, as give its moments
  * with polynomials of degree 2 to round-off. Then the discrete equations are those of the polynomial through its values at

@@ -53,6 +53,9 @@ public:
   /** What the initial stress has beyond the polynomials of s, in complementary energy; macro cells count it in `squares`. */
   double missed_initial_stress(unsigned int cell) const;
 
+  /** initial_stress_error() of @p cell at the points of @p solution, looked at in the first step that has the cell. */
+  double initial_stress_error(const Solution<2> &solution, unsigned int cell) const;
+
   const LegendreTables &legendre_tables() const;
 
   /** s on a cell of a mesh of parallelograms. */

@@ -2,6 +2,7 @@
 #ifndef hpvi_equilibration_cache_h
 #define hpvi_equilibration_cache_h
 
+#include <hpvi/body/strain_points.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/macro_stress_element.h>
 #include <hpvi/stresses/stress_element.h>
@@ -40,6 +41,8 @@ struct EquilibrationCache
   };
   std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
+  std::map<CellKey, double> initial_stress_errors; ///< by cell and number of points
+
   /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
   std::map<Signature, std::vector<unsigned int>> independent_conditions;
 
