@@ -14,7 +14,7 @@
 // solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.
 #include <cholmod.h>
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/algebra/supernodes.h>
+#include <hpvi/algebra/supernodal_solve.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
@@ -33,7 +33,8 @@ struct LinearSolver::Factor
   cholmod_common common, other; ///< the other for what is done beside the analysis
   cholmod_factor *L = nullptr;
   std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
-  LAPACKFullMatrix<double> C;   ///< its copies would forget that it is a triangle
+  SharedSupernodes shared;
+  LAPACKFullMatrix<double> C; ///< its copies would forget that it is a triangle
   std::vector<unsigned int> order;
 
   Factor()
@@ -65,7 +66,6 @@ struct LinearSolver::Factor
     check(common);
   }
   LAPACKFullMatrix<double> trailing_block(unsigned int n_trailing) const;
-  Vector<double> solve(int system, const Vector<double> &right_hand_side);
 };
 
 namespace
@@ -181,46 +181,6 @@ LAPACKFullMatrix<double> LinearSolver::Factor::trailing_block(const unsigned int
   return block;
 }
 
-namespace
-{
-/** A dense matrix of CHOLMOD's, released with its owner; null where there is no memory for it. */
-struct DenseMatrix
-{
-  DenseMatrix(const std::size_t rows, const std::size_t columns, cholmod_common &common)
-      : matrix(cholmod_allocate_dense(rows, columns, rows, CHOLMOD_REAL, &common)), common(common)
-  {
-  }
-  ~DenseMatrix()
-  {
-    cholmod_free_dense(&matrix, &common);
-  }
-  DenseMatrix(const DenseMatrix &) = delete;
-  DenseMatrix &operator=(const DenseMatrix &) = delete;
-
-  cholmod_dense *matrix;
-  cholmod_common &common;
-};
-} // namespace
-
-Vector<double> LinearSolver::Factor::solve(const int system, const Vector<double> &right_hand_side)
-{
-  const OneThread one_thread;
-  cholmod_dense dense{};
-  dense.nrow = dense.nzmax = dense.d = right_hand_side.size();
-  dense.ncol = 1;
-  dense.x = const_cast<double *>(right_hand_side.begin());
-  dense.xtype = CHOLMOD_REAL;
-  dense.dtype = CHOLMOD_DOUBLE;
-  // All that it works on is asked for here: where memory ends on the way, CHOLMOD reads a null pointer.
-  DenseMatrix X(L->n, 1, common), Y(L->n, 1, common),
-      E(1, std::max<std::size_t>(1, L->maxesize), common);
-  check();
-  cholmod_solve2(system, L, &dense, nullptr, &X.matrix, nullptr, &Y.matrix, &E.matrix, &common);
-  check();
-  const double *values = static_cast<const double *>(X.matrix->x);
-  return Vector<double>(values, values + right_hand_side.size());
-}
-
 // @sect3{Bodies that can move}
 //
 // If contact alone holds the body, $A$ is singular along its free motions. $A + c\,PP^T$ is not,
@@ -307,8 +267,10 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
     cholmod_change_factor(CHOLMOD_REAL, /*to_ll=*/true, /*to_super=*/true, /*to_packed=*/true,
                           /*to_monotonic=*/true, L, &common);
   check();
-  L->minor = factor_supernodes(*ordered.matrix, *L) ? L->n : 0;
+  std::optional<SharedSupernodes> supernodes = factor_supernodes(*ordered.matrix, *L);
+  L->minor = supernodes ? L->n : 0;
   check();
+  shared = std::move(*supernodes);
   if (!order.empty())
     C = trailing_block(order.size());
 }
@@ -349,15 +311,18 @@ Vector<double> LinearSolver::forward(const Vector<double> &f) const
   Vector<double> permuted(f.size());
   for (unsigned int i = 0; i < f.size(); ++i)
     permuted[i] = f[factor->permutation[i]];
-  return factor->solve(CHOLMOD_L, permuted);
+  const OneThread one_thread;
+  solve_forward(*factor->L, factor->shared, permuted.begin());
+  return permuted;
 }
 
 Vector<double> LinearSolver::backward(const Vector<double> &y) const
 {
   if (y.size() == 0)
     return y;
-  const Vector<double> permuted = factor->solve(CHOLMOD_Lt, y);
-  Vector<double> x(y.size());
+  const OneThread one_thread;
+  Vector<double> permuted(y), x(y.size());
+  solve_backward(*factor->L, factor->shared, permuted.begin());
   for (unsigned int i = 0; i < y.size(); ++i)
     x[factor->permutation[i]] = permuted[i];
   return x;

@@ -51,6 +51,8 @@ public:
   Supernodes(const cholmod_sparse &A, cholmod_factor &L);
   bool factor();
 
+  SharedSupernodes shared;
+
 private:
   /** What one thread works with. */
   struct Scratch
@@ -71,7 +73,7 @@ private:
   }
   double work(int s) const;
   void set_updates();
-  void set_tasks();
+  void share();
   void begin(int s, const std::vector<int> &place, int first_column, int end_column);
   Update part_of(const Update &update, int first_column, int end_column) const;
   void multiply(const Update &update, Scratch &scratch) const;
@@ -92,9 +94,6 @@ private:
   std::vector<int> parent;         ///< of each supernode; n_super: none
   std::vector<Update> updates;     ///< of all supernodes, one after the other, as CHOLMOD has them
   std::vector<unsigned int> first; ///< of a supernode
-  std::vector<std::vector<int>> tasks; ///< subtrees: their supernodes, from below
-  std::vector<std::vector<int>>
-      above; ///< all others: those that have none above a subtree below them, those above these ...
   std::atomic<bool> is_positive{true};
   std::mutex mutex;
   std::vector<std::unique_ptr<Scratch>> idle; ///< with the mutex held
@@ -108,7 +107,7 @@ Supernodes::Supernodes(const cholmod_sparse &A, cholmod_factor &L)
       x(static_cast<double *>(L.x)), n(L.n), parent(n_super, n_super)
 {
   set_updates();
-  set_tasks();
+  share();
 }
 
 /** A supernode is in the list of the one that its next rows are columns of; what came last is first. */
@@ -158,7 +157,7 @@ double Supernodes::work(const int s) const
 }
 
 /** The largest subtrees with less than a part of all work. */
-void Supernodes::set_tasks()
+void Supernodes::share()
 {
   std::vector<double> below(n_super);
   double all = 0;
@@ -187,17 +186,17 @@ void Supernodes::set_tasks()
                    [&](const int a, const int b) { return sizes[a] > sizes[b]; });
   for (unsigned int k = 0; k < order.size(); ++k)
     place[order[k]] = k;
-  tasks.resize(sizes.size());
+  shared.subtrees.resize(sizes.size());
   std::vector<unsigned int> level(n_super, 0);
   for (int s = 0; s < n_super; ++s)
     if (task[s] >= 0)
-      tasks[place[task[s]]].push_back(s);
+      shared.subtrees[place[task[s]]].push_back(s);
     else
     {
       if (parent[s] < n_super)
         level[parent[s]] = std::max(level[parent[s]], level[s] + 1);
-      above.resize(std::max<std::size_t>(above.size(), level[s] + 1));
-      above[level[s]].push_back(s);
+      shared.above.resize(std::max<std::size_t>(shared.above.size(), level[s] + 1));
+      shared.above[level[s]].push_back(s);
     }
 }
 
@@ -360,16 +359,16 @@ void Supernodes::give_back(std::unique_ptr<Scratch> scratch)
 
 bool Supernodes::factor()
 {
-  for_all(tasks.size(), 1,
+  for_all(shared.subtrees.size(), 1,
           [&](const unsigned int k)
           {
             std::unique_ptr<Scratch> scratch = take_scratch();
-            for (const int s : tasks[k])
+            for (const int s : shared.subtrees[k])
               if (is_positive)
                 factor(s, *scratch);
             give_back(std::move(scratch));
           });
-  for (const std::vector<int> &level : above)
+  for (const std::vector<int> &level : shared.above)
     for_all(level.size(), 1,
             [&](const unsigned int k)
             {
@@ -382,8 +381,11 @@ bool Supernodes::factor()
 }
 } // namespace
 
-bool factor_supernodes(const cholmod_sparse &A, cholmod_factor &L)
+std::optional<SharedSupernodes> factor_supernodes(const cholmod_sparse &A, cholmod_factor &L)
 {
-  return Supernodes(A, L).factor();
+  Supernodes supernodes(A, L);
+  if (!supernodes.factor())
+    return {};
+  return std::move(supernodes.shared);
 }
 } // namespace hpvi

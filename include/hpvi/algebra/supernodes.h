@@ -4,15 +4,26 @@
 
 #include <cholmod.h>
 
+#include <optional>
+#include <vector>
+
 namespace hpvi
 {
+/** Supernodes of a factor by what can be done at once. */
+struct SharedSupernodes
+{
+  std::vector<std::vector<int>> subtrees; ///< of the elimination tree, from below, the root last
+  std::vector<std::vector<int>>
+      above; ///< all others: those that have none above a subtree below them, those above these ...
+};
+
 /**
  * The numbers of the supernodal factor L of a matrix whose lower triangle @p A is in the order of L, columns that CHOLMOD has analysed: L
  * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the team; of what is above them, those
  * that are not above one another, and each in panels of columns. Parts and sums do not depend on the number of threads, and nor does a bit.
- * Returns false where A is not positive definite.
+ * Returns nothing where A is not positive definite.
  */
-bool factor_supernodes(const cholmod_sparse &A, cholmod_factor &L);
+std::optional<SharedSupernodes> factor_supernodes(const cholmod_sparse &A, cholmod_factor &L);
 } // namespace hpvi
 
 #endif
