@@ -46,9 +46,20 @@ double EdgePolynomial::zero_between(const double left, const double right, const
   };
   constexpr int bits = 26; // Newton's last step doubles them
   std::uintmax_t patience = 100;
-  return boost::math::tools::newton_raphson_iterate(
-      with_slope, left + (right - left) * at_left / (at_left - at_right), left, right, bits,
-      patience);
+  try
+  {
+    return boost::math::tools::newton_raphson_iterate(
+        with_slope, left + (right - left) * at_left / (at_left - at_right), left, right, bits,
+        patience);
+  }
+  catch (const boost::math::evaluation_error &)
+  {
+    // Beside a double zero slopes are round-off, and may lead away from it.
+    const auto [low, high] = boost::math::tools::toms748_solve(
+        *this, left, right, at_left, at_right, boost::math::tools::eps_tolerance<double>(2 * bits),
+        patience = 100);
+    return 0.5 * (low + high);
+  }
 }
 
 EdgePolynomial::EdgePolynomial(const std::vector<double> &coefficients) : terms(coefficients)

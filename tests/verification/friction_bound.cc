@@ -137,6 +137,28 @@ TEST(EdgePolynomial, FindsAllZerosAndExtremes)
 }
 
 /** Extremes reach a bound to round-off, and enclosures are never narrower than values, nor half as wide again. */
+/** Newton's method met such a one, in Example 5.2: it falls to zero where its slope changes sign. */
+TEST(EdgePolynomial, FindsAZeroBesideADoubleOne)
+{
+  const std::vector<double> terms{0.0031973884928206834, -0.0045277825729918798,
+                                  0.0011504421449045278, 0.0001799527996289389}; // of P_i
+  std::vector<double> coefficients;
+  for (unsigned int i = 0; i < terms.size(); ++i)
+    coefficients.push_back(terms[i] / std::sqrt(i + 0.5));
+  for (const double shift : {0., -1e-19, -1e-18, -1e-17, 1e-17})
+  {
+    coefficients[0] = terms[0] / std::sqrt(0.5) + shift;
+    const EdgePolynomial polynomial(coefficients);
+    const std::vector<double> zeros = polynomial.zeros();
+    EXPECT_EQ(zeros.empty(), shift > 0.);
+    for (const double zero : zeros)
+    {
+      EXPECT_NEAR(zero, 0.999735, 1e-6) << shift;
+      EXPECT_LT(std::abs(polynomial(zero)), 1e-14 * polynomial.largest()) << shift;
+    }
+  }
+}
+
 TEST(EdgePolynomial, KnowsItsRange)
 {
   std::mt19937 random(5);
