@@ -2,6 +2,8 @@
 // What the bound of the error pays for loads and displacements that are no polynomials: its constants, worked out by hand.
 #include "discretisation.h"
 
+#include <hpvi/body/strain_points.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
 
@@ -194,6 +196,34 @@ TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
       internal_forces(scene, lab.displacement_space, lab.tables, solution.u).energy_product);
   EXPECT_GT(data.unresolved, 1e-3);
   EXPECT_GE(data.unread_work, 0.99 * data.unresolved * norm);
+}
+
+/** Steps share what they know of an initial strain in a cell, which changes with its degree, and not with the mesh around it. */
+TEST(InitialStrain, IsKnownOfCellsThatStay)
+{
+  const auto check = [](const StepReport<2> &step, EquilibrationCache &cache)
+  {
+    const Solution<2> &solution = step.solution();
+    const DisplacementSpace<2> &space = solution.displacement_space;
+    const EquilibratedStress stress = equilibrated(solution, cache);
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+    {
+      const unsigned int index = cell->active_cell_index(),
+                         n = strain_points(solution.scene, cell, space.degrees()[index],
+                                           solution.tables);
+      EXPECT_EQ(space.strain_points(index), n);
+      EXPECT_EQ(stress.initial_stress_error(solution, index),
+                initial_stress_error(solution.scene, cell, n, solution.tables));
+    }
+  };
+  for (const auto &[method, steps] : {std::pair("pu", "7"), std::pair("hup2", "3")})
+  {
+    EquilibrationCache cache;
+    AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
+                                             {"Adaptivity/Method", method},
+                                             {"Adaptivity/Maximum steps", steps}}))
+        .run([&](const StepReport<2> &step) { check(step, cache); });
+  }
 }
 
 /** J(U) of U = u_N + d is known but for (sigma(u_N) - s, eps(d)) and R(d): either end pays for these. */
