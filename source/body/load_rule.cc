@@ -227,12 +227,18 @@ unsigned int LoadRules<dim>::strain_points(const Cell &cell, const unsigned int 
 template <int dim>
 LoadRule<dim> LoadRules<dim>::body_force(const Cell &cell, const unsigned int degree) const
 {
-  const CellMap<dim> map = map_of<dim>(cell);
-  return rule_on<dim>(
-      pieces(cell, inside).boxes, degree, scene.body_force_in(cell),
-      [&](const Function<dim> &component, const Point<dim> &s)
-      { return component.value(map.point(s)); },
-      *tables);
+  const auto make = [&]()
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    return rule_on<dim>(
+        pieces(cell, inside).boxes, degree, scene.body_force_in(cell),
+        [&](const Function<dim> &component, const Point<dim> &s)
+        { return component.value(map.point(s)); },
+        *tables);
+  };
+  const unsigned int n =
+      common_value(known_force_points, cell_key(cell, degree), [&]() { return make().n_gauss; });
+  return n > 0 ? LoadRule<dim>{n, n, Quadrature<dim>(tables->gauss(n)), {}} : make();
 }
 
 template <int dim>

@@ -293,10 +293,14 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       }
     }
   }
+  std::vector<double> missed_forces(oscillation.size());
+  if (solution.scene.has_body_force())
+    for_all(missed_forces.size(), 8,
+            [&](const unsigned int cell) { missed_forces[cell] = stress.missed_force(cell); });
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
   {
     lift += lifts[cell] * lifts[cell];
-    const double missed = stress.missed_force(cell);
+    const double missed = missed_forces[cell];
     if (oscillation[cell] == 0. && missed == 0.)
       continue;
     const auto &iterator = patches.cells()[cell].iterator;

@@ -223,11 +223,10 @@ void ParallelogramStresses::set_data(const unsigned int index, double *const r) 
   add_column(3, times(1, times_xi), both, times(1, force_xi));
 }
 
-/** Appends `matrix' r` for each hat function of some cells, from r for each of the bilinear functions. */
-void ParallelogramStresses::add_to_hats(const std::vector<unsigned int> &some_cells,
-                                        const std::vector<double> &matrix,
-                                        const std::vector<double> &r,
-                                        std::vector<double> &result) const
+/** result := `matrix' r` for each hat function of some cells, from r for each of the bilinear functions. */
+void ParallelogramStresses::set_hats(const std::vector<unsigned int> &some_cells,
+                                     const std::vector<double> &matrix,
+                                     const std::vector<double> &r, double *result) const
 {
   const unsigned int n_columns = n_bilinear * some_cells.size(), n_data = r.size() / n_columns,
                      n_rows = matrix.size() / n_data;
@@ -241,8 +240,8 @@ void ParallelogramStresses::add_to_hats(const std::vector<unsigned int> &some_ce
     {
       const std::array<double, n_bilinear> c = bilinear(hat.values);
       for (unsigned int i = 0; i < n_rows; ++i)
-        result.push_back(c[0] * product[i] + c[1] * product[n_rows + i] +
-                         c[2] * product[2 * n_rows + i] + c[3] * product[3 * n_rows + i]);
+        *result++ = c[0] * product[i] + c[1] * product[n_rows + i] +
+                    c[2] * product[2 * n_rows + i] + c[3] * product[3 * n_rows + i];
     }
     product += std::size_t(n_bilinear) * n_rows;
   }
@@ -265,9 +264,9 @@ void ParallelogramStresses::set_data()
 {
   for (auto &[element, batch] : batches)
   {
-    batch.r.resize(std::size_t(element->n_data) * batch.cells.size());
-    batch.gradients.resize(std::size_t(element->n_edges) * batch.n_hats);
-    batch.defects.resize(std::size_t(element->n_conditions()) * batch.n_hats);
+    batch.r.reset(new double[std::size_t(element->n_data) * batch.cells.size()]);
+    batch.gradients.reset(new double[std::size_t(element->n_edges) * batch.n_hats]);
+    batch.defects.reset(new double[std::size_t(element->n_conditions()) * batch.n_hats]);
   }
   const std::vector<Part> all = parts();
   const auto set_part = [&](const unsigned int number)
@@ -275,19 +274,16 @@ void ParallelogramStresses::set_data()
     const auto &[element, some_cells] = all[number];
     Batch &batch = batches.at(element);
     const std::size_t n = element->n_data, column = n * n_bilinear;
-    std::vector<double> r(column * some_cells.size()), by_hats;
+    std::vector<double> r(column * some_cells.size());
     for (unsigned int k = 0; k < some_cells.size(); ++k)
     {
       set_data(some_cells[k], &r[column * k]);
       std::copy(&r[column * k], &r[column * k] + n, &batch.r[n * cells[some_cells[k]].place]);
     }
     const std::size_t first_hat = cells[some_cells[0]].first_hat;
-    add_to_hats(some_cells, element->edge_energy(), r, by_hats);
-    std::copy(by_hats.begin(), by_hats.end(), &batch.gradients[first_hat * element->n_edges]);
-    by_hats.clear();
-    add_to_hats(some_cells, element->conditions(), r, by_hats);
-    std::copy(by_hats.begin(), by_hats.end(),
-              batch.defects.begin() + first_hat * element->n_conditions());
+    set_hats(some_cells, element->edge_energy(), r, &batch.gradients[first_hat * element->n_edges]);
+    set_hats(some_cells, element->conditions(), r,
+             &batch.defects[first_hat * element->n_conditions()]);
   };
   for_all(all.size(), 1, set_part);
 }
@@ -312,14 +308,22 @@ PatchCell ParallelogramStresses::patch_cell(const unsigned int index, const unsi
 
 double ParallelogramStresses::missed_force(const unsigned int index) const
 {
+  if (cells[index].force.n == 0)
+    return 0.;
+  const unsigned int number =
+      1000 * cells[index].element->m + solution.displacement_space.degrees()[index];
+  return common_value(cache.missed_forces, cell_key(patches.cells()[index].iterator, number),
+                      [&]() { return look_at_missed_force(index); });
+}
+
+double ParallelogramStresses::look_at_missed_force(const unsigned int index) const
+{
   const Cell &cell = cells[index];
   const Modes<2> &modes = cell.force;
-  if (modes.n == 0)
-    return 0.;
   const unsigned int m = cell.element->m;
-  const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
-  const auto &loads = *solution.spaces->loads;
   const auto &iterator = patches.cells()[index].iterator;
+  const CellMap<2> map = map_of<2>(iterator);
+  const auto &loads = *solution.spaces->loads;
   const LoadRule<2> own = loads.body_force(iterator, solution.displacement_space.degrees()[index]);
   const Quadrature<2> rule = own.n_gauss > 0 ? Quadrature<2>(solution.tables.gauss(modes.n + 2))
                                              : loads.body_force(iterator, m).quadrature;
@@ -334,8 +338,7 @@ double ParallelogramStresses::missed_force(const unsigned int index) const
         for (unsigned int j = 0; j < std::min(modes.n, m - 1 + k); ++j)
           projected[k] -= modes(k, i, j) * L_x[i] * L_y[j];
     const Tensor<1, 2> missed =
-        load_at<2>(solution.scene.body_force_in(patches.cells()[index].iterator),
-                   map.point(rule.point(q))) -
+        load_at<2>(solution.scene.body_force_in(iterator), map.point(rule.point(q))) -
         cell.B * projected / cell.h;
     sum += rule.weight(q) * missed.norm_square();
   }

@@ -3,7 +3,6 @@
 #include "discretisation.h"
 
 #include <hpvi/body/strain_points.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
 
@@ -198,28 +197,34 @@ TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
   EXPECT_GE(data.unread_work, 0.99 * data.unresolved * norm);
 }
 
-/** Steps share what they know of an initial strain in a cell, which changes with its degree, and not with the mesh around it. */
-TEST(InitialStrain, IsKnownOfCellsThatStay)
+/** Steps share what they know of loads and initial strains in a cell, which changes with its degree, and not with the mesh around it. */
+TEST(DataOfCells, AreKnownOfThoseThatStay)
 {
   const auto check = [](const StepReport<2> &step, EquilibrationCache &cache)
   {
     const Solution<2> &solution = step.solution();
     const DisplacementSpace<2> &space = solution.displacement_space;
-    const EquilibratedStress stress = equilibrated(solution, cache);
+    EquilibrationCache empty;
+    const EquilibratedStress stress = equilibrated(solution, cache),
+                             anew = equilibrated(solution, empty);
+    const LoadRules<2> &shared = *solution.spaces->loads,
+                       fresh(solution.scene, space.triangulation(), solution.spaces->tables);
     for (const auto &cell : space.dof_handler().active_cell_iterators())
     {
-      const unsigned int index = cell->active_cell_index(),
-                         n = strain_points(solution.scene, cell, space.degrees()[index],
-                                           solution.tables);
-      EXPECT_EQ(space.strain_points(index), n);
+      const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
+      EXPECT_EQ(space.strain_points(index),
+                strain_points(solution.scene, cell, p, solution.tables));
+      EXPECT_EQ(shared.body_force(cell, p).n_gauss, fresh.body_force(cell, p).n_gauss);
       EXPECT_EQ(stress.initial_stress_error(solution, index),
-                initial_stress_error(solution.scene, cell, n, solution.tables));
+                anew.initial_stress_error(solution, index));
+      EXPECT_EQ(stress.missed_force(index), anew.missed_force(index));
     }
   };
   for (const auto &[method, steps] : {std::pair("pu", "7"), std::pair("hup2", "3")})
   {
     EquilibrationCache cache;
     AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
+                                             {"Body force/Expression", "0; 0.1*sin(x/7)"},
                                              {"Adaptivity/Method", method},
                                              {"Adaptivity/Maximum steps", steps}}))
         .run([&](const StepReport<2> &step) { check(step, cache); });

@@ -70,7 +70,7 @@ public:
   /** In s on [0,1] of a face, which has a traction. */
   LoadRule<1> traction(const Cell &cell, unsigned int face, unsigned int degree) const;
 
-  /** In reference coordinates. */
+  /** In reference coordinates; how many points it has is looked for once in each cell. */
   LoadRule<dim> body_force(const Cell &cell, unsigned int degree) const;
 
   /** As strain_points() has them, which looks for them once in each cell. */
@@ -123,8 +123,9 @@ private:
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   const unsigned int finer;
-  std::map<Place, Pieces> coarse;                              ///< what varies
-  mutable std::map<CellKey, unsigned int> known_strain_points; ///< by cell and degree
+  std::map<Place, Pieces> coarse; ///< what varies
+  mutable std::map<CellKey, unsigned int> known_strain_points,
+      known_force_points; ///< by cell and degree; 0: the rule is cut
   LoadSum total;
 };
 } // namespace hpvi

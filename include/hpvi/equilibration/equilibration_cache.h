@@ -41,7 +41,8 @@ struct EquilibrationCache
   };
   std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
-  std::map<CellKey, double> initial_stress_errors; ///< by cell and number of points
+  std::map<CellKey, double> initial_stress_errors, ///< by cell and number of points
+      missed_forces;                               ///< by cell and 1000 m + p
 
   /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
   std::map<Signature, std::vector<unsigned int>> independent_conditions;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace hpvi
@@ -55,6 +56,7 @@ public:
   }
 
 private:
+  double look_at_missed_force(unsigned int cell) const;
   /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
   struct Cell
   {
@@ -75,8 +77,9 @@ private:
   {
     std::vector<unsigned int> cells;
     unsigned int n_hats = 0;
-    std::vector<double> r;                  ///< for psi = 1, by cell
-    std::vector<double> gradients, defects; ///< G r and N' r by hat function
+    // Not set before each thread sets its own part: to touch all of it takes as long as to compute it.
+    std::unique_ptr<double[]> r;                  ///< for psi = 1, by cell
+    std::unique_ptr<double[]> gradients, defects; ///< G r and N' r by hat function
   };
 
   /** Some cells of one element. */
@@ -95,8 +98,8 @@ private:
   void set_force(unsigned int cell);
   void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
   void set_data(unsigned int cell, double *r) const;
-  void add_to_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
-                   const std::vector<double> &r, std::vector<double> &result) const;
+  void set_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
+                const std::vector<double> &r, double *result) const;
 
   const Solution<2> &solution;
   const VertexPatches &patches;
