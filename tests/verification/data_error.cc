@@ -224,7 +224,7 @@ TEST(DataOfCells, AreKnownOfThoseThatStay)
   {
     EquilibrationCache cache;
     AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
-                                             {"Body force/Expression", "0; 0.1*sin(x/7)"},
+                                             {"Body force/Expression", "0; 0.1*sin(x/30)"},
                                              {"Adaptivity/Method", method},
                                              {"Adaptivity/Maximum steps", steps}}))
         .run([&](const StepReport<2> &step) { check(step, cache); });
