@@ -207,24 +207,26 @@ TEST(DataOfCells, AreKnownOfThoseThatStay)
     EquilibrationCache empty;
     const EquilibratedStress stress = equilibrated(solution, cache),
                              anew = equilibrated(solution, empty);
-    const LoadRules<2> &shared = *solution.spaces->loads,
-                       fresh(solution.scene, space.triangulation(), solution.spaces->tables);
+    const LoadRules<2> &loads = *solution.spaces->loads;
     for (const auto &cell : space.dof_handler().active_cell_iterators())
     {
       const unsigned int index = cell->active_cell_index(), p = space.degrees()[index];
       EXPECT_EQ(space.strain_points(index),
                 strain_points(solution.scene, cell, p, solution.tables));
-      EXPECT_EQ(shared.body_force(cell, p).n_gauss, fresh.body_force(cell, p).n_gauss);
+      EXPECT_GE(loads.body_force(cell, p).n_gauss, p + 2);
       EXPECT_EQ(stress.initial_stress_error(solution, index),
                 anew.initial_stress_error(solution, index));
       EXPECT_EQ(stress.missed_force(index), anew.missed_force(index));
     }
   };
-  for (const auto &[method, steps] : {std::pair("pu", "7"), std::pair("hup2", "3")})
+  // Of a linear force the degree decides how many points it has.
+  const std::string force = "0; 0.1*sin(x/7)";
+  for (const auto &[method, steps, own_force] :
+       {std::tuple("pu", "7", force), {"pu", "7", "0; 0.01*x"}, {"hup2", "3", force}})
   {
     EquilibrationCache cache;
     AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
-                                             {"Body force/Expression", "0; 0.1*sin(x/30)"},
+                                             {"Body force/Expression", own_force},
                                              {"Adaptivity/Method", method},
                                              {"Adaptivity/Maximum steps", steps}}))
         .run([&](const StepReport<2> &step) { check(step, cache); });
