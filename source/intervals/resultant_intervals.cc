@@ -114,7 +114,7 @@ void ResultantIntervals::solve(const Solution<2> &solution)
       if (!is_solved(goal))
         continue;
       goal.w = space->solve(goal.test);
-      goal.norm = std::sqrt(std::max(0., space->product(goal.w, goal.w))); // round-off
+      goal.norm = space->norm(goal.w);
       goal.friction = 0;
       const std::vector<double> l = space->lengths(goal.test);
       for (unsigned int k = 0; k < l.size(); ++k)
@@ -255,7 +255,7 @@ ResultantIntervals::interval(const OfBoundary &boundary,
   }
   if (w.size() == 0)
     return result;
-  const double norm = std::sqrt(std::max(0., space->product(w, w))); // round-off
+  const double norm = space->norm(w);
   const double half_way =
       bound.radius * norm + bound.theta * (std::abs(of_stress - result.centre) + defect);
   result.half_width += std::min(half_way, bound.total * norm);

@@ -140,11 +140,46 @@ void TestSpace::assemble()
       });
 }
 
-double TestSpace::product(const Vector<double> &v, const Vector<double> &w) const
+// In w'Kw a rigid motion leaves eps |K| |w|^2, of either sign, where strains leave its square. It matters where statics alone says a
+// force: w differs from a rigid motion by what the solution of its system leaves then, and a(u - u_N, w) is all that F_w is off by.
+double TestSpace::norm(const Vector<double> &w) const
 {
-  Vector<double> Kw(w.size()); // matrix_scalar_product() sums as threads come
+  constexpr double nearly_rigid = 1e-6; // round-off of w'Kw is far below this
+  Vector<double> Kw(w.size());          // matrix_scalar_product() sums as threads come
   K.vmult(Kw, w);
-  return std::inner_product(v.begin(), v.end(), Kw.begin(), 0.);
+  double square = 0, scale = 0;
+  for (types::global_dof_index i = 0; i < w.size(); ++i)
+  {
+    square += w[i] * Kw[i];
+    scale += w[i] * K.diag_element(i) * w[i];
+  }
+  return std::sqrt(square < nearly_rigid * scale ? square_by_strains(w) : square);
+}
+
+double TestSpace::square_by_strains(const Vector<double> &w) const
+{
+  constexpr unsigned int n_gauss = 8; // of what is small: more than enough
+  const LocalNumbering &numbering = lender->tables->numbering(degree_of_w);
+  const ShapeTable<2> &table = lender->tables->gradients(degree_of_w, n_gauss);
+  double result = 0;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    std::vector<double> local(dofs.size());
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      local[numbering.component[i] * table.n_shapes + numbering.shape[i]] = w[dofs[i]];
+    const std::vector<double> derivatives = evaluate(table.derivatives, local);
+    const CellMap<2> map = map_of<2>(cell);
+    const HookesLaw<2> law(scene.material_of(cell));
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+    {
+      const Tensor<2, 2> J = map.jacobian(table.points[q]);
+      const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
+          derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
+      result += table.weights[q] * std::abs(determinant(J)) * (law.stress(strain) * strain);
+    }
+  }
+  return result;
 }
 
 // @sect3{What is held}

@@ -44,8 +44,8 @@ public:
   /** Of least energy under the conditions of @p motion. */
   dealii::Vector<double> solve(const TestMotion &motion);
 
-  /** a(v, w) of the body without springs. */
-  double product(const dealii::Vector<double> &v, const dealii::Vector<double> &w) const;
+  /** |w|_a of the body without springs; also of a w that differs from a rigid motion by round-off alone. */
+  double norm(const dealii::Vector<double> &w) const;
 
   /**
    * `a(u_N, v_i) - L(v_i)` for every displacement unknown, a without springs and L without what plates bear: w
@@ -76,6 +76,7 @@ private:
 
   void find_nodes();
   void assemble();
+  double square_by_strains(const dealii::Vector<double> &w) const;
   std::vector<SupportedNode<2>> held_nodes(const TestMotion &motion) const;
   dealii::AffineConstraints<double> constraints(const TestMotion &motion) const;
   const System &system(const TestMotion &motion);
