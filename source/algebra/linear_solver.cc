@@ -13,8 +13,10 @@
 // the trailing block $C$ of the factor <i>is</i> the factor of the Schur complement on them. No
 // solution with $A$ per multiplier, as (5.6) seems to ask for, is needed.
 #include <cholmod.h>
+#include <hpvi/algebra/elimination.h>
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/algebra/supernodal_solve.h>
+#include <hpvi/algebra/supervariables.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
@@ -32,6 +34,7 @@ struct LinearSolver::Factor
 {
   cholmod_common common, other; ///< the other for what is done beside the analysis
   cholmod_factor *L = nullptr;
+  std::unique_ptr<Elimination> elimination; ///< until it has been analysed
   std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
   SharedSupernodes shared;
   LAPACKFullMatrix<double> C; ///< its copies would forget that it is a triangle
@@ -56,10 +59,11 @@ struct LinearSolver::Factor
   Factor(const Factor &) = delete;
   Factor &operator=(const Factor &) = delete;
 
-  void order_unknowns(cholmod_sparse *matrix, const std::vector<unsigned int> &kept);
-  void analyse(cholmod_sparse *matrix, double more_bytes);
+  void order_unknowns(const cholmod_sparse &matrix, const EliminationHints &hints,
+                      const std::vector<unsigned int> &kept);
+  void analyse(const cholmod_sparse &matrix, double more_bytes);
   void compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept, double more_bytes,
-               const std::vector<Stabilisation> &stabilisation);
+               const std::vector<Stabilisation> &stabilisation, const EliminationHints &hints);
   void check(const cholmod_common &of) const;
   void check() const
   {
@@ -70,9 +74,6 @@ struct LinearSolver::Factor
 
 namespace
 {
-/** From so many unknowns on nested dissection by METIS wins in space what it takes itself (doc/space.md). */
-constexpr std::size_t dissected = 150000;
-
 /** A view of @p A as CHOLMOD knows it. CHOLMOD does not write to it. */
 cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 {
@@ -94,40 +95,30 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 
 // @sect3{Analysis and factorisation}
 //
-// CAMD is a minimum degree ordering under constraints: group by group, here all unknowns but those
-// kept, then these. Dense blocks of columns, supernodes, make the factorisation one of dense
+// Dense blocks of columns, supernodes, make the factorisation one of dense
 // algebra. Its size is known after the symbolic analysis, and is compared with what memory is left
 // before anything is allocated. Another matrix on the same mesh needs none of that again.
-void LinearSolver::Factor::order_unknowns(cholmod_sparse *matrix,
+void LinearSolver::Factor::order_unknowns(const cholmod_sparse &matrix,
+                                          const EliminationHints &hints,
                                           const std::vector<unsigned int> &kept)
 {
-  const std::size_t n = matrix->nrow;
-  std::vector<int> groups(n, 0);
-  if (kept.size() < n) // else all are in one group, and CAMD wants its number to be below n
-    for (const unsigned int unknown : kept)
-      groups[unknown] = 1;
-  permutation.resize(n);
-  if (kept.empty() && n >= dissected)
-    cholmod_metis(matrix, nullptr, 0, /*postorder=*/true, permutation.data(), &common);
-  else
-    cholmod_camd(matrix, nullptr, 0, groups.data(), permutation.data(), &common);
+  permutation.resize(matrix.ncol); // for what check() says
+  elimination = std::make_unique<Elimination>(matrix, hints, kept, common);
   check();
-  for (std::size_t k = n - kept.size(); k < n; ++k)
+  permutation = std::move(elimination->permutation);
+  for (std::size_t k = permutation.size() - kept.size(); k < permutation.size(); ++k)
     order.push_back(std::lower_bound(kept.begin(), kept.end(), permutation[k]) - kept.begin());
 }
 
-void LinearSolver::Factor::analyse(cholmod_sparse *matrix, const double more_bytes)
+void LinearSolver::Factor::analyse(const cholmod_sparse &matrix, const double more_bytes)
 {
-  // The order is taken as it is: a postordering could move kept unknowns away from the end.
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  common.postorder = false;
-  L = cholmod_analyze_p(matrix, permutation.data(), nullptr, 0, &common);
+  L = elimination->analyse(common);
   check();
+  elimination.reset();
 
   // L, the largest update of a supernode, and A in the order of L.
   const double bytes = sizeof(double) * (double(L->xsize) + double(L->maxcsize)) +
-                       (sizeof(double) + sizeof(int)) * double(matrix->nzmax);
+                       (sizeof(double) + sizeof(int)) * double(matrix.nzmax);
   require_memory(bytes + more_bytes, "the factorisation of " + std::to_string(L->n) + " unknowns");
 }
 
@@ -212,6 +203,25 @@ SymmetricMatrix square(const std::vector<std::pair<unsigned int, double>> &P, co
   return PP;
 }
 
+/** Kept unknowns and those that a term couples are not like others. */
+EliminationHints hints_with(EliminationHints hints, const std::vector<unsigned int> &kept,
+                            const std::vector<Stabilisation> &stabilisation)
+{
+  if (hints.alike.empty())
+    return hints;
+  Supervariables supervariables(std::move(hints.alike));
+  supervariables.split(kept);
+  for (const Stabilisation &term : stabilisation)
+  {
+    std::vector<unsigned int> coupled;
+    for (const auto &entry : term.P)
+      coupled.push_back(entry.first);
+    supervariables.split(coupled);
+  }
+  hints.alike = supervariables.numbers();
+  return hints;
+}
+
 /** A sparse matrix of CHOLMOD's, released with its owner. */
 struct SparseMatrix
 {
@@ -233,7 +243,8 @@ struct SparseMatrix
 /** Factors A with what stabilises it. */
 void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
                                    const double more_bytes,
-                                   const std::vector<Stabilisation> &stabilisation)
+                                   const std::vector<Stabilisation> &stabilisation,
+                                   const EliminationHints &hints)
 {
   cholmod_sparse matrix = as_cholmod(A);
   SparseMatrix sum(common);
@@ -252,7 +263,7 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
   SparseMatrix ordered(other);
   const bool is_new = !L;
   if (is_new)
-    order_unknowns(whole, kept);
+    order_unknowns(*whole, hints_with(hints, kept, stabilisation), kept);
   for_all(2, 1,
           [&](const unsigned int k)
           {
@@ -260,7 +271,7 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
               ordered.matrix =
                   cholmod_ptranspose(whole, /*values=*/1, permutation.data(), nullptr, 0, &other);
             else if (is_new)
-              analyse(whole, more_bytes);
+              analyse(*whole, more_bytes);
           });
   check(other);
   if (L->xtype == CHOLMOD_PATTERN)
@@ -280,12 +291,13 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
 // The solver is complete when it stands: ordering, factor, trailing block, and the order in which
 // the kept unknowns have come out.
 LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
-                           const double more_bytes, const std::vector<Stabilisation> &stabilisation)
+                           const double more_bytes, const std::vector<Stabilisation> &stabilisation,
+                           const EliminationHints &hints)
     : factor(std::make_unique<Factor>())
 {
   const OneThread one_thread;
   if (A.n() > 0)
-    factor->compute(A, kept, more_bytes, stabilisation);
+    factor->compute(A, kept, more_bytes, stabilisation, hints);
 }
 
 void LinearSolver::factor_again(const SymmetricMatrix &A,
@@ -294,7 +306,7 @@ void LinearSolver::factor_again(const SymmetricMatrix &A,
   const OneThread one_thread;
   AssertDimension(A.n(), factor->permutation.size());
   if (A.n() > 0)
-    factor->compute(A, {}, 0., stabilisation);
+    factor->compute(A, {}, 0., stabilisation, {});
 }
 
 LinearSolver::LinearSolver(LinearSolver &&) = default;

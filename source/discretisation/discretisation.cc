@@ -132,7 +132,7 @@ LinearSolver Discretisation<dim>::factor() const
   if (dense.n_multipliers > 0)
     require_memory(dense.bytes(), dense.name());
   return LinearSolver(system.A, contact_rows.kept, dense.n_multipliers > 0 ? dense.bytes() : 0.,
-                      stabilisation());
+                      stabilisation(), system.hints);
 }
 
 template class Spaces<2>;

@@ -4,6 +4,8 @@
 // local matrices to a global one and to resolve constraints as they come. Here cells are reduced to
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
+#include <hpvi/algebra/supervariables.h>
+#include <hpvi/body/dissection.h>
 #include <hpvi/body/plates.h>
 #include <hpvi/discretisation/elastic_system.h>
 #include <hpvi/discretisation/initial_stress.h>
@@ -65,7 +67,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
     {
       const unsigned int index = cell->active_cell_index();
       contributions.push_back(
-          reduce(condensation.element(index), space.cell_dofs(index), unknowns, elements));
+          reduce(index, condensation.element(index), space.cell_dofs(index), unknowns, elements));
     }
   std::vector<std::shared_ptr<const CondensedElement>> springs; // until they are summed up
   for (const SpringFace &face : spring_faces(scene, space, tables))
@@ -73,8 +75,9 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
     const auto element = std::make_shared<CondensedElement>();
     element->condensed = PooledMatrix(face.matrix);
     springs.push_back(element);
-    contributions.push_back(reduce(element, face.dofs, unknowns, elements));
+    contributions.push_back(reduce(face.cell, element, face.dofs, unknowns, elements));
   }
+  set_hints(space.triangulation(), contributions);
   sum_up(contributions);
   elements.forget_unused();
 }
@@ -90,13 +93,15 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
  */
 template <int dim>
 typename ElasticSystem<dim>::Contribution
-ElasticSystem<dim>::reduce(const std::shared_ptr<const CondensedElement> &element,
+ElasticSystem<dim>::reduce(const unsigned int cell,
+                           const std::shared_ptr<const CondensedElement> &element,
                            const ArrayView<const types::global_dof_index> dofs,
                            const Unknowns<dim> &unknowns, CondensedElements<dim> &elements)
 {
   const PooledMatrix &K = element->condensed;
   const unsigned int n = K.m();
   Contribution result;
+  result.cell = cell;
   std::vector<ConstraintEntry> T;
   T.reserve(n);
   result.targets.reserve(n);
@@ -140,6 +145,21 @@ unsigned int ElasticSystem<dim>::Contribution::add_target(const unsigned int unk
   if (found == targets.end())
     targets.push_back(unknown);
   return target;
+}
+
+/** Unknowns of the same cells have entries in the same places. */
+template <int dim>
+void ElasticSystem<dim>::set_hints(const Triangulation<dim> &triangulation,
+                                   const std::vector<Contribution> &contributions)
+{
+  Supervariables supervariables(std::vector<unsigned int>(f.size(), 0));
+  Dissection<dim> dissection(triangulation, f.size());
+  for (const Contribution &contribution : contributions)
+  {
+    supervariables.split(contribution.targets);
+    dissection.add(contribution.cell, contribution.targets);
+  }
+  hints = {supervariables.numbers(), dissection.stages()};
 }
 
 // @sect3{The sum}

@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
+#include <hpvi/algebra/elimination_hints.h>
 #include <hpvi/algebra/symmetric_matrix.h>
 
 #include <memory>
@@ -26,19 +27,20 @@ struct Stabilisation
 /**
  * The sparse Cholesky factorisation `A = L L'`, which takes some unknowns last: the kept ones, those
  * of the contact. The trailing block C of L is then dense and holds the Schur complement on them,
- * `A_kk - A_ki A_ii^-1 A_ik = C C'`. This is the one place that chooses ordering and solver: CHOLMOD
- * (doi:10.1145/1391989.1391995), supernodal, ordered by constrained AMD, or by METIS where there are many unknowns and none is
- * kept; tests/benchmark/solvers.cc measures MUMPS beside it.
+ * `A_kk - A_ki A_ii^-1 A_ik = C C'`. This is the one place that chooses the solver: supernodes of CHOLMOD
+ * (doi:10.1145/1391989.1391995) in the order of Elimination, with numbers of factor_supernodes(); tests/benchmark/solvers.cc measures MUMPS
+ * beside it.
  */
 class LinearSolver
 {
 public:
   /**
-   * Factor @p A. @p more_bytes are those that the caller will want beside L. Throws NumericalFailure if
-   * A is not positive definite or memory does not suffice.
+   * Factor @p A. @p more_bytes are those that the caller will want beside L; @p hints are known of A without a look at it.
+   * Throws NumericalFailure if A is not positive definite or memory does not suffice.
    */
   LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
-               double more_bytes = 0., const std::vector<Stabilisation> &stabilisation = {});
+               double more_bytes = 0., const std::vector<Stabilisation> &stabilisation = {},
+               const EliminationHints &hints = {});
   LinearSolver(LinearSolver &&);
   ~LinearSolver();
 

@@ -2,6 +2,7 @@
 #ifndef hpvi_elastic_system_h
 #define hpvi_elastic_system_h
 
+#include <hpvi/algebra/elimination_hints.h>
 #include <hpvi/algebra/symmetric_matrix.h>
 #include <hpvi/body/load_rule.h>
 #include <hpvi/discretisation/condensation.h>
@@ -29,6 +30,7 @@ public:
 
   SymmetricMatrix A;        ///< over the unknowns; stress length^(dim-2) for displacements
   dealii::Vector<double> f; ///< right-hand side over the unknowns
+  EliminationHints hints;   ///< of A
 
   /** L(v_i) for every displacement unknown, constrained or not. */
   const dealii::Vector<double> &loads() const;
@@ -42,15 +44,18 @@ private:
   /** What one cell adds to the unknowns that its boundary depends on. */
   struct Contribution
   {
+    unsigned int cell;
     std::vector<unsigned int> targets;
     const double *values = nullptr; ///< targets x targets
 
     unsigned int add_target(unsigned int unknown); ///< its place among the targets
   };
 
-  Contribution reduce(const std::shared_ptr<const CondensedElement> &element,
+  Contribution reduce(unsigned int cell, const std::shared_ptr<const CondensedElement> &element,
                       dealii::ArrayView<const dealii::types::global_dof_index> dofs,
                       const Unknowns<dim> &unknowns, CondensedElements<dim> &elements);
+  void set_hints(const dealii::Triangulation<dim> &triangulation,
+                 const std::vector<Contribution> &contributions);
   void sum_up(const std::vector<Contribution> &contributions);
 
   dealii::Vector<double> of_strains, load; ///< for every displacement unknown
