@@ -249,15 +249,15 @@ struct Comparison
     for (unsigned int repetition = 0; repetition < repetitions; ++repetition)
     {
       Stopwatch watch;
-      const LinearSolver solver(system.A, rows.kept);
+      const LinearSolver solver(system.A, rows.kept, 0., {}, system.hints);
       const SchurComplement reference(solver, system.f, rows);
       cholmod.push_back(watch.lap());
-      measure_mumps(A, schur_unknowns, dense(rows), reference.S());
+      measure_mumps(A, schur_unknowns, dense_rows(rows), reference.S());
     }
   }
 
 private:
-  static FullMatrix<double> dense(const ConditionRows &rows)
+  static FullMatrix<double> dense_rows(const ConditionRows &rows)
   {
     FullMatrix<double> B(rows.n_rows(), rows.kept.size());
     for (unsigned int i = 0; i < rows.n_rows(); ++i)

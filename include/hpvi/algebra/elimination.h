@@ -11,8 +11,8 @@ namespace hpvi
 {
 /**
  * In which order unknowns are eliminated, and where the factor has entries: found by CHOLMOD for one of all unknowns that
- * are alike (Supervariables), which stand one after the other. Constrained AMD takes those kept last; many unknowns of which none is kept
- * are dissected by METIS.
+ * are alike (Supervariables), which stand one after the other. Constrained AMD takes stage by stage and those kept last; many unknowns
+ * of which none is kept and no stage is known are dissected by METIS.
  */
 class Elimination
 {
