@@ -95,9 +95,10 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 
 // @sect3{Analysis and factorisation}
 //
-// Dense blocks of columns, supernodes, make the factorisation one of dense
-// algebra. Its size is known after the symbolic analysis, and is compared with what memory is left
-// before anything is allocated. Another matrix on the same mesh needs none of that again.
+// <code>Elimination</code> finds an order that fills in little and takes the kept unknowns last.
+// Dense blocks of columns, supernodes, make the factorisation one of dense algebra. Its size is
+// known after the symbolic analysis, and is compared with what memory is left before anything is
+// allocated. Another matrix on the same mesh needs none of that again.
 void LinearSolver::Factor::order_unknowns(const cholmod_sparse &matrix,
                                           const EliminationHints &hints,
                                           const std::vector<unsigned int> &kept)

@@ -86,7 +86,7 @@ std::vector<unsigned int> Dissection<dim>::stages() const
     of_part.push_back(part.n_cells > large ? n_stages++ : 0);
   for (const auto &[first, last] : range)
   {
-    unsigned int part = leaf[first];
+    unsigned int part = first == none ? 0 : leaf[first]; // no cell has it: at once
     while (parts[part].end <= last)
       part = parts[part].parent;
     result.push_back(of_part[part]);

@@ -83,6 +83,17 @@ TEST(Dissection, CutsCellsIntoHalves)
     EXPECT_EQ(stages[v], parts(places[v])) << places[v];
 }
 
+TEST(Dissection, EliminatesAtOnceWhatNoCellHas)
+{
+  Triangulation<2> mesh;
+  GridGenerator::hyper_cube(mesh);
+  mesh.refine_global(6);
+  Dissection<2> dissection(mesh, 2);
+  for (const auto &cell : mesh.active_cell_iterators())
+    dissection.add(cell->active_cell_index(), {1});
+  EXPECT_EQ(dissection.stages(), (Numbers{0, 7}));
+}
+
 TEST(Dissection, LeavesSmallMeshesAndCoarseCellsAlone)
 {
   Triangulation<2> small;
