@@ -20,7 +20,6 @@ struct Structure
 {
   std::vector<int> super{0}, pi{0}, px{0}, rows;
   double n_values = 0, largest_update = 0; ///< more than an index can count would not fit
-  std::size_t longest_update = 0;
 
   Structure(const cholmod_factor &of_classes, const std::vector<int> &start);
   cholmod_factor *symbolic_factor(cholmod_common &common) const;
@@ -42,7 +41,6 @@ Structure::Structure(const cholmod_factor &of_classes, const std::vector<int> &s
     pi.push_back(rows.size());
     n_values += double(n_columns) * n_rows;
     px.push_back(n_values <= std::numeric_limits<int>::max() ? int(n_values) : 0);
-    longest_update = std::max(longest_update, n_rows - n_columns);
   }
   std::vector<unsigned int> of_column;
   for (unsigned int s = 0; s + 1 < super.size(); ++s)
@@ -74,7 +72,6 @@ cholmod_factor *Structure::symbolic_factor(cholmod_common &common) const
   L->ssize = rows.size();
   L->xsize = n_values;
   L->maxcsize = largest_update;
-  L->maxesize = longest_update;
   L->super = copy(super);
   L->pi = copy(pi);
   L->px = copy(px);

@@ -33,7 +33,7 @@ TEST(Supervariables, AreThoseOfTheSameSets)
   EXPECT_EQ(known.numbers(), (Numbers{0, 1, 2, 3}));
 }
 
-/** A grid of 12 x 12 nodes with one to four unknowns each, all of neighbours coupled; which nodes are last. */
+/** A grid of 12 x 12 nodes with one to four unknowns each, all of neighbours coupled. */
 struct Grid
 {
   static constexpr unsigned int n_nodes = 12;
