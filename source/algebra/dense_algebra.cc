@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/numerical_failure.h>
 
 #include <algorithm>
@@ -41,82 +42,11 @@ void multiply(const char op_A, const char op_B, const unsigned int rows, const u
                  &ldc);
 }
 
-bool cholesky(const unsigned int n, double *const A, const unsigned int stride)
-{
-  const blas_int size = n, lda = stride;
-  blas_int info = 0;
-  if (n > 0)
-    dealii::potrf("L", &size, A, &lda, &info);
-  return info == 0;
-}
-
 void require_regular(const bool is_positive_definite, const char *const what)
 {
   if (!is_positive_definite)
     throw NumericalFailure(std::string("round-off spoils ") + what +
                            ", as where it is many thousand times as long as wide");
-}
-
-namespace
-{
-/** So many columns at a time are solved for entry by entry; what they do to the others is one product. */
-constexpr unsigned int block = 16;
-
-/** x := L^-1 x */
-void solve_forward(const unsigned int n, const DensePart L, double *const x)
-{
-  for (unsigned int first = 0; first < n; first += block)
-  {
-    const unsigned int end = std::min(n, first + block);
-    for (unsigned int j = first; j < end; ++j)
-    {
-      const double *const column = L.entries + std::size_t(j) * L.stride;
-      x[j] /= column[j];
-      for (unsigned int i = j + 1; i < end; ++i)
-        x[i] -= column[i] * x[j];
-    }
-    multiply('N', 'N', n - end, 1, end - first, -1.,
-             {L.entries + std::size_t(first) * L.stride + end, L.stride}, {x + first, n}, 1.,
-             x + end, n);
-  }
-}
-
-/** x := L^-T x */
-void solve_backward(const unsigned int n, const DensePart L, double *const x)
-{
-  for (unsigned int end = n, first; end > 0; end = first)
-  {
-    first = (end - 1) / block * block;
-    multiply('T', 'N', end - first, 1, n - end, -1.,
-             {L.entries + std::size_t(first) * L.stride + end, L.stride}, {x + end, n}, 1.,
-             x + first, n);
-    for (unsigned int j = end; j-- > first;)
-    {
-      const double *const column = L.entries + std::size_t(j) * L.stride;
-      for (unsigned int i = j + 1; i < end; ++i)
-        x[j] -= column[i] * x[i];
-      x[j] /= column[j];
-    }
-  }
-}
-} // namespace
-
-// For one column OpenBLAS's own takes a buffer that all threads share, and up to four times as long.
-void solve_triangular(const char op, const unsigned int n, const unsigned int columns,
-                      const DensePart L, double *const B, const unsigned int stride)
-{
-  const blas_int size = n, nrhs = columns, lda = L.stride, ldb = stride;
-  blas_int info = 0;
-  if (columns == 1)
-    (op == 'N' ? solve_forward : solve_backward)(n, L, B);
-  else if (n > 0 && columns > 0)
-    dealii::trtrs("L", &op, "N", &size, &nrhs, L.entries, &lda, B, &ldb, &info);
-}
-
-void solve_by_cholesky(const unsigned int n, const std::vector<double> &L, double *const x)
-{
-  for (const char op : {'N', 'T'})
-    solve_triangular(op, n, 1, {L.data(), n}, x, n);
 }
 
 PivotedCholesky::PivotedCholesky(const unsigned int n, const std::vector<double> &A,

@@ -10,6 +10,7 @@
 // rounding of one product.
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/schur_complement.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/team.h>
 
 namespace hpvi

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/supernodal_solve.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/team.h>
 
 #include <algorithm>

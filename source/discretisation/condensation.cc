@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_support.h>
-#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/discretisation/condensation.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/discretisation/internal_forces.h>

@@ -167,10 +167,10 @@ void EquilibratedStress::set_tractions(const bool has_long_cells)
   defect = defect == 0 ? 0. : defect / largest;
 }
 
-/** Some hundred at a time, which is enough for all threads and little to keep. */
+/** A hundred at a time, which is enough for all threads and little to keep. */
 void EquilibratedStress::solve_patches()
 {
-  constexpr std::size_t at_once = 512;
+  constexpr std::size_t at_once = 128;
   const auto &all = vertex_patches.patches();
   std::vector<Patch> patches;
   for (std::size_t first = 0; first < all.size(); first += at_once)

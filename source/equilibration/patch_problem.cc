@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/equilibration/patches.h>
 
@@ -138,15 +139,17 @@ void PatchProblem::add_energy(const PatchCell &cell, const std::vector<Block> &p
         G = {second.data(), b.n};
       }
       for (unsigned int j = 0; j < d.n; ++j)
-        for (unsigned int i = 0; i < b.n; ++i)
-          factor.H[std::size_t(d.unknown + j) * n + b.unknown + i] +=
-              scale * b.weight * d.weight * G.entries[j * G.stride + i];
+      {
+        double *const column = factor.H.column(d.unknown + j);
+        for (unsigned int i = d.unknown == b.unknown ? j : 0; i < b.n; ++i)
+          column[b.unknown + i] += scale * b.weight * d.weight * G.entries[j * G.stride + i];
+      }
     }
 }
 
 /** Appends those columns of `B' N` that are not empty: a corner away from the vertex sees no unknown. */
 void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block> &parts,
-                                  const unsigned int first, PatchFactor &factor) const
+                                  const unsigned int first, PatchFactor &factor)
 {
   const TractionEnergy &element = cell.element;
   std::vector<double> column(n);
@@ -159,7 +162,7 @@ void PatchProblem::add_conditions(const PatchCell &cell, const std::vector<Block
         add_transposed(b, N, 1., &column[b.unknown]);
     if (std::all_of(column.begin(), column.end(), [](const double entry) { return entry == 0.; }))
       continue;
-    factor.conditions.insert(factor.conditions.end(), column.begin(), column.end());
+    conditions.insert(conditions.end(), column.begin(), column.end());
     factor.present.push_back(first + k);
   }
 }
@@ -178,44 +181,47 @@ EquilibrationCache::Signature PatchProblem::form(const PatchFactor &factor) cons
 std::vector<unsigned int> PatchProblem::independent_conditions(const PatchFactor &factor) const
 {
   const unsigned int m = factor.present.size();
-  std::vector<double> W(factor.conditions), S(m * m);
-  solve_triangular('N', n, m, {factor.H.data(), n}, W.data(), n);
+  std::vector<double> W(conditions), S(m * m);
+  factor.H.solve('N', m, W.data(), n);
   multiply('T', 'N', m, m, n, 1., {W.data(), n}, {W.data(), n}, 0., S.data(), m);
   return PivotedCholesky(m, S, dependent).order;
 }
 
-bool PatchProblem::choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const
+bool PatchProblem::choose(const std::vector<unsigned int> &places, PatchFactor &factor) const
 {
-  const unsigned int rank = conditions.size();
-  factor.chosen = conditions;
+  const unsigned int rank = places.size();
+  factor.chosen = places;
   factor.W.clear();
   factor.W.reserve(std::size_t(rank) * n);
-  for (const unsigned int k : conditions)
-    factor.W.insert(factor.W.end(), &factor.conditions[std::size_t(k) * n],
-                    &factor.conditions[std::size_t(k) * n] + n);
-  solve_triangular('N', n, rank, {factor.H.data(), n}, factor.W.data(), n);
-  factor.S.resize(rank * rank);
-  multiply('T', 'N', rank, rank, n, 1., {factor.W.data(), n}, {factor.W.data(), n}, 0.,
-           factor.S.data(), rank);
-  if (!cholesky(rank, factor.S.data(), rank))
+  for (const unsigned int k : places)
+    factor.W.insert(factor.W.end(), &conditions[std::size_t(k) * n],
+                    &conditions[std::size_t(k) * n] + n);
+  factor.H.solve('N', rank, factor.W.data(), n);
+  std::vector<double> S(rank * rank);
+  multiply('T', 'N', rank, rank, n, 1., {factor.W.data(), n}, {factor.W.data(), n}, 0., S.data(),
+           rank);
+  factor.S = PackedTriangle(rank);
+  for (unsigned int j = 0; j < rank; ++j)
+    std::copy(&S[j * rank + j], &S[j * rank] + rank, factor.S.column(j) + j);
+  if (!factor.S.factor())
     return false;
   double least = 1., largest = 0.;
   for (unsigned int i = 0; i < rank; ++i)
   {
-    const double pivot = factor.S[i * rank + i];
+    const double pivot = factor.S.column(i)[i];
     least = i == 0 ? pivot : std::min(least, pivot);
     largest = std::max(largest, pivot);
   }
   return least * least > 0.1 * dependent * largest * largest;
 }
 
-void PatchProblem::set_matrices(PatchFactor &factor) const
+void PatchProblem::set_matrices(PatchFactor &factor)
 {
-  factor.H.assign(std::size_t(n) * n, 0.);
+  factor.H = PackedTriangle(n);
   unsigned int first = 0;
   for (const PatchCell &cell : cells)
     first += cell.element.n_conditions;
-  factor.conditions.reserve(std::size_t(first) * n);
+  conditions.reserve(std::size_t(first) * n);
   first = 0;
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
@@ -223,13 +229,13 @@ void PatchProblem::set_matrices(PatchFactor &factor) const
     add_conditions(cells[k], blocks[k], first, factor);
     first += cells[k].element.n_conditions;
   }
-  require_regular(cholesky(n, factor.H.data(), n), tractions);
+  require_regular(factor.H.factor(), tractions);
 }
 
-void PatchProblem::renew(std::vector<unsigned int> &conditions, PatchFactor &factor) const
+void PatchProblem::renew(std::vector<unsigned int> &places, PatchFactor &factor) const
 {
-  conditions = independent_conditions(factor);
-  require_regular(choose(conditions, factor), tractions);
+  places = independent_conditions(factor);
+  require_regular(choose(places, factor), tractions);
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */
@@ -267,47 +273,64 @@ void PatchProblem::add_data(const PatchCell &cell, const std::vector<Block> &par
     right.push_back(-defect[k]);
 }
 
-/** Minimises energy subject to the chosen conditions; right := what all of them miss. */
-std::vector<double> PatchProblem::minimise(const PatchFactor &factor, std::vector<double> x,
-                                           std::vector<double> &right) const
+/** x := the least energy subject to the chosen conditions, from the gradient where x vanishes. */
+void PatchProblem::minimise(const PatchFactor &factor, const std::vector<double> &right)
 {
-  const unsigned int m = factor.present.size(), rank = factor.chosen.size();
+  const unsigned int rank = factor.chosen.size();
   for (double &value : x)
     value = -value;
-  solve_triangular('N', n, 1, {factor.H.data(), n}, x.data(), n);
+  factor.H.solve('N', 1, x.data(), n);
+  std::vector<double> mu(rank);
   for (unsigned int pass = 0; pass < 2; ++pass) // twice, for round-off
   {
-    std::vector<double> mu(rank);
     for (unsigned int i = 0; i < rank; ++i)
       mu[i] = right[factor.present[factor.chosen[i]]];
     multiply('T', 'N', rank, 1, n, -1., {factor.W.data(), n}, {x.data(), n}, 1., mu.data(), rank);
     for (const char op : {'N', 'T'})
-      solve_triangular(op, rank, 1, {factor.S.data(), rank}, mu.data(), rank);
+      factor.S.solve(op, 1, mu.data(), rank);
     multiply('N', 'N', n, 1, rank, 1., {factor.W.data(), n}, {mu.data(), rank}, 1., x.data(), n);
   }
-  solve_triangular('T', n, 1, {factor.H.data(), n}, x.data(), n);
-  std::vector<double> met(m);
-  multiply('T', 'N', m, 1, n, 1., {factor.conditions.data(), n}, {x.data(), n}, 0., met.data(), m);
-  for (unsigned int k = 0; k < m; ++k)
-    right[factor.present[k]] -= met[k];
-  return x;
+  factor.H.solve('T', 1, x.data(), n);
+}
+
+/** right -= N'B x, for the conditions of a cell. */
+void PatchProblem::subtract_met(const PatchCell &cell, const std::vector<Block> &parts,
+                                double *const right) const
+{
+  const TractionEnergy &element = cell.element;
+  std::vector<double> t(element.n_edges());
+  for (const Block &b : parts)
+    for (unsigned int i = 0; b.unknown != none && i < b.n; ++i)
+    {
+      const double value = b.weight * x[b.unknown + i];
+      if (!b.R)
+        t[b.row + i] += value;
+      for (unsigned int l = 0; b.R && l < b.n; ++l)
+        t[b.row + l] += (*b.R)(l, i) * value;
+    }
+  multiply('T', 'N', element.n_conditions, 1, t.size(), -1., element.N,
+           {t.data(), element.n_edges()}, 1., right, element.n_conditions);
 }
 
 PatchDefect PatchProblem::solve(const PatchFactor &factor)
 {
-  std::vector<double> g(n), right;
+  std::vector<double> right;
   right.reserve(8 * cells.size());
+  x.assign(n, 0.);
   for (unsigned int k = 0; k < cells.size(); ++k)
-    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, g, right);
-  x = minimise(factor, std::move(g), right);
+    add_data(cells[k], blocks[k], cells[k].area / cells[0].area, x, right);
+  minimise(factor, right);
   PatchDefect result;
-  auto value = right.begin();
-  for (const PatchCell &cell : cells)
-    for (unsigned int k = 0; k < cell.element.n_conditions; ++k, ++value)
+  double *value = right.data();
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+  {
+    subtract_met(cells[cell], blocks[cell], value);
+    for (unsigned int k = 0; k < cells[cell].element.n_conditions; ++k, ++value)
     {
       double &largest = k < 3 ? result.equilibrium : result.corners; // three motions come first
       largest = std::max(largest, std::abs(*value));
     }
+  }
   return result;
 }
 

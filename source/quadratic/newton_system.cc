@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <deal.II/lac/lapack_templates.h>
-#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/quadratic/newton_system.h>
 
 namespace hpvi
@@ -25,13 +24,10 @@ bool NewtonSystem::is_positive_definite() const
 Vector<double> NewtonSystem::solve(const Vector<double> &x) const
 {
   Vector<double> result(x.size());
-  const types::blas_int n = free.size(), one = 1;
   std::vector<double> change(free.size());
   for (unsigned int j = 0; j < free.size(); ++j)
     change[j] = x[free[j]];
-  types::blas_int info = 0;
-  if (n > 0)
-    potrs("L", &n, &one, factor.data(), &n, change.data(), &n, &info);
+  solve_by_cholesky(free.size(), factor, change.data());
   for (unsigned int j = 0; j < free.size(); ++j)
     result[free[j]] = change[j];
   return result;

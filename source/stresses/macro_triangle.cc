@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/geometry_info.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/stresses/macro_triangle.h>
 
 #include <algorithm>

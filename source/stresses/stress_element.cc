@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/stresses/corner_stress.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/stress_element.h>
@@ -281,6 +282,8 @@ void StressElement::residual(const Modes<3> &stress, const Modes<2> &divergence,
       if (i + 1 < m)
         r[m * (m - 1) + i * m + j] = divergence(1, i, j);
     }
+  if (stress.n == 0)
+    return;
   const std::vector<double> amplitudes = corner_amplitudes(stress);
   subtract_data(nearest(stress), r);
   for (unsigned int c = 0; c < corners.size(); ++c)

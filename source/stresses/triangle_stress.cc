@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/common_table.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/triangle_stress.h>

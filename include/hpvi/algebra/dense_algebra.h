@@ -26,18 +26,8 @@ struct DensePart
 void multiply(char op_A, char op_B, unsigned int rows, unsigned int columns, unsigned int inner,
               double alpha, DensePart A, DensePart B, double beta, double *C, unsigned int stride);
 
-/** A := L with `A = L L'`, in the lower triangle. Is A positive definite? */
-bool cholesky(unsigned int n, double *A, unsigned int stride);
-
 /** Throws NumericalFailure, that round-off spoils @p what of cells, unless their matrix is positive definite. */
 void require_regular(bool is_positive_definite, const char *what);
-
-/** `B := op(L)^-1 B` with L lower triangular of size n, B n x columns. */
-void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L, double *B,
-                      unsigned int stride);
-
-/** `x := A^-1 x` with `A = L L'`, n x n. */
-void solve_by_cholesky(unsigned int n, const std::vector<double> &L, double *x);
 
 /**
  * Cholesky with pivots of a positive semidefinite matrix (n x n, both triangles given): rows and

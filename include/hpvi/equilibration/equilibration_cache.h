@@ -2,6 +2,7 @@
 #ifndef hpvi_equilibration_cache_h
 #define hpvi_equilibration_cache_h
 
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/body/strain_points.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/macro_stress_element.h>
@@ -16,12 +17,11 @@ namespace hpvi
 /** What a patch problem depends on besides its data: its matrices, factored. */
 struct PatchFactor
 {
-  std::vector<double> H;             ///< n x n: L of the energy of the unknown tractions
-  std::vector<double> conditions;    ///< n x present: columns C
+  PackedTriangle H;                  ///< L of the energy of the unknown tractions
   std::vector<unsigned int> present; ///< conditions with columns, others hold by what is known
   std::vector<unsigned int> chosen;  ///< places in present of those that imply all others
   std::vector<double> W;             ///< n x chosen: L^-1 C
-  std::vector<double> S;             ///< chosen x chosen: L of W'W
+  PackedTriangle S;                  ///< L of W'W
 };
 
 /** What a run keeps from step to step: elements by class, patches by signature. */

@@ -33,15 +33,15 @@ public:
   /** What tells which conditions imply the others: the signature without degrees, those of p = 2 excepted. */
   EquilibrationCache::Signature form(const PatchFactor &factor) const;
 
-  void set_matrices(PatchFactor &factor) const; ///< H and all conditions
+  void set_matrices(PatchFactor &factor); ///< H and all conditions
 
   /** Places of as many conditions as `C'H^-1 C` has rank: patches have motions and corners in common. */
   std::vector<unsigned int> independent_conditions(const PatchFactor &factor) const;
 
   /** `W = L^-1 C` of some conditions and the factor of W'W; false: they depend on one another. */
-  bool choose(const std::vector<unsigned int> &conditions, PatchFactor &factor) const;
+  bool choose(const std::vector<unsigned int> &places, PatchFactor &factor) const;
 
-  void renew(std::vector<unsigned int> &conditions,
+  void renew(std::vector<unsigned int> &places,
              PatchFactor &factor) const; ///< chooses those that are independent
 
   PatchDefect solve(const PatchFactor &factor);
@@ -67,11 +67,11 @@ private:
   void add_energy(const PatchCell &cell, const std::vector<Block> &parts, double scale,
                   PatchFactor &factor) const;
   void add_conditions(const PatchCell &cell, const std::vector<Block> &parts, unsigned int first,
-                      PatchFactor &factor) const;
+                      PatchFactor &factor);
   void add_data(const PatchCell &cell, const std::vector<Block> &parts, double scale,
                 std::vector<double> &g, std::vector<double> &right) const;
-  std::vector<double> minimise(const PatchFactor &factor, std::vector<double> x,
-                               std::vector<double> &right) const;
+  void minimise(const PatchFactor &factor, const std::vector<double> &right);
+  void subtract_met(const PatchCell &cell, const std::vector<Block> &parts, double *right) const;
 
   const std::vector<PatchCell> &cells;
   const std::vector<PatchEdge> &edges;
@@ -79,7 +79,8 @@ private:
   std::vector<std::array<unsigned int, 2>> first_unknown; ///< by edge of the patch and component
   std::vector<std::vector<Block>> blocks;                 ///< by cell
   unsigned int n = 0;
-  std::vector<double> x; ///< the tractions
+  std::vector<double> conditions; ///< n x PatchFactor::present: C, while a factor is made
+  std::vector<double> x;          ///< the tractions
 };
 
 /**
