@@ -4,6 +4,7 @@
 
 #include <hpvi/algebra/triangular.h>
 #include <hpvi/body/strain_points.h>
+#include <hpvi/equilibration/patch_data.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/macro_stress_element.h>
 #include <hpvi/stresses/stress_element.h>
@@ -31,6 +32,7 @@ struct EquilibrationCache
   LegendreTables legendre;
   TriangleStresses triangles;
   std::map<Signature, std::unique_ptr<const StressElement>> elements;
+  std::map<Signature, PatchData> data_of_modes; ///< by address of the element, p and n_force
 
   /** What few other cells can share: kept as long as each step uses it. */
   template <class T>

@@ -4,8 +4,10 @@
 
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/equilibration/initial_modes.h>
+#include <hpvi/equilibration/patch_data.h>
 #include <hpvi/equilibration/patch_problem.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -39,7 +41,7 @@ public:
 
   /** |s - sigma|^2 in energy of all cells, from data of each with its tractions. */
   using WithTractions = std::function<std::vector<double>(unsigned int cell)>;
-  std::vector<double> squares(const WithTractions &with_tractions) const;
+  std::vector<double> squares(const WithTractions &with_tractions);
 
   /** s for such data. */
   StressElement::Stress stress(unsigned int cell, const std::vector<double> &data) const;
@@ -56,57 +58,59 @@ public:
   }
 
 private:
-  double look_at_missed_force(unsigned int cell) const;
-  /** One cell: its element, the stress of u_N in its frame, and where its columns of data are. */
+  struct Batch;
+
+  /** One cell: its element, its loads in its frame, and where its columns of data are. */
   struct Cell
   {
     const StressElement *element;
     dealii::Tensor<2, 2> B;
-    double h; ///< of the element [length]
-    Modes<3> sigma;
-    InitialModes initial; ///< what sigma has of -C eps_0; without modes: none
+    double h;             ///< of the element [length]
+    InitialModes initial; ///< of C eps_0; without modes: none
     Modes<2> force;       ///< -F in the frame, from the points of the loads; without modes: none
+    Batch *batch;
     unsigned int place, first_hat; ///< in its batch
   };
 
-  /** The four bilinear functions 1, xi, eta, xi eta, of which a hat function is a combination. */
-  static constexpr unsigned int n_bilinear = 4;
-
-  /** All data of the cells of one element. */
+  /** All data of the cells of one element with displacements, and forces, of one degree. */
   struct Batch
   {
     std::vector<unsigned int> cells;
     unsigned int n_hats = 0;
+    const PatchData *of_modes = nullptr; ///< of each mode, if there are cells enough
     // Not set before each thread sets its own part: to touch all of it takes as long as to compute it.
     std::unique_ptr<double[]> r;                  ///< for psi = 1, by cell
     std::unique_ptr<double[]> gradients, defects; ///< G r and N' r by hat function
   };
 
-  /** Some cells of one element. */
+  /** Some cells of one batch, one after the other. */
   struct Part
   {
-    const StressElement *element;
+    Batch *batch;
     std::vector<unsigned int> some_cells;
   };
 
-  std::vector<Part> parts() const;
+  std::vector<Part> parts();
   void set_cells(const std::vector<unsigned int> &marked_corners);
+  CellLaw law(unsigned int cell) const;
+  Modes<3> displacement_stress(unsigned int cell) const;
+  Modes<3> seen(unsigned int cell, Modes<3> sigma) const;
+  CellStress cell_stress(unsigned int cell) const;
+  std::vector<double> modes(const Part &part) const;
+  void set_data_of_modes();
   void set_data();
-  void set_stress(unsigned int cell, const Solution<2> &of);
-  void subtract_initial_stress(unsigned int cell);
-  void set_own_data(unsigned int cell);
-  void set_force(unsigned int cell);
-  void set_force(unsigned int cell, const dealii::Quadrature<2> &rule);
-  void set_data(unsigned int cell, double *r) const;
-  void set_hats(const std::vector<unsigned int> &some_cells, const std::vector<double> &matrix,
-                const std::vector<double> &r, double *result) const;
+  void set_part(const Part &part);
+  void set_hats(const Part &part, const std::vector<double> &sides);
+  void set_own_data(const Part &part);
 
   const Solution<2> &solution;
+  const Solution<2> *measured; ///< sigma is that of its u_N
   const VertexPatches &patches;
-  const Volume volume;
+  bool is_projected; ///< does it know but the projection of div u_N?
   EquilibrationCache &cache;
   std::vector<Cell> cells;
-  std::map<const StressElement *, Batch> batches;
+  /** By element, p and number of modes of the force. */
+  std::map<std::pair<const StressElement *, std::array<unsigned int, 2>>, Batch> batches;
 };
 } // namespace hpvi
 
