@@ -124,11 +124,12 @@ std::array<PatchFace, 2> FaceIntegrals<dim>::sides() const
     for (PatchFace &side : result)
       side.work += hat(side.end, s) * work;
   }
+  std::vector<double> L(n);
   const double largest = *std::max_element(rule.values.begin(), rule.values.end());
   for (unsigned int q = 0; q < rule.points.size(); ++q)
   {
     const double s = rule.points[q], g = rule.values[q], ds = face.length * rule.weights[q];
-    const Vector<double> L = legendre_basis(n, s);
+    legendre::set_values(n, 2. * s - 1., L.data());
     const double t = wanted(s), slipped = leans ? u_t(s) : 0.,
                  lambda = g > 0. ? std::max(-1., std::min(1., t / g)) : 0.,
                  small = 1e-6 * weight * ds * largest * largest;
@@ -136,13 +137,16 @@ std::array<PatchFace, 2> FaceIntegrals<dim>::sides() const
     {
       const double psi = hat(side.end, s);
       side.limit += ds * psi * g;
-      side.moments.add(ds * psi * g, L);
       // A little everywhere, so that l is determined where the hat or g is next to nothing.
-      const double part = weight * ds * (psi + 1e-3), share = part * g * g + small;
+      const double part = weight * ds * (psi + 1e-3), share = part * g * g + small,
+                   wanted_moment = part * g * t + small * lambda + ds * psi * g * slipped;
       for (unsigned int i = 0; i < n; ++i)
+      {
         for (unsigned int j = 0; j < n; ++j)
           side.H(i, j) += share * L[i] * L[j];
-      side.h.add(part * g * t + small * lambda + ds * psi * g * slipped, L);
+        side.moments[i] += ds * psi * g * L[i];
+        side.h[i] += wanted_moment * L[i];
+      }
     }
   }
   return result;

@@ -44,20 +44,21 @@ const BoundaryTractions::Halves &BoundaryTractions::of_hats(const unsigned int e
   return halves[edge];
 }
 
-/** Adds `weight psi traction` at s in [0,1] of an edge, psi the hat function of one end. */
-void BoundaryTractions::add_load(const unsigned int index, const unsigned int end, const double s,
-                                 const double weight, const Tensor<1, 2> &traction)
+/** Adds `weight psi traction` at s in [0,1] of an edge for the hat functions psi of both ends, whose tractions may differ. */
+void BoundaryTractions::add_load(const unsigned int index, const double s, const double weight,
+                                 const std::array<Tensor<1, 2>, 2> &tractions)
 {
   const StressEdge &edge = patches.edges()[index];
   const std::vector<double> L = legendre::values(edge.degree, 2 * s - 1);
-  const double psi = end == 0 ? 1 - s : s;
-  for (unsigned int c = 0; c < 2; ++c)
-  {
-    std::vector<double> &coefficients = halves[index][end][c];
-    const double value = 2 * weight * psi * (traction * edge.components[c].direction);
-    for (unsigned int i = 0; i < coefficients.size(); ++i)
-      coefficients[i] += value * L[i];
-  }
+  for (unsigned int end = 0; end < 2; ++end)
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      std::vector<double> &coefficients = halves[index][end][c];
+      const double psi = end == 0 ? 1 - s : s,
+                   value = 2 * weight * psi * (tractions[end] * edge.components[c].direction);
+      for (unsigned int i = 0; i < coefficients.size(); ++i)
+        coefficients[i] += value * L[i];
+    }
 }
 
 /** That of the discrete equations. */
@@ -121,28 +122,35 @@ void BoundaryTractions::set(const unsigned int index)
 {
   const StressEdge &edge = patches.edges()[index];
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  Quadrature<1> loads;
+  const bool has_contact = edge.contact_face != numbers::invalid_unsigned_int;
+  for (auto &half : halves[index])
+    for (unsigned int c = 0; c < 2; ++c)
+      half[c].assign(edge.components[c].n, 0.);
+  const auto add_loads = [&](const Quadrature<1> &rule, const auto &load)
+  {
+    for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      const Tensor<1, 2> value = load(edge, rule.point(q)[0]);
+      add_load(index, rule.point(q)[0], rule.weight(q), {{value, value}});
+    }
+  };
   if (condition.has_traction())
-    loads = load_rule(edge).quadrature;
+    add_loads(load_rule(edge).quadrature, [&](const auto &...at) { return load_on(at...); });
+  if (condition.spring)
+    add_loads(spring_rule(edge), [&](const auto &...at) { return spring_on(at...); });
+  if (has_contact)
+  {
+    const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
+                                            edge.degree - 2, solution.tables);
+    for (unsigned int q = 0; q < rule.points.size(); ++q)
+      add_load(index, rule.points[q], rule.weights[q],
+               {{friction_on(edge, 0, rule.points[q], rule.values[q]),
+                 friction_on(edge, 1, rule.points[q], rule.values[q])}});
+  }
   for (unsigned int end = 0; end < 2; ++end)
   {
-    for (unsigned int c = 0; c < 2; ++c)
-      halves[index][end][c].assign(edge.components[c].n, 0.);
-    for (unsigned int q = 0; q < loads.size(); ++q)
-      add_load(index, end, loads.point(q)[0], loads.weight(q), load_on(edge, loads.point(q)[0]));
-    const unsigned int n_spring = condition.spring ? spring_rule(edge).size() : 0;
-    for (unsigned int q = 0; q < n_spring; ++q)
+    if (has_contact)
     {
-      const double s = spring_rule(edge).point(q)[0];
-      add_load(index, end, s, spring_rule(edge).weight(q), spring_on(edge, s));
-    }
-    if (edge.contact_face != numbers::invalid_unsigned_int)
-    {
-      const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
-                                              edge.degree - 2, solution.tables);
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-        add_load(index, end, rule.points[q], rule.weights[q],
-                 friction_on(edge, end, rule.points[q], rule.values[q]));
       const std::vector<double> &t = contact_parts[edge.contact_face].pressure[end];
       for (unsigned int i = 0; i < t.size(); ++i)
         halves[index][end][0][i] -= t[i];

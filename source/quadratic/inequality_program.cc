@@ -48,8 +48,8 @@ FullMatrix<double> inverse_factor(const FullMatrix<double> &H)
 } // namespace
 
 InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<double> &h)
-    : x(h.size()), reach(h.size()), J(inverse_factor(H)), R(h.size(), h.size()), d(h.size()),
-      free(h.size()), z(h.size()), missing(h.size())
+    : x(h.size()), reach(h.size()), size_of_x(h.size()), J(inverse_factor(H)),
+      R(h.size(), h.size()), d(h.size()), free(h.size()), z(h.size()), missing(h.size())
 {
   Vector<double> Jh(h.size());
   J.vmult(Jh, h);
@@ -57,31 +57,35 @@ InequalityProgram::InequalityProgram(const FullMatrix<double> &H, const Vector<d
   note_reach();
 }
 
-bool InequalityProgram::add_equality(Vector<double> row, const double value)
+void InequalityProgram::add(const Vector<double> &row, const double bound, const bool is_equality)
 {
-  const double length = row.l2_norm();
-  rows.push_back({std::move(row), value, length, true});
+  rows.push_back({{}, bound, row.l2_norm(), is_equality});
+  for (unsigned int i = 0; i < row.size(); ++i)
+    if (row[i] != 0.)
+      rows.back().entries.emplace_back(i, row[i]);
   is_in.push_back(false);
   counts_as_met.push_back(false);
+}
+
+bool InequalityProgram::add_equality(const Vector<double> &row, const double value)
+{
+  add(row, value, true);
   return take_in(rows.size() - 1);
 }
 
-void InequalityProgram::add_inequality(Vector<double> row, const double least)
+void InequalityProgram::add_inequality(const Vector<double> &row, const double least)
 {
-  const double length = row.l2_norm();
-  rows.push_back({std::move(row), least, length, false});
-  is_in.push_back(false);
-  counts_as_met.push_back(false);
+  add(row, least, false);
 }
 
 /** `row' x - bound`, zero where round-off of @p tolerance cannot tell: of x, and where that is next to nothing of what it was. */
 double InequalityProgram::slack(const Row &row, const double tolerance) const
 {
   double sum = -row.bound, size = std::abs(row.bound);
-  for (unsigned int i = 0; i < x.size(); ++i)
+  for (const auto &[i, entry] : row.entries)
   {
-    sum += row.coefficients[i] * x[i];
-    size += std::abs(row.coefficients[i]) * std::max(std::abs(x[i]), 1e-10 * reach[i]);
+    sum += entry * x[i];
+    size += std::abs(entry) * size_of_x[i];
   }
   return std::abs(sum) > tolerance * size ? sum : 0.;
 }
@@ -147,14 +151,20 @@ bool InequalityProgram::take_in(const unsigned int row)
 {
   for (double multiplier = 0.;;)
   {
-    J.vmult(d, rows[row].coefficients);
+    for (unsigned int i = 0; i < d.size(); ++i)
+    {
+      d[i] = 0.;
+      for (const auto &[k, entry] : rows[row].entries)
+        d[i] += J(i, k) * entry;
+    }
     const std::vector<double> r = combination(d);
     // For what is round-off of the row no other one gives way, least of all where equations alone imply it.
     const double least = dependent * d.l2_norm();
     double dual_step = infinity;
     unsigned int blocking = none;
     for (unsigned int k = 0; k < r.size(); ++k)
-      if (!rows[active[k]].is_equality && r[k] * length_in_R(k) > least && y[k] / r[k] < dual_step)
+      if (r[k] > 0. && !rows[active[k]].is_equality && y[k] / r[k] < dual_step &&
+          r[k] * length_in_R(k) > least)
       {
         dual_step = y[k] / r[k];
         blocking = k;
@@ -235,7 +245,10 @@ void InequalityProgram::move(const double step, const Vector<double> &direction)
 void InequalityProgram::note_reach()
 {
   for (unsigned int i = 0; i < x.size(); ++i)
+  {
     reach[i] = std::max(reach[i], std::abs(x[i]));
+    size_of_x[i] = std::max(std::abs(x[i]), 1e-10 * reach[i]);
+  }
 }
 
 /** Turn rows i and i + 1 of J so that (a, b) becomes (length, 0). */

@@ -25,6 +25,9 @@ double normalisation(const unsigned int i)
 double EdgePolynomial::zero_between(const double left, const double right, const double at_left,
                                     const double at_right) const
 {
+  const double on_chord = left + (right - left) * at_left / (at_left - at_right);
+  if (terms.size() == 2)
+    return on_chord;
   const auto with_slope = [this](const double s)
   {
     const double t = 2. * s - 1.;
@@ -48,9 +51,8 @@ double EdgePolynomial::zero_between(const double left, const double right, const
   std::uintmax_t patience = 100;
   try
   {
-    return boost::math::tools::newton_raphson_iterate(
-        with_slope, left + (right - left) * at_left / (at_left - at_right), left, right, bits,
-        patience);
+    return boost::math::tools::newton_raphson_iterate(with_slope, on_chord, left, right, bits,
+                                                      patience);
   }
   catch (const boost::math::evaluation_error &)
   {
@@ -78,11 +80,14 @@ EdgePolynomial EdgePolynomial::constant(const double value)
 EdgePolynomial EdgePolynomial::through(const std::vector<double> &values, const QGauss<1> &gauss)
 {
   // n Gauss points integrate the products of two polynomials of degree n - 1.
-  Vector<double> coefficients(values.size());
+  std::vector<double> coefficients(values.size()), L(values.size());
   for (unsigned int q = 0; q < values.size(); ++q)
-    coefficients.add(2. * gauss.weight(q) * values[q],
-                     legendre_basis(values.size(), gauss.point(q)[0]));
-  return EdgePolynomial(std::vector<double>(coefficients.begin(), coefficients.end()));
+  {
+    legendre::set_values(L.size(), 2. * gauss.point(q)[0] - 1., L.data());
+    for (unsigned int i = 0; i < L.size(); ++i)
+      coefficients[i] += 2. * gauss.weight(q) * values[q] * L[i];
+  }
+  return EdgePolynomial(coefficients);
 }
 
 double EdgePolynomial::operator()(const double s) const
@@ -190,8 +195,9 @@ std::vector<double> EdgePolynomial::zeros() const
 
 Vector<double> legendre_basis(const unsigned int n, const double s)
 {
-  const std::vector<double> values = legendre::values(n, 2. * s - 1.);
-  return Vector<double>(values.begin(), values.end());
+  Vector<double> result(n);
+  legendre::set_values(n, 2. * s - 1., result.begin());
+  return result;
 }
 
 bool varies(const FrictionRule &friction)

@@ -11,9 +11,8 @@ namespace hpvi
 {
 using namespace dealii;
 
-std::vector<double> legendre::values(const unsigned int n, const double x)
+void legendre::set_values(const unsigned int n, const double x, double *const L)
 {
-  std::vector<double> L(n);
   double before = 0, P = 1;
   for (unsigned int i = 0; i < n; ++i)
   {
@@ -22,6 +21,12 @@ std::vector<double> legendre::values(const unsigned int n, const double x)
     before = P;
     P = next;
   }
+}
+
+std::vector<double> legendre::values(const unsigned int n, const double x)
+{
+  std::vector<double> L(n);
+  set_values(n, x, L.data());
   return L;
 }
 

@@ -64,8 +64,8 @@ private:
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;
   void set(unsigned int edge);
-  void add_load(unsigned int edge, unsigned int end, double s, double weight,
-                const dealii::Tensor<1, 2> &traction);
+  void add_load(unsigned int edge, double s, double weight,
+                const std::array<dealii::Tensor<1, 2>, 2> &tractions);
   void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
   EndShear end_shear(unsigned int edge, unsigned int end) const;
 

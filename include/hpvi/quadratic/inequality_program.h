@@ -5,6 +5,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -24,10 +25,10 @@ public:
   InequalityProgram(const dealii::FullMatrix<double> &H, const dealii::Vector<double> &h);
 
   /** `row' x = value`, before the first solve(). False: it contradicts those before it. */
-  bool add_equality(dealii::Vector<double> row, double value);
+  bool add_equality(const dealii::Vector<double> &row, double value);
 
   /** `row' x >= least`, from the next solve() on. */
-  void add_inequality(dealii::Vector<double> row, double least);
+  void add_inequality(const dealii::Vector<double> &row, double least);
 
   /**
    * False: no x meets all rows, or round-off keeps the method from ending. A row that contradicts others by no more
@@ -43,9 +44,9 @@ public:
 private:
   struct Row
   {
-    dealii::Vector<double> coefficients;
+    std::vector<std::pair<unsigned int, double>> entries; ///< those that are not zero
     double bound;
-    double length; ///< of the coefficients
+    double length; ///< of the entries
     bool is_equality;
   };
 
@@ -61,6 +62,7 @@ private:
     }
   };
 
+  void add(const dealii::Vector<double> &row, double bound, bool is_equality);
   double slack(const Row &row, double tolerance) const;
   unsigned int most_violated() const;
   bool recall(double tolerance);
@@ -75,7 +77,8 @@ private:
   void drop(unsigned int place);
 
   dealii::Vector<double> x;
-  dealii::Vector<double> reach; ///< the largest |x_i| so far, whose round-off x has
+  dealii::Vector<double> reach;     ///< the largest |x_i| so far, whose round-off x has
+  dealii::Vector<double> size_of_x; ///< |x_i|, or as much as that round-off is worth
   std::vector<Row> rows;
   dealii::FullMatrix<double> J; ///< `J'J = H^-1`, turned so that `J N = (R; 0)`, R a triangle,
   dealii::FullMatrix<double> R; ///< where the columns of N are the active rows

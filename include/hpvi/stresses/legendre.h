@@ -18,6 +18,7 @@ namespace legendre
 {
 /** L_0 to L_{n-1} at @p x. */
 std::vector<double> values(unsigned int n, double x);
+void set_values(unsigned int n, double x, double *L);
 
 constexpr unsigned int n_roots = 128;
 extern const std::array<double, n_roots> roots;
