@@ -111,7 +111,7 @@ Modes<3> ParallelogramStresses::displacement_stress(const unsigned int index) co
 Modes<3> ParallelogramStresses::seen(const unsigned int index, Modes<3> sigma) const
 {
   const CellLaw cell = law(index);
-  if (!is_projected || sigma.n == 0 || !cell.material->is_nearly_incompressible(2))
+  if (!is_projected || !cell.material->is_nearly_incompressible(2))
     return sigma;
   return without_oscillating_pressure(std::move(sigma), cell.degree, cell.B, *cell.material);
 }
