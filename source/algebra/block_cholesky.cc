@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/block_cholesky.h>
+#include <hpvi/algebra/triangular.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,28 +9,6 @@ namespace hpvi
 {
 namespace
 {
-/** A := L with `A = L L'`, in the lower triangle. Is A positive definite? */
-bool factor_block(const unsigned int n, double *const A, const unsigned int stride)
-{
-  for (unsigned int k = 0; k < n; ++k)
-  {
-    double *const column = A + std::size_t(k) * stride;
-    if (!(column[k] > 0))
-      return false;
-    column[k] = std::sqrt(column[k]);
-    const double scale = 1 / column[k];
-    for (unsigned int i = k + 1; i < n; ++i)
-      column[i] *= scale;
-    for (unsigned int j = k + 1; j < n; ++j)
-    {
-      double *const other = A + std::size_t(j) * stride;
-      for (unsigned int i = j; i < n; ++i)
-        other[i] -= column[j] * column[i];
-    }
-  }
-  return true;
-}
-
 /** `X := L^-1`, n x n by columns with zeros above the diagonal. */
 void invert_block(const unsigned int n, const double *const L, const unsigned int stride,
                   double *const X)
@@ -66,7 +45,7 @@ bool BlockCholesky::factor(const unsigned int rows, const unsigned int n, double
     if (first > 0)
       multiply('N', 'T', rows - first, width, first, -1., {A + first, stride}, {A + first, stride},
                1., diagonal, stride);
-    if (!factor_block(width, diagonal, stride))
+    if (!factor_columns(width, width, diagonal, stride))
       return false;
     invert_block(width, diagonal, stride, inverse);
     for (unsigned int j = 0; j < width; ++j)

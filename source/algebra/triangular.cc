@@ -13,20 +13,12 @@ namespace hpvi
 {
 using dealii::types::blas_int;
 
-namespace
-{
-/** So many columns at a time are taken entry by entry, of one or of several vectors; what they do to the others are products. */
-constexpr unsigned int block = 16, narrow = 8;
-
-/** From an entry of the diagonal on: columns with their stride, as far as a panel of sixteen goes. */
-using Columns = std::pair<double *, unsigned int>;
-
-/** The first columns of n rows, from the diagonal down. */
-bool factor_columns(const unsigned int n, const unsigned int width, const Columns &A)
+bool factor_columns(const unsigned int n, const unsigned int width, double *const A,
+                    const unsigned int stride)
 {
   for (unsigned int j = 0; j < width; ++j)
   {
-    double *const column = A.first + std::size_t(j) * A.second;
+    double *const column = A + std::size_t(j) * stride;
     if (!(column[j] > 0.))
       return false;
     column[j] = std::sqrt(column[j]);
@@ -35,7 +27,7 @@ bool factor_columns(const unsigned int n, const unsigned int width, const Column
       column[i] *= scale;
     for (unsigned int k = j + 1; k < width; ++k)
     {
-      double *const other = A.first + std::size_t(k) * A.second;
+      double *const other = A + std::size_t(k) * stride;
       const double factor = column[k];
       for (unsigned int i = k; i < n; ++i)
         other[i] -= factor * column[i];
@@ -43,6 +35,14 @@ bool factor_columns(const unsigned int n, const unsigned int width, const Column
   }
   return true;
 }
+
+namespace
+{
+/** So many columns at a time are taken entry by entry, of one or of several vectors; what they do to the others are products. */
+constexpr unsigned int block = 16, narrow = 8;
+
+/** From an entry of the diagonal on: columns with their stride, as far as a panel of sixteen goes. */
+using Columns = std::pair<double *, unsigned int>;
 
 /** @p from: Columns of A from an entry of its diagonal on. */
 template <class From>
@@ -52,7 +52,7 @@ bool factor(const unsigned int n, const From &from)
   {
     const unsigned int width = std::min(narrow, n - first);
     const Columns columns = from(first);
-    if (!factor_columns(n - first, width, columns))
+    if (!factor_columns(n - first, width, columns.first, columns.second))
       return false;
     for (unsigned int k = first + width, next; k < n; k = next)
     {

@@ -2,6 +2,7 @@
 #include <hpvi/equilibration/force_modes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hpvi

@@ -11,6 +11,9 @@ namespace hpvi
 /** A := L with `A = L L'`, in the lower triangle; what stands above is lost. Is A positive definite? */
 bool cholesky(unsigned int n, double *A, unsigned int stride);
 
+/** The same for the first @p width columns of n rows alone, entry by entry; others stay as they are. */
+bool factor_columns(unsigned int n, unsigned int width, double *A, unsigned int stride);
+
 /** `B := op(L)^-1 B` with L lower triangular of size n, B n x columns. */
 void solve_triangular(char op, unsigned int n, unsigned int columns, DensePart L, double *B,
                       unsigned int stride);
