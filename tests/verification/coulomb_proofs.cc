@@ -245,7 +245,8 @@ TEST(CoulombProofs, PatchOnATiltedFloorIsExact)
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(nodal_error(solution, field), 1e-12);
   const double p = (scene.materials[0].lambda(2) + 2 * scene.materials[0].mu()) * strain;
-  for (const ContactPoint<2> &point : contact_states(SolutionField(solution)).at(0).points)
+  const std::vector<ContactState<2>> contact = contact_states(SolutionField(solution));
+  for (const ContactPoint<2> &point : contact.at(0).points)
   {
     EXPECT_NEAR(point.normal_traction, -p, 1e-10 * p);
     EXPECT_NEAR(point.tangential_traction, 0, 1e-10 * p);

@@ -283,13 +283,14 @@ TEST(Intervals, KnowHowOpenContactIs)
 {
   Scene<2> scene = read_scene<2>("prm/hertz.prm", {{"Adaptivity/Maximum steps", "8"}});
   const unsigned int bottom = scene.boundary("bottom").id;
+  const std::vector<Side<2>> sides = sides_of(scene);
   unsigned int n_points = 0;
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
         if (!step.bound)
           return;
-        for (const Point<2> &end : sides_of(scene)[bottom].pieces.front())
+        for (const Point<2> &end : sides[bottom].pieces.front())
         {
           const OpenContact open(step.solution(), *step.bound, bottom, end);
           const double l = open.length(), kappa = open.kappa(l);
