@@ -91,11 +91,12 @@ std::string fingerprint(const std::string &file)
   return in ? "content " + checksum({std::istreambuf_iterator<char>(in), {}}) : "missing";
 }
 
-/** Of a mesh file counts what is in it, not where it lies. */
+/** Of a file that a scene reads counts what is in it, not where it lies. */
 std::string without_path(const std::string &section, const std::string &setting)
 {
-  const std::string file = "File = ";
-  return (section == "Geometry" || section.rfind("Body ", 0) == 0) && setting.rfind(file, 0) == 0
+  const bool is_of_body = section == "Geometry" || section.rfind("Body ", 0) == 0;
+  const std::string file = is_of_body ? "File = " : "Reference solution = ";
+  return (is_of_body || section == "Error") && setting.rfind(file, 0) == 0
              ? file + fingerprint(setting.substr(file.size()))
              : setting;
 }

@@ -38,27 +38,27 @@ bool is_finished_run(const std::filesystem::path &directory)
 }
 
 template <int dim>
-std::vector<std::string> mesh_files_of(const Scene<dim> &scene)
+std::vector<std::string> input_files_of(const Scene<dim> &scene)
 {
   std::vector<std::string> result =
-      entries_of(scene.effective_parameters(),
-                 [](const std::string &, const std::string &entry) { return entry == "File"; });
+      entries_of(scene.effective_parameters(), [](const std::string &, const std::string &entry)
+                 { return entry == "File" || entry == "Reference solution"; });
   const auto is_empty = [](const std::string &entry)
-  { return entry.find("File = content") == std::string::npos; };
+  { return entry.find(" = content ") == std::string::npos; };
   result.erase(std::remove_if(result.begin(), result.end(), is_empty), result.end());
   return result;
 }
 
-std::vector<std::string> mesh_files_of(const std::filesystem::path &directory)
+std::vector<std::string> input_files_of(const std::filesystem::path &directory)
 {
   const boost::property_tree::ptree summary = summary_in(directory);
   std::vector<std::string> result;
-  if (const auto files = summary.get_child_optional("mesh_files"))
+  if (const auto files = summary.get_child_optional("input_files"))
     for (const auto &file : *files)
       result.push_back(file.second.data());
   return result;
 }
 
-template std::vector<std::string> mesh_files_of(const Scene<2> &);
-template std::vector<std::string> mesh_files_of(const Scene<3> &);
+template std::vector<std::string> input_files_of(const Scene<2> &);
+template std::vector<std::string> input_files_of(const Scene<3> &);
 } // namespace hpvi

@@ -68,7 +68,7 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
                                                                 : "",
                                scene.reference_solution});
   summary.processes = n_processes;
-  summary.mesh_files = mesh_files_of(scene);
+  summary.input_files = input_files_of(scene);
   try
   {
     if (n_steps > 0)

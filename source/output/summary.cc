@@ -181,7 +181,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"no_intervals", ending.no_intervals},
       {"seconds", json_object(seconds)},
       {"warnings", json_lines(warnings)},
-      {"mesh_files", json_lines(mesh_files)},
+      {"input_files", json_lines(input_files)},
       {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);

@@ -210,9 +210,9 @@ void Sweep<dim>::look_for_results()
     runs[k].was_done = !scene.empty() && is_finished_run(directory_of(k));
     if (!runs[k].was_done)
       continue;
-    if (mesh_files_of(directory_of(k)) != mesh_files_of(*scenes[k]))
+    if (input_files_of(directory_of(k)) != input_files_of(*scenes[k]))
       reject("its " + printable(swept[k].directory) +
-             " has results of a mesh file that has changed");
+             " has results of a mesh file or a reference solution that has changed");
     runs[k].status = "done";
     last_rows[k] = last_row_of(k);
   }

@@ -148,9 +148,16 @@ class Sweeps(RunTest):
         self.sweep(sweep, settings=settings, scene=scene)
         mesh.write_bytes(before + b"\n")
         line = self.sweep(sweep, settings=settings, scene=scene, status=1)
-        self.assertIn("its Friction coefficient=0.2 has results of a mesh file that has changed; choose another", line)
+        self.assertIn("its Friction coefficient=0.2 has results of a mesh file or a reference solution that has changed; choose another", line)
         mesh.write_bytes(before)
         self.assertRegex(self.sweep(sweep, settings=settings, scene=scene), "(?m)^Friction coefficient=0.2 .* before$")
+
+    def test_a_reference_solution_that_has_changed_is_noticed(self):
+        reference, sweep = self.home / "overkill/reference.dat", "Material/Poisson's ratio=0.4"
+        settings = ("Adaptivity/Maximum steps=2", f"Error/Reference solution={reference}")
+        for steps, status, words in ((3, 0, "done"), (3, 0, "before"), (4, 1, "a reference solution that has changed")):
+            self.run_scene(f"Adaptivity/Maximum steps={steps}", "Output/Reference solution=true", output=reference.parent)
+            self.assertIn(words, self.sweep(sweep, settings=settings, status=status))
 
     def test_one_that_fails_does_not_end_the_others(self):
         line = self.sweep("Boundary top/Traction=0.9*1.75; 0 | 1.1*1.75; 0 | 0.8*1.75; 0", scene=LIMIT, status=2)

@@ -13,12 +13,12 @@ namespace hpvi
 /** Does summary.json in @p directory say that this version of the program is done there? */
 bool is_finished_run(const std::filesystem::path &directory);
 
-/** Of each mesh file of a scene the entry that names it and what is in it, as "Geometry/File = content checksum 0a1b2c3d". */
+/** Of each mesh file, and of the reference solution, its entry and what is in it: "Geometry/File = content checksum 0a1b2c3d". */
 template <int dim>
-std::vector<std::string> mesh_files_of(const Scene<dim> &scene);
+std::vector<std::string> input_files_of(const Scene<dim> &scene);
 
 /** Those that summary.json in @p directory has. */
-std::vector<std::string> mesh_files_of(const std::filesystem::path &directory);
+std::vector<std::string> input_files_of(const std::filesystem::path &directory);
 } // namespace hpvi
 
 #endif

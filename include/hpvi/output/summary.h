@@ -17,12 +17,12 @@ namespace hpvi
  */
 struct Summary
 {
-  std::string status = "running";      ///< later "done", "failed", "interrupted"
-  std::string message;                 ///< why it failed or was interrupted
-  std::string stopped_by;              ///< the limit that ended the run
-  std::string linear;                  ///< what solved the linear systems of the primal path
-  std::string scene_file;              ///< of a run that goes on: the file with which it began
-  std::vector<std::string> mesh_files; ///< those that the scene reads, with their content
+  std::string status = "running";       ///< later "done", "failed", "interrupted"
+  std::string message;                  ///< why it failed or was interrupted
+  std::string stopped_by;               ///< the limit that ended the run
+  std::string linear;                   ///< what solved the linear systems of the primal path
+  std::string scene_file;               ///< of a run that goes on: the file with which it began
+  std::vector<std::string> input_files; ///< that the scene names, with their content
   unsigned int processes = 1;
   unsigned int steps = 0;       ///< finished ones
   Record last_row;              ///< of the last of them in convergence.csv
