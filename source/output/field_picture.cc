@@ -57,7 +57,9 @@ Bands bands_of(const SampledField &field)
     }
   const bool is_cut = highest > 1.5 * almost_all && almost_all > 0;
   const double high = rounded_up(is_cut ? almost_all : highest);
-  return {lowest < 0.3 * high ? 0. : lowest, high, is_cut};
+  // Where stress is uniform only round-off would differ between its least and its largest value.
+  const bool is_uniform = highest - lowest < 1e-6 * highest;
+  return {lowest < 0.3 * high || is_uniform ? 0. : lowest, high, is_cut};
 }
 
 /** From the body to a page. */

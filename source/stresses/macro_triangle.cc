@@ -99,9 +99,9 @@ std::vector<double> MacroTriangle::eliminate_bubbles()
   L.resize(bubbles * bubbles);
   X.resize(bubbles * edges);
   for (unsigned int j = 0; j < bubbles; ++j)
-    std::copy_n(&M[(edges + j) * size + edges], bubbles, &L[j * bubbles]);
+    std::copy_n(M.data() + (edges + j) * size + edges, bubbles, L.data() + j * bubbles);
   for (unsigned int j = 0; j < edges; ++j)
-    std::copy_n(&M[j * size + edges], bubbles, &X[j * bubbles]);
+    std::copy_n(M.data() + j * size + edges, bubbles, X.data() + j * bubbles);
   require_regular(cholesky(bubbles, L.data(), bubbles), "the stresses of a cell");
   solve_triangular('N', bubbles, edges, {L.data(), bubbles}, X.data(), bubbles);
   multiply('T', 'N', edges, edges, bubbles, -1., {X.data(), bubbles}, {X.data(), bubbles}, 1.,

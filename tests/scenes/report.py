@@ -2,9 +2,12 @@
 """report.py HPVI: report.html is valid, needs nothing but itself, holds the numbers of summary.json, and is the same whether a run
 writes it or --report afterwards."""
 
+import base64
 import math
 import re
+import struct
 import unittest
+import zlib
 
 import html5lib
 
@@ -186,6 +189,21 @@ class Report(RunTest):
         for entry in ("Output/VTU = true", "Output/Mesh picture = true", "Output/Contact tables = true"):
             self.assertIn(entry, page)
         self.assertNotIn("guaranteed", page.split("<h2>The scene")[0].replace("No bound is guaranteed", ""))
+
+    def test_uniform_stress_has_one_colour_and_a_scale(self):
+        """Round-off is no pattern: sigma_xx = 3 everywhere, to the last digits."""
+        self.run_scene(scene=self.bar())
+        picture = self.page().split("<!-- stress -->")[1].split("</svg>")[0]
+        png = base64.b64decode(re.search(r"base64,([^\"]+)", picture)[1])
+        width, height = struct.unpack(">II", png[16:24])
+        rows = zlib.decompress(png[png.index(b"IDAT") + 4:-16])
+        self.assertEqual(len(rows), (width + 1) * height)
+        colours = png.index(b"PLTE")
+        outline = struct.unpack(">I", png[colours - 4:colours])[0] // 3 - 1  # the last colour; the first one is paper
+        used = {pixel for y in range(height) for pixel in rows[y * (width + 1) + 1:(y + 1) * (width + 1)]} - {0, outline}
+        self.assertEqual(len(used), 1)
+        ticks = re.findall(r">([\d.]+)</text>", picture)
+        self.assertEqual((ticks[0], ticks[-1]), ("0", "3"))
 
     def test_a_failed_run_comes_first(self):
         self.run_scene("Solver/QP maximum multiplications=20", "Solver/QP solver=mprgp", "Solver/QP warm start=false", status=2)
