@@ -122,7 +122,7 @@ ElasticSystem<dim>::reduce(const unsigned int cell,
     has_prescribed = has_prescribed || prescribed[i] != 0.;
   }
   result.values = K.row(0);
-  if (!is_identity)
+  if (!is_identity && !result.targets.empty())
   {
     constrained.push_back(elements.constrained(element, T, result.targets.size()));
     result.values = &(*constrained.back())(0, 0);
