@@ -26,6 +26,27 @@ EdgePolynomial divided(const EdgePolynomial &polynomial, const std::array<bool, 
 }
 } // namespace
 
+double height_over(const EdgePolynomial &polynomial, const std::array<bool, 2> &held,
+                   const double round_off, const ShapeTables<2> &tables)
+{
+  // An end where the polynomial is zero can be divided out; one where it is negative has a pole, and polynomials that follow
+  // that oscillate. But there it is positive at a distance only, no less than that of its last zero.
+  constexpr double touching = 1e-8;
+  const std::vector<double> zeros = polynomial.zeros();
+  std::array<bool, 2> touches{};
+  double distances = 1.;
+  for (unsigned int end = 0; end < 2; ++end)
+    if (held[end])
+    {
+      touches[end] = std::abs(polynomial(end)) <= touching * polynomial.largest();
+      if (!touches[end] && !zeros.empty())
+        distances *= end == 0 ? zeros.front() : 1. - zeros.back();
+    }
+  return largest_value(touches[0] || touches[1] ? divided(polynomial, touches, tables) : polynomial,
+                       round_off) /
+         distances;
+}
+
 double largest_value(const EdgePolynomial &polynomial, const double round_off)
 {
   double result = 0.;
@@ -102,9 +123,8 @@ double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heig
       if (depth == 0.)
         continue;
       const std::array<bool, 2> held = held_ends(k);
-      const double height = held[0] || held[1]
-                                ? largest_value(divided(rest, held, solution.tables), tolerance)
-                                : depth;
+      const double height =
+          held[0] || held[1] ? height_over(rest, held, tolerance, solution.tables) : depth;
       if (held[0] && held[1])
         heights.on_faces[k] = height;
       for (unsigned int end = 0; end < 2; ++end)

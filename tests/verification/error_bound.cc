@@ -412,6 +412,27 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
   std::filesystem::remove(file);
 }
 
+/** A body that is held at the end of its contact, above the foundation: what penetrates elsewhere moves nothing there. */
+TEST(ErrorBoundOfUnilateralContact, IsNearWhereTheHeldEndIsOpen)
+{
+  for (const std::string contact : {"nodes", "multiplier"})
+    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", "2, 1"},
+                                {"Geometry/Subdivisions", "2, 1"},
+                                {"Boundary right/Displacement", "0; 0"},
+                                {"Boundary top/Traction", "0; -0.1"},
+                                {"Boundary bottom/Contact", "unilateral"},
+                                {"Boundary bottom/Gap", "0.02 + 0.02*x"},
+                                {"Solver/Normal contact", contact},
+                                {"Adaptivity/Method", "hup2"},
+                                {"Adaptivity/Maximum steps", "1"}}))
+        .run(
+            [](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              EXPECT_LT(step.bound->slip, 1.5 * step.bound->stress); // 2.4 to 2.7 times otherwise
+            });
+}
+
 /** Tangent and normal are the unknowns at the vertices there; w is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {

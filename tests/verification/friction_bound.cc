@@ -590,6 +590,45 @@ TEST(ContactCorrection, TakesPenetrationAway)
     }
 }
 
+/**
+ * What takes a penetration away where an end is held is no less than that everywhere, and of its size: also where the body is far from
+ * contact at that end, and round-off penetrates at the other.
+ */
+TEST(ContactCorrection, LiftsBesideHeldEndsByWhatPenetrates)
+{
+  const ShapeTables<2> tables;
+  // Values at 0, 1/2 and 1 of quadratics; and which ends are held.
+  struct Row
+  {
+    double first, middle, last;
+    bool is_first_held, is_last_held;
+  };
+  for (const auto &[first, middle, last, is_first_held, is_last_held] :
+       {Row{1e-12, -0.25, -1., false, true}, Row{-1., -0.25, 1e-12, true, false},
+        Row{0.5, 0.25, 0., false, true}, Row{0., 0.25, 0., true, true},
+        Row{-1., 0.25, -1., true, true}, Row{0., 0.5, -1., true, true},
+        Row{0.2, 0.1, -0.4, false, true}, Row{-1., -0.5, -1., true, true}})
+  {
+    std::vector<double> values;
+    for (const Point<1> &point : tables.gauss(3).get_points())
+    {
+      const double s = point[0];
+      values.push_back(first * (1 - s) * (1 - 2 * s) + middle * 4 * s * (1 - s) +
+                       last * s * (2 * s - 1));
+    }
+    const EdgePolynomial polynomial = EdgePolynomial::through(values, tables.gauss(3));
+    const double height = height_over(polynomial, {{is_first_held, is_last_held}}, 1e-15, tables);
+    double needed = 0;
+    for (unsigned int i = 0; i <= 1000; ++i)
+    {
+      const double s = i / 1000., phi = (is_first_held ? s : 1.) * (is_last_held ? 1. - s : 1.);
+      needed = phi > 0. ? std::max(needed, polynomial(s) / phi) : needed;
+      EXPECT_GE(height * phi - polynomial(s), -1e-13) << first << ' ' << middle << ' ' << last;
+    }
+    EXPECT_LE(height, 5. * needed + 1e-15) << first << ' ' << middle << ' ' << last;
+  }
+}
+
 /** J(u_N - w) by strains, loads and friction of both displacements. */
 TEST(ContactCorrection, KnowsItsChangeOfEnergy)
 {

@@ -21,6 +21,13 @@ namespace hpvi
 /** The largest value over [0,1]; zero if none is above that, or all are round-off. */
 double largest_value(const EdgePolynomial &polynomial, double round_off);
 
+/**
+ * An h with `h phi(s) >= polynomial(s)` over [0,1], phi the product of s and 1 - s where the end 0 and 1 is @p held: of the order of what
+ * stands out above zero, and zero if none does. At a held end the polynomial must not be positive.
+ */
+double height_over(const EdgePolynomial &polynomial, const std::array<bool, 2> &held,
+                   double round_off, const ShapeTables<2> &tables);
+
 /** Finds w of ContactCorrection, which says what is asked of it. */
 template <int dim>
 class CorrectionSearch
