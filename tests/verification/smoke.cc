@@ -241,6 +241,8 @@ TEST(Smoke, AssertionsEndADebugBuild)
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   const Vector<double> empty;
   EXPECT_DEATH(EXPECT_EQ(empty(0), 0.), "An error occurred");
+  const std::vector<double> none;
+  EXPECT_DEATH(EXPECT_EQ(none[0], 0.), "Assertion");
 #else
   GTEST_SKIP() << "no Debug build";
 #endif
