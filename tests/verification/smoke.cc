@@ -106,6 +106,16 @@ std::vector<Case> cases()
                      {"Geometry/Lower corner", "0, 0"},
                      {"Geometry/Upper corner", "1, 1"},
                      {"Body force/Expression", "x*y; 1"}}});
+  result.push_back({"distorted_with_bound",
+                    "han-6-12",
+                    {{"Geometry/Shape", "quadrilateral"},
+                     {"Geometry/Corners", "0, 0; 4, 0; 3.5, 4; -0.5, 3.5"},
+                     {"Geometry/Lower corner", "0, 0"},
+                     {"Geometry/Upper corner", "1, 1"},
+                     {"Geometry/Subdivisions", "2, 2"},
+                     {"Adaptivity/Method", "hup2"},
+                     {"Adaptivity/Start degree", "2"},
+                     {"Error/Bound on distorted cells", "true"}}});
   result.push_back({"two_contacts",
                     "han-6-12",
                     {{"Boundary top/Contact", "bilateral"},
