@@ -191,8 +191,10 @@ Raster painted(const SampledField &field, const View<dim> &view, const ColourOf 
     const unsigned int darkness = shade<dim>(p);
     const auto of = [&](const double value) { return colour_of(k, value, darkness); };
     const auto value = [&](const unsigned int corner) { return field.von_mises[quad[corner]]; };
-    raster.triangle({{p[0], p[1], p[2]}}, {{value(0), value(1), value(2)}}, of);
-    raster.triangle({{p[0], p[2], p[3]}}, {{value(0), value(2), value(3)}}, of);
+    constexpr double reach =
+        dim == 2 ? 0.5 : 0.; // in space faces that are hidden would come to light
+    raster.triangle({{p[0], p[1], p[2]}}, {{value(0), value(1), value(2)}}, of, reach);
+    raster.triangle({{p[0], p[2], p[3]}}, {{value(0), value(2), value(3)}}, of, reach);
   }
   return raster;
 }

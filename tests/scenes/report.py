@@ -190,20 +190,32 @@ class Report(RunTest):
             self.assertIn(entry, page)
         self.assertNotIn("guaranteed", page.split("<h2>The scene")[0].replace("No bound is guaranteed", ""))
 
+    def stress_picture(self):
+        """The drawing; the pixels of its picture by rows, without the outline: 0 is paper."""
+        drawing = self.page().split("<!-- stress -->")[1].split("</svg>")[0]
+        png = base64.b64decode(re.search(r"base64,([^\"]+)", drawing)[1])
+        width, height = struct.unpack(">II", png[16:24])
+        colours = png.index(b"PLTE")
+        outline = struct.unpack(">I", png[colours - 4:colours])[0] // 3 - 1  # the last colour
+        rows = zlib.decompress(png[png.index(b"IDAT") + 4:-16])
+        self.assertEqual(len(rows), (width + 1) * height)
+        return drawing, outline, [rows[y * (width + 1) + 1:(y + 1) * (width + 1)] for y in range(height)]
+
     def test_uniform_stress_has_one_colour_and_a_scale(self):
         """Round-off is no pattern: sigma_xx = 3 everywhere, to the last digits."""
         self.run_scene(scene=self.bar())
-        picture = self.page().split("<!-- stress -->")[1].split("</svg>")[0]
-        png = base64.b64decode(re.search(r"base64,([^\"]+)", picture)[1])
-        width, height = struct.unpack(">II", png[16:24])
-        rows = zlib.decompress(png[png.index(b"IDAT") + 4:-16])
-        self.assertEqual(len(rows), (width + 1) * height)
-        colours = png.index(b"PLTE")
-        outline = struct.unpack(">I", png[colours - 4:colours])[0] // 3 - 1  # the last colour; the first one is paper
-        used = {pixel for y in range(height) for pixel in rows[y * (width + 1) + 1:(y + 1) * (width + 1)]} - {0, outline}
-        self.assertEqual(len(used), 1)
-        ticks = re.findall(r">([\d.]+)</text>", picture)
+        drawing, outline, rows = self.stress_picture()
+        self.assertEqual(len(set().union(*rows) - {0, outline}), 1)
+        ticks = re.findall(r">([\d.]+)</text>", drawing)
         self.assertEqual((ticks[0], ticks[-1]), ("0", "3"))
+
+    def test_stress_has_no_holes(self):
+        """Edges that hang bend, and are painted by other polygons from either side."""
+        self.run_scene("Adaptivity/Maximum steps=12")
+        _, _, rows = self.stress_picture()
+        holes = [(x, y) for y in range(1, len(rows) - 1) for x in range(1, len(rows[y]) - 1)
+                 if rows[y][x] == 0 and rows[y][x - 1] and rows[y][x + 1] and rows[y - 1][x] and rows[y + 1][x]]
+        self.assertEqual(holes, [])
 
     def test_a_failed_run_comes_first(self):
         self.run_scene("Solver/QP maximum multiplications=20", "Solver/QP solver=mprgp", "Solver/QP warm start=false", status=2)
