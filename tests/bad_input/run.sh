@@ -252,9 +252,9 @@ for file in little big; do
   refused "$file.prm: is written in UTF-16" "save it as UTF-8" -- "$scratch/$file.prm"
 done
 refused "blank.prm:2: " "not a statement" "no-break space (U+00A0): write a blank" -- "$scratch/blank.prm"
-invalid "not an expression" "minus sign (U+2212): write -" -- $'Boundary left/Traction=\u22121 + x; 0'
-invalid "not accepted" "minus sign (U+2212): write -" -- $'Geometry/Lower corner=\u22121, 0'
-invalid "unknown entry" "quotation mark (U+2019): write '" -- $'Material/Young\u2019s modulus=3'
+invalid "not an expression" "minus sign (U+2212): write -" -- $'Boundary left/Traction=\xe2\x88\x921 + x; 0'
+invalid "not accepted" "minus sign (U+2212): write -" -- $'Geometry/Lower corner=\xe2\x88\x921, 0'
+invalid "unknown entry" "quotation mark (U+2019): write '" -- $'Material/Young\xe2\x80\x99s modulus=3'
 
 # --- numbers
 broken negative_young.prm ":3:" "Material/Young's modulus = -15" "E > 0"

@@ -280,7 +280,7 @@ class Runs(Case):
         ticks, ends = [], []
 
         def solve():
-            hpvi.Scene(HAN, {"Adaptivity/Method": "hup3", STEPS: 3}).solve()
+            hpvi.Scene(HAN, {"Adaptivity/Method": "hup3", STEPS: 5}).solve()
             ends.append(time.monotonic())
 
         thread = threading.Thread(target=solve)
