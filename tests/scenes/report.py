@@ -217,6 +217,14 @@ class Report(RunTest):
                  if rows[y][x] == 0 and rows[y][x - 1] and rows[y][x + 1] and rows[y - 1][x] and rows[y + 1][x]]
         self.assertEqual(holes, [])
 
+    def test_hidden_faces_stay_hidden(self):
+        """In space three sides are seen, each with a shade of its own, and nothing of the faces inside."""
+        self.run_scene("Adaptivity/Maximum steps=2", scene=SCENES / "dome.prm")
+        _, outline, rows = self.stress_picture()
+        shades = [[(pixel - 1) // 24 if pixel not in (0, outline) else None for pixel in row] for row in rows]
+        odd = sum(row[x] is not None and row[x] != row[x - 1] == row[x + 1] is not None for row in shades for x in range(1, len(row) - 1))
+        self.assertLess(odd, 1e-3 * sum(map(len, rows)))
+
     def test_a_failed_run_comes_first(self):
         self.run_scene("Solver/QP maximum multiplications=20", "Solver/QP solver=mprgp", "Solver/QP warm start=false", status=2)
         self.assertEqual(self.summary()["status"], "failed")

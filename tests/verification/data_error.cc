@@ -41,6 +41,23 @@ EquilibratedStress equilibrated(const Solution<2> &solution, EquilibrationCache 
   return EquilibratedStress(solution, none, none, cache);
 }
 
+/** Its solution with p = 2, and a stress in equilibrium. */
+struct LoadedCell
+{
+  LoadedCell(const Rhombus &cell, const Overrides &loads)
+      : scene(loaded(cell, loads)), mesh(scene, 1, 0, 2, 2), lab(scene, mesh),
+        solution(lab.solve()), stress(equilibrated(solution, cache))
+  {
+  }
+
+  const Scene<2> scene;
+  const RandomMesh mesh;
+  const Laboratory lab;
+  const Solution<2> solution;
+  EquilibrationCache cache;
+  const EquilibratedStress stress;
+};
+
 /** |G - s n| on the upper edge. */
 double missed_on_top(const EquilibratedStress &stress, const Scene<2> &scene)
 {
@@ -67,13 +84,10 @@ TEST(DataErrorOfOneCell, HasTheConstantsOfTractions)
 {
   for (const Rhombus &cell : rhombi)
   {
-    const Scene<2> scene = loaded(cell, {{"Boundary top/Traction", "0; cos(5*x)"}});
-    const RandomMesh mesh(scene, 1, 0, 2, 2);
-    const Laboratory lab(scene, mesh);
-    const Solution<2> solution = lab.solve();
-    EquilibrationCache cache;
-    const EquilibratedStress stress = equilibrated(solution, cache);
-    const double missed = missed_on_top(stress, scene), part = cell.diameter / numbers::PI;
+    const LoadedCell one(cell, {{"Boundary top/Traction", "0; cos(5*x)"}});
+    const Solution<2> &solution = one.solution;
+    const EquilibratedStress &stress = one.stress;
+    const double missed = missed_on_top(stress, one.scene), part = cell.diameter / numbers::PI;
     EXPECT_GT(missed, 0.01);
     const double expected = cell.korn * std::sqrt((part + 2) * part / cell.height) * missed;
     EXPECT_NEAR(DataError(solution, stress).oscillation[0], expected, 1e-9 * expected);
@@ -85,18 +99,15 @@ TEST(DataErrorOfOneCell, HasTheConstantsOfSprings)
 {
   for (const Rhombus &cell : rhombi)
   {
-    const Scene<2> scene = loaded(cell, {{"Boundary top/Spring", "2 + cos(5*x); 1 + cos(5*x)"},
-                                         {"Boundary right/Traction", "1; 0"}});
-    const RandomMesh mesh(scene, 1, 0, 2, 2);
-    const Laboratory lab(scene, mesh);
-    const Solution<2> solution = lab.solve();
-    EquilibrationCache cache;
-    const EquilibratedStress stress = equilibrated(solution, cache);
+    const LoadedCell one(cell, {{"Boundary top/Spring", "2 + cos(5*x); 1 + cos(5*x)"},
+                                {"Boundary right/Traction", "1; 0"}});
+    const Solution<2> &solution = one.solution;
+    const EquilibratedStress &stress = one.stress;
     const auto &edges = stress.patches().edges();
     const QGauss<1> gauss(20);
     double sum = 0;
     for (unsigned int e = 0; e < edges.size(); ++e)
-      if (edges[e].at_boundary() && scene.boundaries[edges[e].boundary].spring)
+      if (edges[e].at_boundary() && one.scene.boundaries[edges[e].boundary].spring)
         for (unsigned int q = 0; q < gauss.size(); ++q)
         {
           const double s = gauss.point(q)[0];
@@ -145,12 +156,9 @@ TEST(DataErrorOfOneCell, HasTheConstantsOfBodyForces)
 {
   for (const Rhombus &cell : rhombi)
   {
-    const Scene<2> scene = loaded(cell, {{"Body force/Expression", "0; cos(5*x)"}});
-    const RandomMesh mesh(scene, 1, 0, 2, 2);
-    const Laboratory lab(scene, mesh);
-    const Solution<2> solution = lab.solve();
-    EquilibrationCache cache;
-    const EquilibratedStress stress = equilibrated(solution, cache);
+    const LoadedCell one(cell, {{"Body force/Expression", "0; cos(5*x)"}});
+    const Solution<2> &solution = one.solution;
+    const EquilibratedStress &stress = one.stress;
     const double missed = stress.missed_force(0);
     EXPECT_GT(missed, 1e-4);
     const unsigned int m = stress.patches().edges()[0].degree;
