@@ -607,7 +607,8 @@ TEST(ContactCorrection, LiftsBesideHeldEndsByWhatPenetrates)
        {Row{1e-12, -0.25, -1., false, true}, Row{-1., -0.25, 1e-12, true, false},
         Row{0.5, 0.25, 0., false, true}, Row{0., 0.25, 0., true, true},
         Row{-1., 0.25, -1., true, true}, Row{0., 0.5, -1., true, true},
-        Row{0.2, 0.1, -0.4, false, true}, Row{-1., -0.5, -1., true, true}})
+        Row{0.2, 0.1, -0.4, false, true}, Row{1e-12, -0.5, -1e-4, false, true},
+        Row{-1., -0.5, -1., true, true}})
   {
     std::vector<double> values;
     for (const Point<1> &point : tables.gauss(3).get_points())
