@@ -2,18 +2,45 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """house.py ROOT: a file includes only files of its own folder and of folders before it, doc/plan.md has a row for
 every noun under its folder and for nothing else, CMakeLists.txt builds every source, moduli and corners are asked for only
-where their meaning is known, and no source is longer than 400 lines."""
+where their meaning is known, no source is longer than 400 lines, and doc/reliability.md names every source that asks for a function of the
+scene, with as many places as it has here."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 PLAN = (ROOT / "doc/plan.md").read_text()
+RELIABILITY = (ROOT / "doc/reliability.md").read_text()
 CMAKE = (ROOT / "CMakeLists.txt").read_text()
 LONGEST = 400
 FOLDERS = re.findall(r"^### (\w+)$", PLAN, re.M)
 KNOWN_IN = {r"\.(?:mu\(\)|lambda\([23d]|young\b|poisson\b)": ["scene", "closed_forms"],
             r"geometry\.corners": ["scene", "shapes", "checks", "body"]}
+# What evaluates loads, strains, springs, friction, gaps and displacements of a scene, beyond the rooms that read and check them.
+EVALUATES = re.compile(
+    r"load_at<|scene\.initial_strain\(|initial_strain_(?:in|across)(?:<2>)?\(|initial_strains\[[^\]]*\]\.value|spring\.stiffness\("
+    r"|(?:bound|coefficient|gap)_at\(|friction_(?:bound|coefficient)\(|friction\.(?:at\(|limit\(x)|gap_on_face\("
+    r"|(?:component|function|displacement\[\w+\]|traction\[\w+\]|load\[\w\]|gap|u_D|past|expression|normal|tangential|given)(?:->|\.)value\(")
+EVALUATE_FREELY = ["input", "scene", "gmsh", "shapes", "closed_forms", "reader", "checks", "output", "program", "python", "cones"]
+EVALUATIONS = {
+    "include/hpvi/admissibility/admissible_pressure.h": 1, "include/hpvi/body/load_quadrature.h": 1,
+    "include/hpvi/contact/contact_space.h": 2, "include/hpvi/discretisation/initial_stress.h": 4,
+    "include/hpvi/evaluation/contact_traces.h": 2, "include/hpvi/evaluation/turned_divergence.h": 1,
+    "source/admissibility/admissible_pressure.cc": 4, "source/admissibility/face_contact.cc": 1,
+    "source/body/displacement_cuts.cc": 2, "source/body/given_data.cc": 6, "source/body/load_rule.cc": 4,
+    "source/contact/collapse.cc": 3, "source/contact/contact_face.cc": 5, "source/contact/contact_numbering.cc": 6,
+    "source/contact/resistance.cc": 1, "source/discretisation/elastic_system.cc": 2, "source/discretisation/initial_stress.cc":
+    3, "source/discretisation/missed_loads.cc": 1, "source/discretisation/springs.cc": 1,
+    "source/equilibration/boundary_tractions.cc": 3, "source/equilibration/data_error.cc": 2,
+    "source/equilibration/force_modes.cc": 3, "source/equilibration/initial_modes.cc": 1,
+    "source/equilibration/macro_stresses.cc": 2, "source/evaluation/contact_residuals.cc": 1,
+    "source/evaluation/contact_state.cc": 2, "source/evaluation/residual_estimator.cc": 5, "source/evaluation/true_error.cc": 3,
+    "source/evaluation/unseen_contact.cc": 2, "source/evaluation/values_at.cc": 2, "source/intervals/open_contact.cc": 1,
+    "source/intervals/stress_work.cc": 1, "source/intervals/test_motion.cc": 1, "source/moments/moment_space.cc": 1,
+    "source/moments/primal_system.cc": 1, "source/moments/support_constraints.cc": 1, "source/peaks/stress_peak.cc": 2,
+    "source/primal/contact_statics.cc": 1, "source/primal/load_check.cc": 1, "source/primal/load_work.cc": 1,
+    "source/primal/moment_field.cc": 1, "source/primal/nodal_forces.cc": 1, "source/primal/past_state.cc": 1,
+    "source/primal/upper_energy.cc": 1, "source/stresses/edge_polynomial.cc": 1, "source/warnings/contact.cc": 2}
 problems = []
 
 
@@ -39,6 +66,12 @@ for position, folder in enumerate(FOLDERS):
             problems.append(f"{name} has more than {LONGEST} lines")
         if file.suffix == ".cc" and f"source/{folder}/{file.name}" not in CMAKE:
             problems.append(f"{name} is not built")
+        places = len(EVALUATES.findall(re.sub(r"//.*|^ *\*.*|/\*\*.*", "", file.read_text(), flags=re.M)))
+        if folder not in EVALUATE_FREELY and places != EVALUATIONS.get(name, 0):
+            problems.append(f"{name} asks for functions of the scene in {places} places, known are {EVALUATIONS.get(name, 0)}: "
+                            "integrals come from LoadRules, see doc/reliability.md")
+        if folder not in EVALUATE_FREELY and places and f"`{file.stem}`" not in RELIABILITY:
+            problems.append(f"{name} asks for functions of the scene, and doc/reliability.md does not name it")
         for what, folders in KNOWN_IN.items():
             if folder not in folders and (asked := re.search(what, file.read_text())):
                 problems.append(f"{name} asks for {asked[0]}; ask Material or Geometry what it is for")

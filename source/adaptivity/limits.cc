@@ -36,7 +36,7 @@ bool is_exact_to_round_off(const Scene<dim> &scene, const double estimate, const
 {
   const double small = 1e-7 * scene.largest_weight() * last.displacement,
                larger = std::max(estimate, last.missed * std::sqrt(scene.reference_coercivity()));
-  return larger <= small && larger <= 4 * last.round_off();
+  return larger <= small && larger <= 4 * last.round_off() && last.resolves_data();
 }
 } // namespace
 
@@ -75,7 +75,7 @@ std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
   const double error = !limits.tolerance_column.empty() ? step.relative_half_width
                        : on_bound                       ? step.relative_bound
                                                         : step.relative_estimate;
-  if (error < limits.tolerance) // never, where there is no half-width, or no bound yet
+  if (error < limits.tolerance && last.resolves_data()) // never without half-width, or bound yet
     return "Tolerance";
   if (history.size() >= limits.maximum_steps)
     return "Maximum steps";

@@ -3,6 +3,7 @@
 #include <hpvi/adaptivity/mean_intervals.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/intervals/dual_scene.h>
 #include <hpvi/intervals/stress_work.h>
 
@@ -30,9 +31,22 @@ bool is_held(const Scene<2> &scene)
 }
 
 /** Do rules of quadrature see all of q? Each of a load that is too narrow may miss it. */
-bool sees_all(const Solution<2> &solution, const unsigned int component)
+bool sees_all(const Solution<2> &solution, const Probe<2> &probe, const unsigned int component)
 {
-  return std::abs(solution.spaces->loads->sum().force[component] - 1) < 1e-9;
+  return probe.kind != ProbeKind::disc ||
+         std::abs(solution.spaces->loads->sum().force[component] - 1) < 1e-9;
+}
+
+/** Is q no displacement of V? It is prescribed then. */
+bool is_zero(const Scene<2> &dual)
+{
+  return !dual.has_body_force() &&
+         std::none_of(dual.boundaries.begin(), dual.boundaries.end(),
+                      [](const BoundaryCondition<2> &boundary)
+                      {
+                        return boundary.has_traction() ||
+                               (boundary.plate && boundary.plate->force != std::array<double, 3>{});
+                      });
 }
 
 /** Is d zero where the probe is? It lives in cells at prescribed displacements and gaps. */
@@ -74,6 +88,8 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
     return result;
   const Probe<2> &probe = scene.probes[number];
   result.scene = std::make_shared<const Scene<2>>(dual_scene(scene, probe, component));
+  if (is_zero(*result.scene))
+    return result;
   result.why = moves;
   if (!is_held(*result.scene))
     return result;
@@ -86,7 +102,7 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
               result.why = step.no_bound;
               if (!step.bound)
                 return;
-              if (!sees_all(step.solution(), component))
+              if (!sees_all(step.solution(), probe, component))
               {
                 result.why = "the disc is too small beside the body";
                 return;
@@ -118,12 +134,17 @@ template <>
 Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
                                     const StepReport<2> &step)
 {
+  if (!dual.z)
+    return {mean.value, 1e-14 * std::abs(mean.value)};
   const ErrorBound &bound = *step.bound;
-  const StressWork work = work_of_difference(step.solution(), bound, *dual.z, tables);
+  const Solution<2> solution = step.solution(), &z = *dual.z;
+  const StressWork work = work_of_difference(solution, bound, z, tables);
   const double norm = dual.norm + dual.remainder,
+               missed_strain = initial_stress_error(scene, z.displacement_space,
+                                                    *solution.spaces->loads, z.tables),
                half_way = bound.radius * norm +
                           bound.theta * (bound.stress * (dual.error + dual.remainder) +
-                                         std::abs(work.value) + work.defect);
+                                         std::abs(work.value) + work.defect + missed_strain * norm);
   return {mean.value, std::min(half_way, bound.total * norm) + bound.data * norm +
                           1e-14 * std::abs(mean.value)};
 }

@@ -312,8 +312,8 @@ std::string StepStages<dim>::end_of_run() const
   const std::string limit = reached_limit(
       scene, history,
       {backend->size().n_free, std::max(field.largest_displacement(), data.displacement),
-       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); },
-       is_bound_open});
+       backend->missed(bound.bound), [&]() { return backend->round_off_estimate(); }, is_bound_open,
+       [&]() { return backend->resolves_data(); }});
   return limit.empty() && refinement.is_empty(backend->degrees()) ? nothing_marked(scene.adaptivity)
                                                                   : limit;
 }

@@ -12,7 +12,17 @@ namespace
 {
 constexpr unsigned int most_pieces = 64;
 
-double distance(const std::array<Tensor<1, 2>, 4> &a, const std::array<Tensor<1, 2>, 4> &b)
+/** Every other one between the first and the last. */
+void thin_out(std::vector<double> &lines)
+{
+  std::vector<double> kept;
+  for (std::size_t k = 0; k + 1 < lines.size(); k += 2)
+    kept.push_back(lines[k]);
+  kept.push_back(lines.back());
+  lines = kept;
+}
+
+double distance(const std::array<BoxCutter::Value, 4> &a, const std::array<BoxCutter::Value, 4> &b)
 {
   double result = 0;
   for (unsigned int k = 0; k < 4; ++k)
@@ -22,12 +32,23 @@ double distance(const std::array<Tensor<1, 2>, 4> &a, const std::array<Tensor<1,
 } // namespace
 
 BoxCutter::BoxCutter(Function function, const QGauss<1> &gauss,
-                     const std::array<unsigned int, 2> &n_parts)
+                     const std::array<unsigned int, 2> &n_parts,
+                     std::array<std::vector<double>, 2> lines)
     : f(std::move(function)), gauss(gauss), n_parts(n_parts)
 {
-  Piece whole{BoundingBox<2>({Point<2>(0., 0.), Point<2>(1., 1.)}), {}, {}, 0.};
-  measure(whole);
-  pieces.push_back(whole);
+  while ((lines[0].size() - 1) * (lines[1].size() - 1) > most_pieces / 2)
+    thin_out(lines[lines[1].size() > lines[0].size()]);
+  for (unsigned int j = 0; j + 1 < lines[1].size(); ++j)
+    for (unsigned int i = 0; i + 1 < lines[0].size(); ++i)
+    {
+      Piece piece{BoundingBox<2>({Point<2>(lines[0][i], lines[1][j]),
+                                  Point<2>(lines[0][i + 1], lines[1][j + 1])}),
+                  {},
+                  {},
+                  0.};
+      measure(piece);
+      pieces.push_back(piece);
+    }
 }
 
 BoxCutter::Grid BoxCutter::sample(const BoundingBox<2> &box, const unsigned int n_x,
@@ -50,7 +71,7 @@ BoxCutter::Grid BoxCutter::sample(const BoundingBox<2> &box, const unsigned int 
       const Point<2> x(grid.coordinates[0][a], grid.coordinates[1][b]);
       grid.values.push_back(f(x));
       largest = std::max(largest, grid.values.back().norm());
-      const Tensor<1, 2> part = weights[0][a] * weights[1][b] * grid.values.back();
+      const BoxCutter::Value part = weights[0][a] * weights[1][b] * grid.values.back();
       for (unsigned int k = 0; k < 4; ++k)
         moments[k] += (k % 2 ? x[0] : 1.) * (k / 2 ? x[1] : 1.) * part;
     }
@@ -88,7 +109,7 @@ std::optional<double> BoxCutter::jump(const Grid &grid, const unsigned int d,
   ++next[d];
   Point<2> left(grid.coordinates[0][i[0]], grid.coordinates[1][i[1]]), right = left;
   right[d] = grid.coordinates[d][next[d]];
-  Tensor<1, 2> before = grid.at(i), behind = grid.at(next);
+  BoxCutter::Value before = grid.at(i), behind = grid.at(next);
   const double half_change = 0.5 * (behind - before).norm();
   while ((behind - before).norm() > half_change)
   {
@@ -96,7 +117,7 @@ std::optional<double> BoxCutter::jump(const Grid &grid, const unsigned int d,
     middle[d] = 0.5 * (left[d] + right[d]);
     if (!(left[d] < middle[d] && middle[d] < right[d]))
       return middle[d];
-    const Tensor<1, 2> value = f(middle);
+    const BoxCutter::Value value = f(middle);
     if ((value - before).norm() > (behind - value).norm())
     {
       right = middle;
@@ -117,7 +138,7 @@ std::optional<double> BoxCutter::common_jump(const Grid &grid, const unsigned in
   const unsigned int e = 1 - d;
   const auto change = [&](std::array<unsigned int, 2> i)
   {
-    const Tensor<1, 2> before = grid.at(i);
+    const BoxCutter::Value before = grid.at(i);
     ++i[d];
     return (grid.at(i) - before).norm();
   };

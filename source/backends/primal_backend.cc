@@ -292,14 +292,11 @@ double PrimalBackend<dim>::round_off_estimate() const
 }
 
 template <int dim>
-void PrimalBackend<dim>::mark_unresolved(Refinement &) const
+bool PrimalBackend<dim>::resolves_data()
 {
-}
-
-template <int dim>
-double PrimalBackend<dim>::missed(const std::optional<ErrorBound> &) const
-{
-  return 0.;
+  const Warnings all = warnings({}, equilibrium(scene, nodal_forces(), space->communicator()));
+  return std::none_of(all.begin(), all.end(),
+                      [](const Warning &warning) { return warning.kind == WarningKind::load; });
 }
 
 template <int dim>

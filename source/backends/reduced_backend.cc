@@ -276,9 +276,7 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
   result.missing = scene.error_bound ? solution->spaces->no_error_bound(scene)
                                      : std::string("Error/Bound = false");
   if (result.missing.empty())
-    result.missing = missing.empty() ? unresolved_loads(unresolved, *loads) : missing;
-  if (result.missing.empty())
-    result.missing = unresolved_springs(*solution);
+    result.missing = missing.empty() ? unresolved_loads(unresolved) : missing;
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
@@ -313,6 +311,15 @@ void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
   for (const MissedDisplacement<dim> &displacement : missed_displacements)
     refinement.bisect[displacement.cell] = true;
   discretisation->spaces->keep_bound(scene, refinement);
+}
+
+template <int dim>
+bool ReducedBackend<dim>::resolves_data()
+{
+  return missing.empty() && unresolved.empty() && missed_displacements.empty() &&
+         solution->contact_space.unresolved_jumps(solution->z).empty() &&
+         solution->contact_space.unresolved_bounds(solution->z).empty() &&
+         unseen_gaps(*solution).empty();
 }
 
 // @sect3{Refine}

@@ -4,7 +4,6 @@
 // continuous across edges, and subject to the supports. It is made in two halves. The numbering
 // gives every cell its nodes, and neighbours share those that coincide; the constraints say of all
 // nodes that are not free how they follow from others.
-#include <hpvi/base/team.h>
 #include <hpvi/body/displacement_space.h>
 #include <hpvi/body/edge_constraints.h>
 #include <hpvi/body/plates.h>
@@ -43,17 +42,8 @@ DisplacementSpace<dim>::DisplacementSpace(const Scene<dim> &scene,
                                           const Degrees &degrees, const ShapeTables<dim> &tables,
                                           const LoadRules<dim> *const rules)
     : dof_numbering(triangulation, degrees, tables),
-      affine_constraints(constraints_of(scene, dof_numbering, tables))
+      affine_constraints(constraints_of(scene, dof_numbering, tables)), load_rules(rules)
 {
-  if (!rules || !scene.has_initial_strain())
-    return;
-  std::vector<typename Triangulation<dim>::active_cell_iterator> cells;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    cells.push_back(cell);
-  n_strain_points.resize(cells.size());
-  for_all(cells.size(), 2, // of coarse ones there are few, with many points each
-          [&](const unsigned int k)
-          { n_strain_points[k] = rules->strain_points(cells[k], degrees[k]); });
 }
 
 // @sect3{What is asked of it}
@@ -110,9 +100,10 @@ DisplacementSpace<dim>::cell_dofs(const unsigned int cell) const
 }
 
 template <int dim>
-unsigned int DisplacementSpace<dim>::strain_points(const unsigned int cell) const
+const LoadRules<dim> &DisplacementSpace<dim>::rules() const
 {
-  return n_strain_points[cell];
+  Assert(load_rules, ExcMessage("This space knows no rules for data."));
+  return *load_rules;
 }
 
 template class DisplacementSpace<2>;

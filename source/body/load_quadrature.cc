@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/cell_map.h>
 #include <hpvi/body/load_quadrature.h>
 
 #include <algorithm>
@@ -78,41 +79,79 @@ Point<d> point_in(const BoundingBox<d> &box, const Point<d> &unit)
 } // namespace
 
 template <int d>
-LoadRule<d> rule_on(const std::vector<BoundingBox<d>> &boxes, const unsigned int degree,
-                    const std::array<Expression<2>, 2> &components,
-                    const std::function<double(const Function<2> &, const Point<d> &)> &value,
-                    const ShapeTables<2> &tables)
+std::vector<RulePart<d>>
+rule_parts(const std::vector<BoundingBox<d>> &boxes, const unsigned int degree,
+           const std::vector<std::function<double(const Point<d> &)>> &functions,
+           const ShapeTables<2> &tables)
 {
-  LoadRule<d> result{0, 0, Quadrature<d>(), {}};
-  std::vector<Point<d>> points;
-  std::vector<double> weights;
+  std::vector<RulePart<d>> result;
   for (const BoundingBox<d> &box : boxes)
   {
     unsigned int n = degree + 2;
-    for (const auto &component : components)
-      if (component)
-        n = points_for<d>(
-            n, boxes.size() == 1 ? most : most_on_pieces,
-            [&](const Point<d> &unit) { return value(*component, point_in(box, unit)); }, tables);
+    for (const auto &function : functions)
+      n = points_for<d>(
+          n, boxes.size() == 1 ? most : most_on_pieces,
+          [&](const Point<d> &unit) { return function(point_in(box, unit)); }, tables);
+    result.push_back({box, n});
+  }
+  return result;
+}
+
+template <int d>
+LoadRule<d> rule_on(const std::vector<RulePart<d>> &parts, const ShapeTables<2> &tables)
+{
+  LoadRule<d> result{parts, parts.size() == 1 ? parts[0].n : 0, 0, Quadrature<d>(), {}};
+  std::vector<Point<d>> points;
+  std::vector<double> weights;
+  for (const auto &[box, n] : parts)
+  {
     const Quadrature<d> gauss(tables.gauss(n));
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       points.push_back(point_in(box, gauss.point(q)));
       weights.push_back(box.volume() * gauss.weight(q));
     }
-    result.n_gauss = boxes.size() == 1 ? n : 0;
     result.most_points = std::max(result.most_points, n);
   }
   result.quadrature = Quadrature<d>(points, weights);
   return result;
 }
 
-template LoadRule<1> rule_on(const std::vector<BoundingBox<1>> &, unsigned int,
-                             const std::array<Expression<2>, 2> &,
-                             const std::function<double(const Function<2> &, const Point<1> &)> &,
-                             const ShapeTables<2> &);
-template LoadRule<2> rule_on(const std::vector<BoundingBox<2>> &, unsigned int,
-                             const std::array<Expression<2>, 2> &,
-                             const std::function<double(const Function<2> &, const Point<2> &)> &,
-                             const ShapeTables<2> &);
+namespace
+{
+std::vector<Point<2>> points_on(const unsigned int face, const Quadrature<1> &rule)
+{
+  std::vector<Point<2>> result;
+  for (const Point<1> &s : rule.get_points())
+    result.push_back(point_on_face<2>(face, s));
+  return result;
+}
+} // namespace
+
+ShapesOfRule::ShapesOfRule(const LoadRule<2> &rule, const unsigned int degree,
+                           const ShapeTables<2> &tables)
+    : own(rule.n_gauss > 0 ? ShapeTable<2>()
+                           : tabulate<2>(degree, rule.quadrature.get_points(),
+                                         rule.quadrature.get_weights(), false)),
+      table(rule.n_gauss > 0 ? tables.gradients(degree, rule.n_gauss) : own)
+{
+}
+
+ShapesOfRule::ShapesOfRule(const LoadRule<1> &rule, const unsigned int face,
+                           const unsigned int degree, const ShapeTables<2> &tables)
+    : own(rule.n_gauss > 0 ? ShapeTable<2>()
+                           : tabulate<2>(degree, points_on(face, rule.quadrature),
+                                         rule.quadrature.get_weights(), false)),
+      table(rule.n_gauss > 0 ? tables.face(degree, face, rule.n_gauss) : own)
+{
+}
+
+template std::vector<RulePart<1>>
+rule_parts(const std::vector<BoundingBox<1>> &, unsigned int,
+           const std::vector<std::function<double(const Point<1> &)>> &, const ShapeTables<2> &);
+template std::vector<RulePart<2>>
+rule_parts(const std::vector<BoundingBox<2>> &, unsigned int,
+           const std::vector<std::function<double(const Point<2> &)>> &, const ShapeTables<2> &);
+template LoadRule<1> rule_on(const std::vector<RulePart<1>> &, const ShapeTables<2> &);
+template LoadRule<2> rule_on(const std::vector<RulePart<2>> &, const ShapeTables<2> &);
 } // namespace hpvi

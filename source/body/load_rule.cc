@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/algebra/box_cutter.h>
 #include <hpvi/base/common_table.h>
 #include <hpvi/body/load_rule.h>
 
@@ -12,31 +11,11 @@ namespace hpvi
 using namespace dealii;
 using namespace coarse_cuts;
 
-namespace
+CellKey cell_key(const Triangulation<2>::cell_iterator &cell, const unsigned int number)
 {
-constexpr unsigned int inside = numbers::invalid_unsigned_int;
-
-constexpr unsigned int along = 16,
-                       across = 8; ///< Gauss points of a piece when coarse edges and cells are cut
-
-bool varies(const Load<2> &load)
-{
-  return coarse_cuts::varies(load[0]) || coarse_cuts::varies(load[1]);
+  const CellId::binary_type id = cell->id().to_binary<2>();
+  return {{id[0], id[1], id[2], id[3], number}};
 }
-
-/** What varies of a body force, per reference area. */
-BoxCutter::Function force_in_cell(const Load<2> &load, const CellMap<2> &map)
-{
-  return [&load, map](const Point<2> &s)
-  {
-    Tensor<1, 2> force;
-    for (unsigned int c = 0; c < 2; ++c)
-      if (coarse_cuts::varies(load[c]))
-        force[c] = load[c]->value(map.point(s));
-    return std::abs(determinant(map.jacobian(s))) * force;
-  };
-}
-} // namespace
 
 template <int dim>
 LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mesh,
@@ -49,24 +28,34 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
   total.centre = scene.geometry.centre();
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
-    const unsigned int id = cell->index();
-    if (varies(scene.body_force_in(cell)))
-      coarse[{id, inside}] = cut(cell, inside);
-    if (scene.has_body_force())
-      add(cell, inside);
+    look_at(cell, inside, Datum::load);
+    look_at(cell, inside, Datum::initial_strain);
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
       {
-        const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(face)->boundary_id()];
-        if (varies(condition.traction))
-          coarse[{id, face}] = cut(cell, face);
-        if (condition.has_traction())
-          add(cell, face);
+        look_at(cell, face, Datum::load);
+        look_at(cell, face, Datum::spring);
       }
   }
   // Around an axis what is radial balances itself, and turns nothing.
   if (scene.is_axisymmetric())
     total.force[0] = total.moment = std::numeric_limits<double>::quiet_NaN();
+  Total &loads = totals[static_cast<unsigned int>(Datum::load)];
+  for (unsigned int c = 0; c < dim; ++c)
+    loads.sum[c] = total.force[c];
+  loads.absolute = total.absolute;
+}
+
+/** A coarse edge or cell: where its datum is cut, and what it adds to the sum. */
+template <int dim>
+void LoadRules<dim>::look_at(const Cell &cell, const unsigned int face, const Datum datum)
+{
+  const GivenData given = given_data(scene, cell, face, datum);
+  if (given.functions.empty())
+    return;
+  if (given.varies())
+    coarse[{cell->index(), face, datum}] = cut_data(scene, cell, face, datum, *tables, finer);
+  add(cell, face, datum);
 }
 
 template <int dim>
@@ -79,25 +68,46 @@ void LoadRules<dim>::add(LoadSum &sum, const Tensor<1, dim> &force, const Point<
   sum.absolute += std::abs(force[0]) + std::abs(force[1]);
 }
 
-/** The load on a coarse edge or cell, to the sum. */
 template <int dim>
-void LoadRules<dim>::add(const Cell &cell, const unsigned int face)
+void LoadRules<dim>::add(const Cell &cell, const unsigned int face, const Datum datum)
 {
   const unsigned int degree = scene.adaptivity.start_degree;
-  if (face != inside)
+  if (face != inside && datum == Datum::load)
   {
     add_traction(total, cell, face, degree);
     return;
   }
   const CellMap<dim> map = map_of<dim>(cell);
-  const LoadRule<dim> rule = body_force(cell, degree);
-  for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
+  const GivenData given = given_data(scene, cell, face, datum);
+  const auto take = [&](const Point<dim> &s, const double weight)
   {
-    const Point<dim> &s = rule.quadrature.point(q);
     const Point<dim> x = map.point(s);
-    const double weight = rule.quadrature.weight(q) * std::abs(determinant(map.jacobian(s)));
-    add(total, weight * scene.turn(x) * load_at<dim>(scene.body_force_in(cell), x), x);
+    const DatumValue value = weight * scene.turn(x) * given.value(x);
+    if (datum == Datum::load)
+    {
+      Tensor<1, dim> force;
+      for (unsigned int c = 0; c < dim; ++c)
+        force[c] = value[c];
+      return add(total, force, x);
+    }
+    Total &sum = totals[static_cast<unsigned int>(datum)];
+    sum.sum += value;
+    for (unsigned int c = 0; c < 4; ++c)
+      sum.absolute += std::abs(value[c]);
+  };
+  if (face != inside)
+  {
+    const Quadrature<1> rule = spring(cell, face, degree).quadrature;
+    for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      const Point<dim> s = point_on_face<dim>(face, rule.point(q));
+      take(s, rule.weight(q) * map.face_measure(face, s));
+    }
+    return;
   }
+  const Quadrature<dim> rule = in_cell(cell, datum, degree).quadrature;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+    take(rule.point(q), rule.weight(q) * std::abs(determinant(map.jacobian(rule.point(q)))));
 }
 
 template <int dim>
@@ -116,75 +126,37 @@ void LoadRules<dim>::add_traction(LoadSum &sum, const Cell &cell, const unsigned
   }
 }
 
+// @sect3{Pieces}
+//
 template <int dim>
-typename LoadRules<dim>::Pieces LoadRules<dim>::cut_cell(const Cell &cell) const
+bool LoadRules<dim>::is_unresolved(const DataPieces &pieces, const Datum datum) const
 {
-  const Geometry<dim> &body = scene.geometry;
-  BoxCutter cutter(force_in_cell(scene.body_force_in(cell), map_of<dim>(cell)),
-                   tables->gauss(across),
-                   {{n_parts(cell, 12 * finer, body.n_cells(0), 2),
-                     n_parts(cell, 12 * finer, body.n_cells(1), 2)}});
-  Pieces result;
-  double worst = 0;
-  for (const BoxCutter::Piece &piece : cutter.cut())
-  {
-    result.boxes.push_back(piece.box);
-    result.comparison.force += piece.integral;
-    result.comparison.finer += piece.finer;
-    result.comparison.deviation += piece.deviation;
-    if (piece.deviation > worst)
-    {
-      worst = piece.deviation;
-      result.comparison.worst = piece.box.center();
-    }
-  }
-  return result;
-}
-
-/** Of an edge or cell anew, whatever it is a part of. */
-template <int dim>
-typename LoadRules<dim>::Pieces LoadRules<dim>::cut(const Cell &cell, const unsigned int face) const
-{
-  if (face == inside)
-    return cut_cell(cell);
-  const CellMap<dim> map = map_of<dim>(cell);
-  const auto &load = scene.boundaries[cell->face(face)->boundary_id()].traction;
-  const double length = map.face_measure(face, point_on_face<dim>(face, Point<dim - 1>(0.5)));
-  Pieces result;
-  for (unsigned int c = 0; c < dim; ++c)
-    if (varies(load[c]))
-    {
-      const CutRule rule = cut_edge(*load[c], cell, face, scene, tables->gauss(along), finer);
-      result.cuts.insert(result.cuts.end(), rule.cuts.begin(), rule.cuts.end());
-      result.comparison.force[c] = length * rule.integral();
-      result.comparison.finer[c] = length * rule.finer_integral;
-      if (length * rule.deviation >= result.comparison.deviation)
-        result.comparison.worst = point_on_face<dim>(face, Point<dim - 1>(rule.worst));
-      result.comparison.deviation += length * rule.deviation;
-    }
-  std::sort(result.cuts.begin(), result.cuts.end());
-  return result;
+  return pieces.deviation > 1e-9 * total_of(datum).absolute;
 }
 
 template <int dim>
-bool LoadRules<dim>::is_unresolved(const Pieces &pieces) const
+bool LoadRules<dim>::is_any_unresolved(const Datum datum) const
 {
-  return pieces.comparison.deviation > 1e-9 * total.absolute;
+  return std::any_of(coarse.begin(), coarse.end(),
+                     [&](const auto &known) {
+                       return std::get<2>(known.first) == datum &&
+                              is_unresolved(known.second, datum);
+                     });
 }
 
 template <int dim>
-typename LoadRules<dim>::Pieces LoadRules<dim>::pieces(const Cell &cell,
-                                                       const unsigned int face) const
+DataPieces LoadRules<dim>::pieces(const Cell &cell, const unsigned int face,
+                                  const Datum datum) const
 {
-  const auto known = coarse.find({coarse_index(cell), face});
+  const auto known = coarse.find({coarse_index(cell), face, datum});
   if (known == coarse.end()) // constant
-    return {{0., 1.}, {BoundingBox<dim>({Point<dim>(), Point<dim>(1., 1.)})}, {}};
+    return {{0., 1.}, {BoundingBox<dim>({Point<dim>(), Point<dim>(1., 1.)})}, {}, {}, 0., {}};
   if (cell->level() == 0)
     return known->second;
-  if (is_unresolved(known->second))
-    return cut(cell, face);
+  if (is_unresolved(known->second, datum))
+    return cut_data(scene, cell, face, datum, *tables, finer);
   const BoundingBox<dim> part = part_of_coarse(cell);
-  Pieces result;
+  DataPieces result;
   if (face == inside)
     for (const BoundingBox<dim> &box : known->second.boxes)
     {
@@ -199,72 +171,114 @@ typename LoadRules<dim>::Pieces LoadRules<dim>::pieces(const Cell &cell,
   return result;
 }
 
+// @sect3{Rules}
+//
+/** For what is given times each of @p factors; none: alone. */
 template <int dim>
-LoadRule<1> LoadRules<dim>::traction(const Cell &cell, const unsigned int face,
-                                     const unsigned int degree) const
+LoadRule<1> LoadRules<dim>::on_face(const Cell &cell, const unsigned int face, const Datum datum,
+                                    const unsigned int degree,
+                                    const std::vector<std::function<double(double)>> &factors) const
 {
   const CellMap<dim> map = map_of<dim>(cell);
-  const std::vector<double> cuts = seen_from(0., 1., pieces(cell, face).cuts);
-  std::vector<BoundingBox<1>> parts;
+  const GivenData given = given_data(scene, cell, face, datum);
+  const std::vector<double> cuts = seen_from(0., 1., pieces(cell, face, datum).cuts);
+  std::vector<BoundingBox<1>> boxes;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
-    parts.push_back(BoundingBox<1>({Point<1>(cuts[k]), Point<1>(cuts[k + 1])}));
-  LoadRule<1> result = rule_on<1>(
-      parts, degree, scene.boundaries[cell->face(face)->boundary_id()].traction,
-      [&](const Function<dim> &component, const Point<1> &s)
-      { return component.value(map.point(point_on_face<dim>(face, s))); },
-      *tables);
+    boxes.push_back(BoundingBox<1>({Point<1>(cuts[k]), Point<1>(cuts[k + 1])}));
+  std::vector<std::function<double(const Point<1> &)>> functions;
+  for (const Expression<dim> &function : given.functions)
+  {
+    const auto value = [&map, face, function](const Point<1> &s)
+    { return function->value(map.point(point_on_face<dim>(face, s))); };
+    functions.emplace_back(value);
+    for (const auto &factor : factors)
+      functions.emplace_back([value, factor](const Point<1> &s)
+                             { return factor(s[0]) * value(s); });
+  }
+  LoadRule<1> result = rule_on<1>(rule_parts<1>(boxes, degree, functions, *tables), *tables);
   result.cuts = cuts;
   return result;
 }
 
 template <int dim>
-unsigned int LoadRules<dim>::strain_points(const Cell &cell, const unsigned int degree) const
+LoadRule<1> LoadRules<dim>::traction(const Cell &cell, const unsigned int face,
+                                     const unsigned int degree) const
 {
-  return common_value(known_strain_points, cell_key(cell, degree),
-                      [&]() { return hpvi::strain_points(scene, cell, degree, *tables); });
+  return on_face(cell, face, Datum::load, degree, {});
+}
+
+// Constant springs meet polynomials of degree 2p: p + 1 points are exact. Others have five more at least, and as many as give
+// their moments with the highest even and odd ones.
+template <int dim>
+LoadRule<1> LoadRules<dim>::spring(const Cell &cell, const unsigned int face,
+                                   const unsigned int degree) const
+{
+  if (!given_data(scene, cell, face, Datum::spring).varies())
+    return on_face(cell, face, Datum::spring, degree - 1, {});
+  std::vector<std::function<double(double)>> factors;
+  for (const unsigned int n : {2 * degree - 1, 2 * degree})
+    factors.emplace_back([n](const double s) { return std::legendre(n, 2 * s - 1); });
+  return on_face(cell, face, Datum::spring, degree + 4, factors);
+}
+
+template <int dim>
+LoadRule<dim> LoadRules<dim>::in_cell(const Cell &cell, const Datum datum,
+                                      const unsigned int degree) const
+{
+  const auto make = [&]()
+  {
+    const CellMap<dim> map = map_of<dim>(cell);
+    std::vector<std::function<double(const Point<dim> &)>> functions;
+    for (const Expression<dim> &function : given_data(scene, cell, inside, datum).functions)
+      functions.emplace_back([&map, function](const Point<dim> &s)
+                             { return function->value(map.point(s)); });
+    return rule_parts<dim>(pieces(cell, inside, datum).boxes, degree, functions, *tables);
+  };
+  return rule_on<dim>(
+      common_value(known_parts[static_cast<unsigned int>(datum)], cell_key(cell, degree), make),
+      *tables);
 }
 
 template <int dim>
 LoadRule<dim> LoadRules<dim>::body_force(const Cell &cell, const unsigned int degree) const
 {
-  const auto make = [&]()
-  {
-    const CellMap<dim> map = map_of<dim>(cell);
-    return rule_on<dim>(
-        pieces(cell, inside).boxes, degree, scene.body_force_in(cell),
-        [&](const Function<dim> &component, const Point<dim> &s)
-        { return component.value(map.point(s)); },
-        *tables);
-  };
-  const unsigned int n =
-      common_value(known_force_points, cell_key(cell, degree), [&]() { return make().n_gauss; });
-  return n > 0 ? LoadRule<dim>{n, n, Quadrature<dim>(tables->gauss(n)), {}} : make();
+  return in_cell(cell, Datum::load, degree);
 }
 
+template <int dim>
+LoadRule<dim> LoadRules<dim>::initial_strain(const Cell &cell, const unsigned int degree) const
+{
+  return in_cell(cell, Datum::initial_strain, degree + 1);
+}
+
+// @sect3{What is not resolved}
+//
 template <int dim>
 std::vector<UnresolvedLoad<dim>> LoadRules<dim>::unresolved(const Triangulation<dim> &mesh) const
 {
   std::vector<UnresolvedLoad<dim>> result;
-  const auto look = [&](const auto &cell, const unsigned int face, const std::string &name)
+  for (const Datum datum : {Datum::load, Datum::initial_strain, Datum::spring})
   {
-    const auto known = coarse.find({coarse_index(cell), face});
-    if (known == coarse.end() || !is_unresolved(known->second))
-      return;
-    const Pieces here = pieces(cell, face);
-    if (is_unresolved(here))
-      result.push_back({name, cell->active_cell_index(),
-                        map_of<dim>(cell).point(here.comparison.worst), here.comparison.force,
-                        here.comparison.finer, here.comparison.deviation});
-  };
-  if (std::none_of(coarse.begin(), coarse.end(),
-                   [&](const auto &known) { return is_unresolved(known.second); }))
-    return result;
-  for (const auto &cell : mesh.active_cell_iterators())
-  {
-    look(cell, inside, "Body force");
-    for (const unsigned int face : cell->face_indices())
-      if (cell->at_boundary(face))
-        look(cell, face, "Traction on " + scene.boundaries[cell->face(face)->boundary_id()].name);
+    if (!is_any_unresolved(datum))
+      continue;
+    const auto look = [&](const auto &cell, const unsigned int face)
+    {
+      const auto known = coarse.find({coarse_index(cell), face, datum});
+      if (known == coarse.end() || !is_unresolved(known->second, datum))
+        return;
+      const DataPieces here = pieces(cell, face, datum);
+      if (here.deviation > 1e-9 * total_of(datum).absolute)
+        result.push_back({datum, given_data(scene, cell, face, datum).name,
+                          cell->active_cell_index(), map_of<dim>(cell).point(here.worst),
+                          here.integral, here.finer, here.deviation / total_of(datum).absolute});
+    };
+    for (const auto &cell : mesh.active_cell_iterators())
+    {
+      look(cell, inside);
+      for (const unsigned int face : cell->face_indices())
+        if (cell->at_boundary(face))
+          look(cell, face);
+    }
   }
   return result;
 }
@@ -276,14 +290,18 @@ const LoadSum &LoadRules<dim>::sum() const
 }
 
 template <int dim>
-bool LoadRules<dim>::are_missing_something(const Tensor<1, dim> &force) const
+const typename LoadRules<dim>::Total &LoadRules<dim>::total_of(const Datum datum) const
 {
-  if (coarse.empty() || scene.geometry.has_curves() ||
-      std::any_of(coarse.begin(), coarse.end(),
-                  [&](const auto &known) { return is_unresolved(known.second); }))
+  return totals[static_cast<unsigned int>(datum)];
+}
+
+template <int dim>
+bool LoadRules<dim>::are_missing_something(const Datum datum, const DatumValue &sum) const
+{
+  if (coarse.empty() || scene.geometry.has_curves() || is_any_unresolved(datum))
     return false;
-  for (unsigned int c = scene.is_axisymmetric() ? 1 : 0; c < dim; ++c)
-    if (std::abs(force[c] - total.force[c]) > 1e-9 * total.absolute)
+  for (unsigned int c = 0; c < 4; ++c) // where what is radial balances itself, there is no number
+    if (std::abs(sum[c] - total_of(datum).sum[c]) > 1e-9 * total_of(datum).absolute)
       return true;
   return false;
 }
@@ -305,13 +323,13 @@ LoadRules<dim>::sums_by_boundary(const DoFHandler<dim> &numbering) const
 }
 
 template <int dim>
-double LoadRules<dim>::difference() const
+double LoadRules<dim>::difference(const Datum datum) const
 {
   double sum = 0;
   for (const auto &[place, pieces] : coarse)
-    if (!is_unresolved(pieces))
-      sum += pieces.comparison.deviation;
-  return sum == 0. ? 0. : sum / total.absolute;
+    if (std::get<2>(place) == datum && !is_unresolved(pieces, datum))
+      sum += pieces.deviation;
+  return sum == 0. ? 0. : sum / total_of(datum).absolute;
 }
 
 template class LoadRules<2>;

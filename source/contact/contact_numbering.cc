@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/body/coarse_cuts.h>
 #include <hpvi/contact/contact_space.h>
 
 #include <algorithm>
@@ -56,15 +57,19 @@ std::vector<PointLimit> limits_of(const ContactFace<dim> &face, const QGauss<1> 
 
 /** Give the face its rules for g, mu_f and the limit; in `int g |u_t|` g meets the degree p. */
 template <int dim>
-void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss)
+void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss, const Scene<dim> &scene)
 {
+  // A coarse edge has its share of the samples that loads have along a side.
+  const unsigned int n_parts = coarse_cuts::n_parts(
+      face.cell, 512 / gauss.size(), scene.geometry.n_cells(1 - face.face_no / 2), 16);
   const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
-  face.friction = make_friction_rule(
-      [&face](const double s) { return face.friction_bound(face.point(s)); }, gauss, degree);
+  face.friction =
+      make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
+                         gauss, degree, n_parts);
   if (face.condition->friction.knows_pressure())
     face.coefficient = make_friction_rule([&face](const double s)
                                           { return face.friction_coefficient(face.point(s)); },
-                                          gauss, degree);
+                                          gauss, degree, n_parts);
   face.limits = limits_of(face, gauss);
 }
 
@@ -113,11 +118,12 @@ bool is_prescribed(const AffineConstraints<double> &constraints,
 } // namespace
 
 template <int dim>
-void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const ShapeTables<dim> &tables)
+void ContactSpace<dim>::number_friction(ContactFace<dim> &face, const Scene<dim> &scene,
+                                        const ShapeTables<dim> &tables)
 {
   // p+1 Gauss points are exact to degree 2p+1 = p + (p-2) + 3: exact for g up to degree 3, or 2
   // for multipliers of degree p-1. Only beyond degree p, where no run goes, it takes more.
-  integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)));
+  integrate_friction(face, tables.gauss(std::max(face.degree + 1, face.n_points)), scene);
   face.first_multiplier = unknowns.size();
   const bool acts = std::any_of(face.limits.begin(), face.limits.end(),
                                 [](const PointLimit &at) { return !at.friction.vanishes(); }) ||
@@ -242,7 +248,8 @@ void ContactSpace<dim>::number_nodes(ContactFace<dim> &face,
   }
 }
 
-template void ContactSpace<2>::number_friction(ContactFace<2> &, const ShapeTables<2> &);
+template void ContactSpace<2>::number_friction(ContactFace<2> &, const Scene<2> &,
+                                               const ShapeTables<2> &);
 template void ContactSpace<2>::number_pressures(ContactFace<2> &, const ShapeTables<2> &);
 template void ContactSpace<2>::number_nodes(ContactFace<2> &, const DisplacementSpace<2> &,
                                             const ShapeTables<2> &);

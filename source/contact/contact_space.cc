@@ -57,7 +57,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
     face.is_turned = scene.is_axisymmetric();
     if (const auto found = past.find(face.condition->id); found != past.end())
       face.past = found->second;
-    number_friction(face, tables);
+    number_friction(face, scene, tables);
     if (!face.condition->has_pressure())
       continue;
     // With nodes a limit that follows the pressure could turn negative between them, and bodies would hand over forces wrongly.

@@ -6,9 +6,8 @@ namespace hpvi
 using namespace dealii;
 
 FrictionRule make_friction_rule(const std::function<double(double)> &g, const QGauss<1> &gauss,
-                                const unsigned int degree)
+                                const unsigned int degree, const unsigned int n_parts)
 {
-  const unsigned int n_parts = 16; // what is wider than half of one meets a sample
   return make_cut_rule(g, gauss, {0, degree - 1, degree}, n_parts);
 }
 } // namespace hpvi

@@ -24,9 +24,10 @@ namespace
 /** Empty without initial strains. */
 template <int dim>
 Vector<double> strain_loads_of(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                               const ShapeTables<dim> &tables, const Volume volume)
+                               const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
+                               const Volume volume)
 {
-  return scene.has_initial_strain() ? initial_strain_loads(scene, space, tables, volume)
+  return scene.has_initial_strain() ? initial_strain_loads(scene, space, tables, rules, volume)
                                     : Vector<double>();
 }
 
@@ -54,7 +55,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
                                   const Condensation<dim> &condensation,
                                   const ShapeTables<dim> &tables, const LoadRules<dim> &rules,
                                   CondensedElements<dim> &elements)
-    : f(unknowns.n()), of_strains(strain_loads_of(scene, space, tables, elements.volume())),
+    : f(unknowns.n()), of_strains(strain_loads_of(scene, space, tables, rules, elements.volume())),
       load(sum_of_loads(scene, space, tables, rules, of_strains))
 {
   Vector<double> boundary_load(load);
@@ -272,17 +273,6 @@ void integrate_load(const ShapeTable<dim> &table, const LocalNumbering &numberin
       local[i] += table.values(q, numbering.shape[i]) * force[numbering.component[i]];
   }
 }
-
-/** Shape functions at the points of a rule that is cut. */
-template <int dim>
-ShapeTable<dim> on_face(const unsigned int face, const unsigned int degree,
-                        const LoadRule<dim - 1> &rule)
-{
-  std::vector<Point<dim>> points;
-  for (const Point<dim - 1> &s : rule.quadrature.get_points())
-    points.push_back(point_on_face<dim>(face, s));
-  return tabulate<dim>(degree, points, rule.quadrature.get_weights(), false);
-}
 } // namespace
 
 template <int dim>
@@ -290,7 +280,7 @@ Vector<double> load_vector(const Scene<dim> &scene, const DisplacementSpace<dim>
                            const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
 {
   return sum_of_loads(scene, space, tables, rules,
-                      strain_loads_of(scene, space, tables, Volume::full));
+                      strain_loads_of(scene, space, tables, rules, Volume::full));
 }
 
 template <int dim>
@@ -313,13 +303,8 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
           return std::abs(determinant(map.jacobian(reference))) * scene.turn(x) *
                  load_at<dim>(scene.body_force_in(cell), x);
         };
-        const LoadRule<dim> rule = rules.body_force(cell, degree);
-        if (rule.n_gauss > 0)
-          integrate_load(tables.gradients(degree, rule.n_gauss), numbering, map, force, local);
-        else
-          integrate_load(tabulate<dim>(degree, rule.quadrature.get_points(),
-                                       rule.quadrature.get_weights(), false),
-                         numbering, map, force, local);
+        integrate_load(ShapesOfRule(rules.body_force(cell, degree), degree, tables).table,
+                       numbering, map, force, local);
       }
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
@@ -331,16 +316,24 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
             return map.face_measure(face, reference) * scene.turn(x) *
                    load_at<dim>(condition.traction, x);
           };
-          const LoadRule<dim - 1> rule = rules.traction(cell, face, degree);
-          if (rule.n_gauss > 0)
-            integrate_load(tables.face(degree, face, rule.n_gauss), numbering, map, force, local);
-          else
-            integrate_load(on_face<dim>(face, degree, rule), numbering, map, force, local);
+          integrate_load(
+              ShapesOfRule(rules.traction(cell, face, degree), face, degree, tables).table,
+              numbering, map, force, local);
         }
       const auto dofs = space.cell_dofs(cell->active_cell_index());
       for (unsigned int i = 0; i < local.size(); ++i)
         load[dofs[i]] += local[i];
     }
+  return load;
+}
+
+template <int dim>
+Vector<double> body_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                          const ShapeTables<dim> &tables, const LoadRules<dim> &rules)
+{
+  Vector<double> load = applied_loads(scene, space, tables, rules);
+  if (scene.has_initial_strain())
+    load += initial_strain_loads(scene, space, tables, rules);
   return load;
 }
 
@@ -378,6 +371,8 @@ template Vector<double> load_vector(const Scene<2> &, const DisplacementSpace<2>
                                     const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> applied_loads(const Scene<2> &, const DisplacementSpace<2> &,
                                       const ShapeTables<2> &, const LoadRules<2> &);
+template Vector<double> body_loads(const Scene<2> &, const DisplacementSpace<2> &,
+                                   const ShapeTables<2> &, const LoadRules<2> &);
 template Vector<double> plate_loads(const Scene<2> &, const DisplacementSpace<2> &,
                                     const ShapeTables<2> &);
 } // namespace hpvi

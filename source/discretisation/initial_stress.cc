@@ -46,11 +46,12 @@ std::vector<Tensor<2, 2>> stresses_of(const std::vector<Tensor<2, 2>> &strains,
 struct StrainOfCell
 {
   StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &space,
-               const ShapeTables<2> &tables, Volume volume,
+               const ShapeTables<2> &tables, const LoadRules<2> &rules, Volume volume,
                const Triangulation<2>::active_cell_iterator &cell);
 
   const unsigned int degree;
   const CellMap<2> map;
+  const ShapesOfRule shapes;
   const ShapeTable<2> &table;
   std::vector<Tensor<2, 2>> strains, stresses; ///< eps_0, C eps_0
   std::vector<Hoop> hoops;                     ///< what these are around an axis
@@ -58,10 +59,10 @@ struct StrainOfCell
 };
 
 StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                           const ShapeTables<2> &tables, const Volume volume,
-                           const Triangulation<2>::active_cell_iterator &cell)
+                           const ShapeTables<2> &tables, const LoadRules<2> &rules,
+                           const Volume volume, const Triangulation<2>::active_cell_iterator &cell)
     : degree(space.degrees()[cell->active_cell_index()]), map(map_of<2>(cell)),
-      table(tables.gradients(degree, space.strain_points(cell->active_cell_index())))
+      shapes(rules.initial_strain(cell, degree), degree, tables), table(shapes.table)
 {
   for (const Point<2> &point : table.points)
     strains.push_back(scene.initial_strain_in(cell, map.point(point)));
@@ -87,7 +88,8 @@ StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &sp
 /** Calls f(index, strain) for all cells that have an initial strain, by all threads. */
 template <class F>
 void for_each_strain(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                     const ShapeTables<2> &tables, const Volume volume, const F &f)
+                     const ShapeTables<2> &tables, const LoadRules<2> &rules, const Volume volume,
+                     const F &f)
 {
   std::vector<Triangulation<2>::active_cell_iterator> cells;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
@@ -95,16 +97,19 @@ void for_each_strain(const Scene<2> &scene, const DisplacementSpace<2> &space,
       cells.push_back(cell);
   for_all(cells.size(), 4,
           [&](const unsigned int k) {
-            f(cells[k]->active_cell_index(), StrainOfCell(scene, space, tables, volume, cells[k]));
+            f(cells[k]->active_cell_index(),
+              StrainOfCell(scene, space, tables, rules, volume, cells[k]));
           });
 }
 } // namespace
 
-double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
-                            const unsigned int n, const ShapeTables<2> &tables)
+namespace
 {
-  if (!scene.initial_strains[cell->material_id()])
-    return 0.;
+/** On one part of the rule in a cell. */
+double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
+                            const RulePart<2> &part, const ShapeTables<2> &tables)
+{
+  const auto &[box, n] = part;
   const CellMap<2> map = map_of<2>(cell);
   const HookesLaw<2> law(scene.material_of(cell));
   const QGauss<1> &own = tables.gauss(n), &finer = tables.gauss(n + 3);
@@ -112,6 +117,8 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
   for (unsigned int q = 0; q < n + 3; ++q)
     for (unsigned int i = 0; i < n; ++i)
       basis(q, i) = tables.gauss_lagrange(n)[i].value(finer.point(q)[0]);
+  const auto at = [&box = box](const QGauss<1> &gauss, const unsigned int a, const unsigned int b)
+  { return box.unit_to_real(Point<2>(gauss.point(a)[0], gauss.point(b)[0])); };
   const auto strains_at = [&](const QGauss<1> &gauss)
   {
     std::array<FullMatrix<double>, 3> values;
@@ -119,8 +126,7 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
     for (unsigned int a = 0; a < gauss.size(); ++a)
       for (unsigned int b = 0; b < gauss.size(); ++b)
       {
-        const Tensor<2, 2> strain = scene.initial_strain_in(
-            cell, map.point(Point<2>(gauss.point(a)[0], gauss.point(b)[0])));
+        const Tensor<2, 2> strain = scene.initial_strain_in(cell, map.point(at(gauss, a, b)));
         for (unsigned int k = 0; k < 3; ++k)
           values[k](a, b) = strain[k == 1][k != 0];
       }
@@ -143,15 +149,38 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
       strain[0][0] = missed[0](a, b);
       strain[1][1] = missed[1](a, b);
       strain[0][1] = strain[1][0] = missed[2](a, b);
-      sum += finer.weight(a) * finer.weight(b) *
-             std::abs(determinant(map.jacobian(Point<2>(finer.point(a)[0], finer.point(b)[0])))) *
-             law.energy_product(strain);
+      sum += finer.weight(a) * finer.weight(b) * box.volume() *
+             std::abs(determinant(map.jacobian(at(finer, a, b)))) * law.energy_product(strain);
     }
   return sum;
 }
+} // namespace
+
+double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_iterator &cell,
+                            const unsigned int degree, const LoadRules<2> &rules,
+                            const ShapeTables<2> &tables)
+{
+  double sum = 0;
+  if (scene.initial_strains[cell->material_id()])
+    for (const RulePart<2> &part : rules.initial_strain(cell, degree).parts)
+      sum += initial_stress_error(scene, cell, part, tables);
+  return sum;
+}
+
+double initial_stress_error(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                            const LoadRules<2> &rules, const ShapeTables<2> &tables)
+{
+  double sum = 0;
+  if (scene.has_initial_strain())
+    for (const auto &cell : space.dof_handler().active_cell_iterators())
+      sum += initial_stress_error(scene, cell, space.degrees()[cell->active_cell_index()], rules,
+                                  tables);
+  return std::sqrt(sum);
+}
 
 Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                                    const ShapeTables<2> &tables, const Volume volume)
+                                    const ShapeTables<2> &tables, const LoadRules<2> &rules,
+                                    const Volume volume)
 {
   std::vector<std::vector<double>> of_cells(space.degrees().size());
   const auto add = [&](const unsigned int index, const StrainOfCell &cell)
@@ -175,7 +204,7 @@ Vector<double> initial_strain_loads(const Scene<2> &scene, const DisplacementSpa
       }
     }
   };
-  for_each_strain(scene, space, tables, volume, add);
+  for_each_strain(scene, space, tables, rules, volume, add);
   Vector<double> load(space.n_dofs());
   for (unsigned int index = 0; index < of_cells.size(); ++index)
     for (unsigned int i = 0; i < of_cells[index].size(); ++i)
@@ -208,7 +237,7 @@ double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
                              hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature));
     }
   };
-  for_each_strain(scene, space, tables, Volume::full, measure);
+  for_each_strain(scene, space, tables, space.rules(), Volume::full, measure);
   return sum(of_cells);
 }
 } // namespace hpvi

@@ -6,24 +6,18 @@ namespace hpvi
 {
 using namespace dealii;
 
-const QGauss<1> &spring_rule(const BoundaryCondition<2> &boundary, const unsigned int degree,
-                             const ShapeTables<2> &tables)
-{
-  const bool varies = (boundary.spring.normal && !is_constant<2>(boundary.spring.normal)) ||
-                      (boundary.spring.tangential && !is_constant<2>(boundary.spring.tangential));
-  return tables.gauss(degree + (varies ? 6 : 1));
-}
-
 namespace
 {
-FullMatrix<double> matrix_of(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
-                             const CellMap<2> &map, const unsigned int face,
-                             const unsigned int degree, const ShapeTables<2> &tables,
-                             const std::vector<unsigned int> &shapes, const unsigned int times)
+FullMatrix<double> matrix_of(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                             const DoFHandler<2>::active_cell_iterator &cell,
+                             const unsigned int face, const ShapeTables<2> &tables,
+                             const std::vector<unsigned int> &shapes)
 {
-  const QGauss<1> &rule = spring_rule(boundary, degree, tables);
-  const ShapeTable<2> &table = tables.face(degree, face, times * rule.size());
-  const unsigned int n = degree + 1;
+  const BoundaryCondition<2> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
+  const CellMap<2> map = map_of<2>(cell);
+  const unsigned int degree = space.degrees()[cell->active_cell_index()], n = degree + 1;
+  const ShapesOfRule at_points(space.rules().spring(cell, face, degree), face, degree, tables);
+  const ShapeTable<2> &table = at_points.table;
   FullMatrix<double> result(2 * n, 2 * n);
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
@@ -42,7 +36,7 @@ FullMatrix<double> matrix_of(const Scene<2> &scene, const BoundaryCondition<2> &
 
 template <int dim>
 std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                     const ShapeTables<dim> &tables, const unsigned int times)
+                                     const ShapeTables<dim> &tables)
 {
   static_assert(dim == 2, "two components along an edge");
   std::vector<SpringFace> result;
@@ -62,8 +56,7 @@ std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const Displacement
           face.dofs.push_back(dofs[i]);
           shapes.push_back(numbering.shape[i]);
         }
-        face.matrix = matrix_of(scene, scene.boundaries[face.boundary], map_of<dim>(cell), f, p,
-                                tables, shapes, times);
+        face.matrix = matrix_of(scene, space, cell, f, tables, shapes);
         result.push_back(std::move(face));
       }
   return result;
@@ -89,5 +82,5 @@ double add_spring_forces(const std::vector<SpringFace> &faces, const Vector<doub
 }
 
 template std::vector<SpringFace> spring_faces(const Scene<2> &, const DisplacementSpace<2> &,
-                                              const ShapeTables<2> &, unsigned int);
+                                              const ShapeTables<2> &);
 } // namespace hpvi

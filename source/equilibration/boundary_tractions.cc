@@ -62,18 +62,14 @@ void BoundaryTractions::add_load(const unsigned int index, const double s, const
 }
 
 /** That of the discrete equations. */
-LoadRule<1> BoundaryTractions::load_rule(const StressEdge &edge) const
+LoadRule<1> BoundaryTractions::rule(const StressEdge &edge, const Datum datum) const
 {
   const StressEdge::Side &side = edge.sides[0];
-  return solution.spaces->loads->traction(patches.cells()[side.cell].iterator, side.face,
-                                          solution.displacement_space.degrees()[side.cell]);
-}
-
-const QGauss<1> &BoundaryTractions::spring_rule(const StressEdge &edge) const
-{
-  return hpvi::spring_rule(solution.scene.boundaries[edge.boundary],
-                           solution.displacement_space.degrees()[edge.sides[0].cell],
-                           solution.tables);
+  const auto &cell = patches.cells()[side.cell].iterator;
+  const unsigned int degree = solution.displacement_space.degrees()[side.cell];
+  const LoadRules<2> &rules = *solution.spaces->loads;
+  return datum == Datum::load ? rules.traction(cell, side.face, degree)
+                              : rules.spring(cell, side.face, degree);
 }
 
 Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) const
@@ -135,17 +131,19 @@ void BoundaryTractions::set(const unsigned int index)
     }
   };
   if (condition.has_traction())
-    add_loads(load_rule(edge).quadrature, [&](const auto &...at) { return load_on(at...); });
+    add_loads(rule(edge, Datum::load).quadrature,
+              [&](const auto &...at) { return load_on(at...); });
   if (condition.spring)
-    add_loads(spring_rule(edge), [&](const auto &...at) { return spring_on(at...); });
+    add_loads(rule(edge, Datum::spring).quadrature,
+              [&](const auto &...at) { return spring_on(at...); });
   if (has_contact)
   {
-    const FrictionRule rule = traction_rule(solution.contact_space.faces()[edge.contact_face],
-                                            edge.degree - 2, solution.tables);
-    for (unsigned int q = 0; q < rule.points.size(); ++q)
-      add_load(index, rule.points[q], rule.weights[q],
-               {{friction_on(edge, 0, rule.points[q], rule.values[q]),
-                 friction_on(edge, 1, rule.points[q], rule.values[q])}});
+    const FrictionRule friction = traction_rule(solution.contact_space.faces()[edge.contact_face],
+                                                edge.degree - 2, solution.tables);
+    for (unsigned int q = 0; q < friction.points.size(); ++q)
+      add_load(index, friction.points[q], friction.weights[q],
+               {{friction_on(edge, 0, friction.points[q], friction.values[q]),
+                 friction_on(edge, 1, friction.points[q], friction.values[q])}});
   }
   for (unsigned int end = 0; end < 2; ++end)
   {
@@ -181,18 +179,21 @@ std::vector<std::pair<double, double>> BoundaryTractions::points(const unsigned 
   const StressEdge &edge = patches.edges()[index];
   std::vector<double> cuts = {0., 1.};
   unsigned int n = 8;
-  if (solution.scene.boundaries[edge.boundary].has_traction())
-  {
-    const LoadRule<1> rule = load_rule(edge);
-    cuts = rule.cuts;
-    n = std::max(n, rule.most_points);
-  }
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  for (const Datum datum : {Datum::load, Datum::spring})
+    if (datum == Datum::load ? condition.has_traction() : bool(condition.spring))
+    {
+      const LoadRule<1> own = rule(edge, datum);
+      cuts.insert(cuts.end(), own.cuts.begin(), own.cuts.end());
+      n = std::max(n, own.most_points);
+    }
   if (edge.contact_face != numbers::invalid_unsigned_int)
   {
     const auto &others = solution.contact_space.faces()[edge.contact_face].friction.cuts;
     cuts.insert(cuts.end(), others.begin(), others.end());
-    std::sort(cuts.begin(), cuts.end());
   }
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   const QGauss<1> &gauss = solution.tables.gauss(edge.degree + n);
   std::vector<std::pair<double, double>> result;
   for (unsigned int piece = 0; piece + 1 < cuts.size(); ++piece)

@@ -100,14 +100,15 @@ double missed_traction(const EquilibratedStress &stress, const unsigned int inde
 }
 
 /**
- * What no rule of quadrature tells of the loads, at most 1e-9 of them: counted as if all of them were wrong by this
+ * What no rule of quadrature tells of loads and springs, at most 1e-9 of them: counted as if all of them were wrong by this
  * part. Below 1e-13 it is round-off, like an imbalance of patches up to 1e-9 of their stresses. One above, which round-off
  * leaves where a stiff material moves with a soft one, counts as if n patches were out of it all in one direction: their
  * forces do n^{1/2} times the work then that the stresses of one do on its strains.
  */
 double unresolved_loads(const Solution<2> &solution, const EquilibratedStress &stress)
 {
-  double part = solution.spaces->loads->difference();
+  const LoadRules<2> &rules = *solution.spaces->loads;
+  double part = rules.difference(Datum::load) + rules.difference(Datum::spring);
   if (stress.defect > 1e-9)
     part += stress.defect * std::sqrt(double(stress.squares.size()));
   if (part < 1e-13)

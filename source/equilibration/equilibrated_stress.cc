@@ -129,10 +129,13 @@ double EquilibratedStress::initial_stress_error(const Solution<2> &solution,
                                                 const unsigned int cell) const
 {
   const auto &iterator = vertex_patches.cells()[cell].iterator;
-  const unsigned int n = solution.displacement_space.strain_points(cell);
-  return common_value(
-      cache.initial_stress_errors, cell_key(iterator, n),
-      [&]() { return hpvi::initial_stress_error(solution.scene, iterator, n, solution.tables); });
+  const unsigned int degree = solution.displacement_space.degrees()[cell];
+  return common_value(cache.initial_stress_errors, cell_key(iterator, degree),
+                      [&]()
+                      {
+                        return hpvi::initial_stress_error(solution.scene, iterator, degree,
+                                                          *solution.spaces->loads, solution.tables);
+                      });
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned int hat) const

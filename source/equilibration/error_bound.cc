@@ -23,6 +23,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/equilibration/data_error.h>
 #include <hpvi/equilibration/error_bound.h>
+#include <hpvi/equilibration/macro_stresses.h>
 
 #include <boost/math/tools/minima.hpp>
 
@@ -201,6 +202,9 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
     return "the displacement penetrates the foundation between nodes, by " +
            text(correction.penetration() / largest, 2) +
            " of the largest, and supports keep it there";
+  if (has_distorted_cells(solution))
+    if (const std::string cut = cut_inside_distorted_cell(solution); !cut.empty())
+      return cut;
   if (solution.scene.has_plates() && has_long_cells(solution))
     return "cells are more than four times as long as wide, and a stress that is made in all of "
            "them at "

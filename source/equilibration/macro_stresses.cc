@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
+#include <hpvi/base/text.h>
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/equilibration/macro_stresses.h>
@@ -219,6 +220,23 @@ EquilibrationCache::Signature class_of(const VertexPatches &patches, const unsig
 }
 } // namespace
 
+std::string cut_inside_distorted_cell(const Solution<2> &solution)
+{
+  const LoadRules<2> &rules = *solution.spaces->loads;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+  {
+    const unsigned int degree = solution.displacement_space.degrees()[cell->active_cell_index()];
+    for (const Datum datum : {Datum::load, Datum::initial_strain})
+      if (const GivenData given = given_data(solution.scene, cell, inside, datum);
+          given.varies() && (datum == Datum::load ? rules.body_force(cell, degree)
+                                                  : rules.initial_strain(cell, degree))
+                                    .n_gauss == 0)
+        return given.name + " is cut inside the cell at " + to_string(cell->center()) +
+               ", and a stress in cells that are no parallelograms does not know its pieces";
+  }
+  return {};
+}
+
 MacroStresses::MacroStresses(const Solution<2> &solution, const VertexPatches &patches,
                              EquilibrationCache &cache)
     : solution(solution), patches(patches), cache(cache), cells(patches.cells().size())
@@ -257,7 +275,8 @@ void MacroStresses::set_cell(const unsigned int index)
   if (solution.scene.has_body_force())
     n_gauss = std::max(n_gauss, solution.spaces->loads->body_force(iterator, p).most_points + 2);
   if (solution.scene.has_initial_strain())
-    n_gauss = std::max(n_gauss, solution.displacement_space.strain_points(index) + 2);
+    n_gauss =
+        std::max(n_gauss, solution.spaces->loads->initial_strain(iterator, p).most_points + 2);
   const TriangleTable &table = cache.triangles.table(k, n_gauss);
   const Gradient gradient(solution, index, cache.legendre);
   const HookesLaw<2> law(solution.scene.material_of(iterator));

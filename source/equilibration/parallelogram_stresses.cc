@@ -75,7 +75,7 @@ void ParallelogramStresses::set_cells(const std::vector<unsigned int> &marked)
     if (solution.scene.has_initial_strain())
       cells[index].initial =
           initial_modes(solution, patches.cells()[index].iterator, cells[index].B,
-                        cells[index].element->m - 1, cells[index].element->m + 1, cache.legendre);
+                        cells[index].element->m - 1, cells[index].element->m + 1);
     if (solution.scene.has_body_force())
       cells[index].force = force_modes(solution, patches.cells()[index].iterator, cells[index].B,
                                        cells[index].h, cells[index].element->m, cache.legendre);

@@ -62,14 +62,30 @@ void forget_pairs(Scene<2> &scene)
   scene.pairs = kept;
 }
 
-double length_of(const Scene<2> &scene, const Probe<2> &probe)
+double length_of(const Side<2> &side)
 {
-  const std::vector<Side<2>> sides = sides_of(scene);
   double result = 0;
-  for (const types::boundary_id id : probe.on)
-    for (const auto &piece : sides[id].pieces)
-      result += piece[0].distance(piece[1]);
+  for (const auto &piece : side.pieces)
+    result += piece[0].distance(piece[1]);
   return result;
+}
+
+/** The mean of a component along a boundary: on a plate that of its middle, where it is prescribed nothing that V knows. */
+void load_boundary(Scene<2> &dual, const Probe<2> &probe, const unsigned int component)
+{
+  const std::vector<Side<2>> sides = sides_of(dual);
+  double length = 0;
+  for (const types::boundary_id id : probe.on)
+    length += length_of(sides[id]);
+  for (const types::boundary_id id : probe.on)
+  {
+    BoundaryCondition<2> &boundary = dual.boundaries[id];
+    if (boundary.plate)
+      boundary.plate->force[component] =
+          boundary.plate->is_free(component) ? length_of(sides[id]) / length : 0.;
+    else if (!boundary.displacement[component])
+      boundary.traction[component] = expression<2>(1 / length);
+  }
 }
 } // namespace
 
@@ -88,8 +104,7 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
     forget_data(boundary);
   forget_pairs(result);
   if (probe.kind == ProbeKind::boundary)
-    for (const types::boundary_id id : probe.on)
-      result.boundaries[id].traction[component] = expression<2>(1 / length_of(scene, probe));
+    load_boundary(result, probe, component);
   else
     result.body_force[component] = expression<2>(std::function<double(const Point<2> &)>(
         [mean = smooth_mean(scene, probe), at = probe.at](const Point<2> &x)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/body/coarse_cuts.h>
 #include <hpvi/intervals/open_contact.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
@@ -12,7 +13,7 @@ using namespace dealii;
 namespace
 {
 /**
- * Half of a lower bound of u_0 - u_Nn on a face; the other half is for what u_0 has beyond the polynomials of the face. It comes from
+ * Half of a lower bound of u_0 - u_Nn on a face; the other half is for what u_0 has beyond polynomials. It comes from
  * 4n Chebyshev points, between which a polynomial of degree below n exceeds its values by less than a twentieth of their range (EdgePolynomial::enclosure()).
  */
 double room_on(const Solution<2> &solution, const ContactFace<2> &face)
@@ -20,7 +21,9 @@ double room_on(const Solution<2> &solution, const ContactFace<2> &face)
   const Tensor<1, 2> normal = face.frame(0.5).normal;
   const EdgePolynomial u_n =
       edge_trace(face, normal, solution.displacement_space, solution.tables, solution.u);
-  const unsigned int m = 4 * (face.degree + 1);
+  // Where there is a bound, a gap that varies is a polynomial of degree p + 12, see DataError.
+  const unsigned int m =
+      4 * (face.degree + (coarse_cuts::varies(face.condition->gap) ? 13 : 1));
   double least = std::numeric_limits<double>::max(), largest = -least;
   for (unsigned int k = 0; k < m; ++k)
   {

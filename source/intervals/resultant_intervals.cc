@@ -181,8 +181,9 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
         goal.centre += goal.w[i] * residual.sum[i];
         absolute += std::abs(goal.w[i]) * residual.absolute[i];
       }
-      goal.rounding =
-          1e-14 * absolute + loads.difference() * loads.sum().absolute * goal.test.largest();
+      goal.rounding = 1e-14 * absolute +
+                      loads.difference(Datum::load) * loads.sum().absolute * goal.test.largest() +
+                      space->strain_error() * goal.norm;
       measure_tractions(goal, solution, bound);
       measure_pressure(goal, solution, bound);
     }

@@ -27,8 +27,7 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
   const unsigned int cell = part.a->active_cell_index(),
                      p = solution.displacement_space.degrees()[cell];
   const CellMap<2> map = map_of<2>(part.a), other = map_of<2>(part.b);
-  const bool varies = scene.has_initial_strain() || !map.is_affine();
-  const unsigned int n_gauss = (p + degree) / 2 + 1 + (varies ? 3 : 0);
+  const unsigned int n_gauss = (p + degree) / 2 + 1 + (map.is_affine() ? 0 : 3);
   const ShapeTable<2> &of_u = tables.in(part.in_a, p, n_gauss, solution.tables),
                       &of_w = tables.in(part.in_b, degree, n_gauss, solution.tables);
   const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
@@ -37,12 +36,10 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
   for (unsigned int q = 0; q < of_u.points.size(); ++q)
   {
     const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
-    Tensor<2, 2> strain =
+    const Tensor<2, 2> gradient =
         physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
-    if (scene.has_initial_strain())
-      strain -= scene.initial_strain_in(part.a, map.point(of_u.points[q]));
     const double weight = of_u.weights[q] * part.in_a.volume() * std::abs(determinant(J));
-    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(strain)) *
+    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(gradient)) *
                                 transpose(invert(other.jacobian(of_w.points[q])));
     for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int r = 0; r < 2; ++r)
@@ -193,7 +190,7 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
             .add_to(tractions, solution, z);
   }
   const Vector<double> loads =
-      applied_loads(solution.scene, z.displacement_space, solution.tables, *solution.spaces->loads);
+      body_loads(solution.scene, z.displacement_space, solution.tables, *solution.spaces->loads);
   double work = 0;
   for (types::global_dof_index i = 0; i < loads.size(); ++i)
   {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/cut_rule.h>
 #include <hpvi/base/text.h>
 #include <hpvi/intervals/test_motion.h>
 
@@ -235,15 +236,12 @@ double TestMotion::Fall::work(const Scene<2> &scene, const double l) const
 {
   if (kind != TractionKind::friction)
     return 0.;
-  const QGauss<1> gauss(24);
-  double result = 0;
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-  {
-    const double s = gauss.point(q)[0];
-    result += gauss.weight(q) * l * (1 - s) * offset.norm() *
-              scene.boundaries[boundary].friction.bound_at(from + s * l * towards);
-  }
-  return result;
+  constexpr unsigned int n_points = 16, n_parts = 32; // as many samples as loads have along a side
+  const FrictionLaw<2> &friction = scene.boundaries[boundary].friction;
+  const CutRule rule = make_cut_rule(
+      [&](const double s) { return (1 - s) * friction.bound_at(from + s * l * towards); },
+      QGauss<1>(n_points), {0, 1, 2}, n_parts);
+  return offset.norm() * l * (std::max(rule.integral(), rule.finer_integral) + rule.deviation);
 }
 
 std::vector<double> TestMotion::kinks(const unsigned int boundary, const Point<2> &begin,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/element_matrices.h>
 #include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/intervals/stress_work.h>
 #include <hpvi/intervals/test_space.h>
 
@@ -67,7 +68,8 @@ TestSpace::TestSpace(const Solution<2> &solution, const std::vector<GradedPoint>
     : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points)),
       degrees(mesh->n_active_cells(), degree_of_w),
       space(free_body(scene), *mesh, degrees, *lender->tables, lender->loads.get()),
-      applied(applied_loads(scene, space, *lender->tables, *lender->loads)),
+      applied(body_loads(scene, space, *lender->tables, *lender->loads)),
+      missed_strain(initial_stress_error(scene, space, *lender->loads, *lender->tables)),
       tables_in_parts(std::move(tables))
 {
   find_nodes();

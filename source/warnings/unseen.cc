@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/discretisation/missed_loads.h>
 #include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/warnings/line.h>
 #include <hpvi/warnings/warnings.h>
@@ -118,21 +119,26 @@ std::string places(const std::size_t n)
                 : line("there, and in ", n - 1, n == 2 ? " other place" : " other places");
 }
 
+std::string quantity(const Datum datum)
+{
+  return datum == Datum::load ? "force" : datum == Datum::spring ? "stiffness" : "stress";
+}
+
 template <int dim>
 Warnings unresolved_load(const Solution<dim> &solution)
 {
   const auto loads = solution.spaces->loads->unresolved(*solution.spaces->mesh);
   if (loads.empty())
     return {};
-  const auto &worst =
-      *std::max_element(loads.begin(), loads.end(),
-                        [](const auto &a, const auto &b) { return a.deviation < b.deviation; });
-  return {{WarningKind::load, worst.deviation,
+  const auto &worst = *std::max_element(
+      loads.begin(), loads.end(), [](const auto &a, const auto &b) { return a.part < b.part; });
+  return {{WarningKind::load, worst.part,
            worst.name + " is not resolved near (" + text(worst.where[0], 3) + " " +
-               text(worst.where[1], 3) + "): its force on the edge or cell " +
-               places(loads.size()) + " is (" + line(worst.force) +
-               ") by the rule of the run and (" + line(worst.finer) +
-               ") by one four times finer; put vertices where it jumps, or write it smoother"}};
+               text(worst.where[1], 3) + "): its " + quantity(worst.datum) +
+               " on the edge or cell " + places(loads.size()) + " is " +
+               in_words(worst.datum, worst.integral) + " by the rule of the run and " +
+               in_words(worst.datum, worst.finer) +
+               " by one four times finer; put vertices where it jumps, or write it smoother"}};
 }
 
 template <int dim>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Loads that are narrow, jump or bend: their rules, what is said where no rule resolves them, and the bound of the error
 // under them.
+#include "discretisation.h"
+
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/body/mesh.h>
 
@@ -9,6 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <random>
+#include <regex>
 
 namespace
 {
@@ -131,7 +136,7 @@ TEST(LoadRules, FindNarrowTractionsWhereverTheyAre)
       scene.boundary("top").traction[1] = expression<2>(load);
       Mesh mesh(scene);
       EXPECT_TRUE(mesh.rules.unresolved(mesh.mesh).empty());
-      EXPECT_LT(mesh.rules.difference(), 1e-11);
+      EXPECT_LT(mesh.rules.difference(Datum::load), 1e-11);
       const LoadSum &sum = mesh.rules.sum();
       EXPECT_NEAR(sum.force[1], -200, 1e-9) << at;
       EXPECT_NEAR(sum.moment, -100 * (at - 50), 1e-8) << at;
@@ -220,13 +225,14 @@ TEST(LoadRules, LoseNoStripOfBodyForceOnRefinedCells)
   }
 }
 
-/** Narrower than the distance of samples, at a place where none sees it: a finer mesh does, looks closer, and says so. */
+/** Narrower than the distance of samples, at a place where none sees it, and between all lines that are looked along: a finer mesh does, looks closer, and says so. */
 TEST(LoadRules, AreMadeAnewWhereAMeshSeesMore)
 {
   const double at = 0.1818335832843089 / 0.77537631618652625, half = 0.0041550;
   Scene<2> scene = body({1.289696343729227, 1.}, {{2, 3}});
   scene.body_force[0] = expression<2>(std::function<double(const Point<2> &)>(
-      [=](const Point<2> &x) { return std::abs(x[0] - at) < half ? 1. : 0.; }));
+      [=](const Point<2> &x)
+      { return std::abs(x[0] - at) < half && std::abs(x[1] - 0.65) < 0.05 ? 10. : 0.; }));
   hold(scene, "bottom");
   scene.adaptivity.method = Method::hup2;
   scene.adaptivity.start_degree = 2;
@@ -446,5 +452,261 @@ TEST(BoundUnderJumps, HoldsTheSameEnergyOnTwoMeshes)
     intervals.insert(intervals.end(), more.begin(), more.end());
   }
   expect_overlap(intervals);
+}
+
+// ---------------------------------------------------------------- data of every kind
+
+using verification::Overrides;
+
+/** What steps guarantee in common: of energies, and of forces by name. */
+struct Known
+{
+  struct Ends
+  {
+    double low = -1e300, high = 1e300;
+  };
+  std::map<std::string, Ends> all;
+  unsigned int n_bounds = 0;
+
+  void meet(const std::string &name, const double low, const double high)
+  {
+    Ends &ends = all[name];
+    ends.low = std::max(ends.low, low);
+    ends.high = std::min(ends.high, high);
+  }
+
+  explicit Known(const Overrides &entries)
+  {
+    run(verification::scene_of(entries),
+        [&](const StepReport<2> &step)
+        {
+          if (!step.stopped_by.empty() && step.stopped_by != "Maximum steps")
+          {
+            EXPECT_TRUE(std::none_of(step.warnings.begin(), step.warnings.end(),
+                                     [](const Warning &warning)
+                                     { return warning.kind == WarningKind::load; }))
+                << step.stopped_by;
+          }
+          if (!step.bound)
+            return;
+          ++n_bounds;
+          meet("energy", step.energies.energy - step.bound->energy_below,
+               step.energies.energy + step.bound->energy_above);
+          const auto take = [&](const std::string &name, const Measured &value)
+          {
+            if (value.interval)
+              meet(name, value.interval->centre - value.interval->half_width,
+                   value.interval->centre + value.interval->half_width);
+          };
+          for (const Resultant<2> &row : step.forces)
+          {
+            take("x on " + row.name, row.force[0]);
+            take("y on " + row.name, row.force[1]);
+            take("friction on " + row.name, row.friction);
+          }
+        });
+  }
+};
+
+/** A narrow datum as a function, and as a material or part of a side of its own. */
+struct NarrowDatum
+{
+  std::string name;
+  Overrides scene, as_function, as_part;
+};
+
+Overrides operator+(Overrides one, const Overrides &other)
+{
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+/** A square whose left side is held, pulled to the right a little. */
+const Overrides held{{"Boundary left/Displacement", "0; 0"},
+                     {"Boundary right/Displacement", "0.001; free"},
+                     {"Adaptivity/Maximum steps", "6"},
+                     {"Adaptivity/Tolerance", "1e-9"}};
+
+NarrowDatum hot_strip(const std::string &name, const std::string &distance)
+{
+  return {name,
+          held,
+          {{"Material/Thermal expansion", "0.01"},
+           {"Temperature/Expression", "if(" + distance + " < 0, 1, 0)"}},
+          {{"Temperature/Expression", "1"},
+           {"Material weld/Where", "-(" + distance + ")"},
+           {"Material weld/Thermal expansion", "0.01"}}};
+}
+
+NarrowDatum swollen_strip(const std::string &name, const std::string &distance)
+{
+  const auto strain = [](const std::string &e) { return e + "; -0.3*" + e + "; 0.2*" + e; };
+  return {name,
+          held,
+          {{"Material/Initial strain", strain("if(" + distance + " < 0, 0.01, 0)")}},
+          {{"Material weld/Where", "-(" + distance + ")"},
+           {"Material weld/Initial strain", strain("0.01")}}};
+}
+
+NarrowDatum stiff_strip(const std::string &name, const std::string &distance,
+                        const std::array<std::string, 2> &k)
+{
+  return {name,
+          {{"Boundary left/Displacement", "0; 0.01"},
+           {"Adaptivity/Maximum steps", "6"},
+           {"Adaptivity/Tolerance", "1e-9"}},
+          {{"Boundary bottom/Spring", "if(" + distance + " < 0, " + k[0] + ", 0); if(" + distance +
+                                          " < 0, " + k[1] + ", 0)"}},
+          {{"Boundary strip/On", "bottom"},
+           {"Boundary strip/Where", "-(" + distance + ")"},
+           {"Boundary strip/Spring", k[0] + "; " + k[1]}}};
+}
+
+NarrowDatum rough_pad(const std::string &name, const std::string &distance)
+{
+  return {name,
+          {{"Boundary left/Displacement", "0.01; 0"},
+           {"Boundary top/Traction", "0.001; 0"},
+           {"Boundary bottom/Contact", "bilateral"},
+           {"Adaptivity/Maximum steps", "8"},
+           {"Adaptivity/Tolerance", "1e-9"}},
+          {{"Boundary bottom/Friction bound", "if(" + distance + " < 0, 0.5, 0)"}},
+          {{"Boundary strip/On", "bottom"},
+           {"Boundary strip/Where", "-(" + distance + ")"},
+           {"Boundary strip/Contact", "bilateral"},
+           {"Boundary strip/Friction bound", "0.5"}}};
+}
+
+/** |x - c| - w. */
+std::string strip_at(const std::string &x, const double c, const double w)
+{
+  return "abs(" + x + " - " + verification::text(c) + ") - " + verification::text(w);
+}
+
+std::vector<NarrowDatum> narrow_data()
+{
+  std::vector<NarrowDatum> result{hot_strip("hot", strip_at("x", 0.1372, 0.02)),
+                                  hot_strip("hot_spot", "max(" + strip_at("x", 0.6, 0.03) + ", " +
+                                                            strip_at("y", 0.3, 0.07) + ")"),
+                                  stiff_strip("stiff", strip_at("x", 0.5842, 0.02), {{"30", "0"}}),
+                                  rough_pad("rough", strip_at("x", 0.125, 0.006))};
+  std::mt19937 random(55);
+  std::uniform_real_distribution<double> place(0.05, 0.95), width(0.002, 0.03), corner(0.01, 0.2);
+  for (unsigned int k = 0; k < 5; ++k)
+  {
+    const std::string x = k % 2 ? "y" : "x", number = std::to_string(k);
+    result.push_back(hot_strip("hot_" + number, strip_at(x, place(random), width(random))));
+    result.push_back(swollen_strip("swollen_" + number, strip_at(x, place(random), width(random))));
+    result.push_back(stiff_strip("stiff_" + number, strip_at("x", place(random), width(random)),
+                                 {{k % 2 ? "0" : "100", k % 3 ? "20" : "3"}}));
+    const double w = width(random) / 4;
+    result.push_back(rough_pad("rough_" + number, strip_at("x", w + corner(random), w)));
+  }
+  return result;
+}
+
+class NarrowData : public ::testing::TestWithParam<NarrowDatum>
+{
+};
+
+/** The grid has no line at the ends of a function, and has some at those of a material or part. */
+TEST_P(NarrowData, AreWhatTheyAreAsAMaterialOrPart)
+{
+  const NarrowDatum &datum = GetParam();
+  const Known function(datum.scene + datum.as_function), part(datum.scene + datum.as_part);
+  EXPECT_GT(function.n_bounds, 0U);
+  EXPECT_GT(part.n_bounds, 0U);
+  unsigned int n_compared = 0;
+  for (const auto &[name, ends] : part.all)
+    for (const std::string &other :
+         {name, std::regex_replace(name, std::regex("strip$"), "bottom")})
+      if (const auto found = function.all.find(other);
+          found != function.all.end() &&
+          (other != name || name.find("bottom") == std::string::npos))
+      {
+        ++n_compared;
+        const double round_off = 1e-9 * std::max(std::abs(ends.low), std::abs(ends.high));
+        EXPECT_LE(ends.low, found->second.high + round_off) << name;
+        EXPECT_LE(found->second.low, ends.high + round_off) << name;
+      }
+  EXPECT_GE(n_compared, 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, NarrowData, ::testing::ValuesIn(narrow_data()),
+                         [](const auto &row) { return row.param.name; });
+
+// ---------------------------------------------------------------- no end
+
+/** Data that no mesh of the first steps resolves, with a tolerance that the first step meets. */
+struct RoughDatum
+{
+  std::string name;
+  Overrides entries;
+};
+
+Overrides pushed(const Overrides &more)
+{
+  return Overrides{{"Boundary left/Displacement", "0; 0"},
+                   {"Boundary right/Displacement", "0.01; free"},
+                   {"Adaptivity/Tolerance on", "residual"},
+                   {"Adaptivity/Tolerance", "100"},
+                   {"Adaptivity/Maximum steps", "3"}} +
+         more;
+}
+
+Overrides rubbing(const std::string &entry, const std::string &value)
+{
+  return pushed({{"Boundary bottom/Contact", "unilateral"},
+                 {"Boundary bottom/" + entry, value},
+                 {"Boundary top/Traction", "0; -1"}});
+}
+
+const std::vector<RoughDatum> rough_data{
+    {"traction", pushed({{"Boundary top/Traction", "0; sin(1e5*x*x)"}})},
+    {"body_force",
+     pushed({{"Body force/Expression", "if((x - 0.4)^2 + (y - 0.4)^2 < 0.05, 1, 0); 0"}})},
+    {"initial_strain", pushed({{"Material/Initial strain", "if(x > 0.2 + 0.7*y, 0.01, 0); 0; 0"}})},
+    {"temperature",
+     pushed({{"Material/Thermal expansion", "0.01"},
+             {"Temperature/Expression", "if((x - 0.4)^2 + (y - 0.4)^2 < 0.05, 1, 0)"}})},
+    {"spring", pushed({{"Boundary top/Spring", "2 + sin(1e5*x*x); 0"}})},
+    {"displacement",
+     pushed({{"Boundary top/Displacement", "0; 0.001*exp(-((x - 0.37)/0.003)^2)"}})},
+    {"gap", rubbing("Gap", "-0.01*exp(-((x - 0.371)/0.003)^2)")},
+    {"bound", rubbing("Friction bound", "exp(-((x - 0.371)/0.003)^2)")},
+    {"bound_jump", rubbing("Friction bound", "if(x > 0.371, 0.3, 0)")},
+    {"coefficient", rubbing("Friction coefficient", "0.3 + 0.2*exp(-((x - 0.371)/0.003)^2)")},
+    {"coefficient_jump", rubbing("Friction coefficient", "if(x > 0.371, 0.3, 0.1)")}};
+
+class NoEnd : public ::testing::TestWithParam<RoughDatum>
+{
+};
+
+TEST_P(NoEnd, WhereDataAreNotResolved)
+{
+  run(verification::scene_of(GetParam().entries),
+      [](const StepReport<2> &step)
+      {
+        EXPECT_TRUE(step.number == 3 || step.stopped_by.empty()) << step.stopped_by;
+        if (step.number == 3)
+        {
+          EXPECT_EQ(step.stopped_by, "Maximum steps");
+        }
+      });
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, NoEnd, ::testing::ValuesIn(rough_data),
+                         [](const auto &row) { return row.param.name; });
+
+/** And where they are resolved the tolerance ends the run. */
+TEST(AnEnd, IsWhereDataAreResolved)
+{
+  for (const Overrides &smooth :
+       {pushed({{"Boundary top/Traction", "0; x*x"}}), rubbing("Gap", "0.01*x"),
+        pushed({{"Material/Thermal expansion", "0.01"},
+                {"Temperature/Expression", "if(x > 0.37, 1, 0)"}}),
+        rubbing("Friction coefficient", "0.1 + 0.2*x")})
+    run(verification::scene_of(smooth),
+        [](const StepReport<2> &step) { EXPECT_EQ(step.stopped_by, "Tolerance"); });
 }
 } // namespace

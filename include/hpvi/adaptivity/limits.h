@@ -23,6 +23,8 @@ struct LastSolution
   /** round_off_of_estimate(); asked only where the indicator is small, on all processes at once. */
   std::function<double()> round_off;
   bool is_bound_open = false; ///< what the step lacks of it may still be computed
+  /** Backend::resolves_data(); asked only where an error is small, on all processes at once. */
+  std::function<bool()> resolves_data = []() { return true; };
 };
 
 /**
@@ -37,7 +39,8 @@ void check_algebraic_error(const AlgebraicError &error);
 
 /**
  * Why the last step of @p history needs no next one: an entry of section Adaptivity, or "round-off" where the
- * indicator is that of the last bits of u_N, and so is LastSolution::missed. Empty: it does.
+ * indicator is that of the last bits of u_N, and so is LastSolution::missed. Empty: it does. No error is small enough while the discrete
+ * problem does not see all data.
  */
 template <int dim>
 std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,

@@ -21,30 +21,34 @@ namespace hpvi
 class BoxCutter
 {
 public:
-  using Function = std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &)>;
+  using Value = dealii::Tensor<1, 4>; ///< of so many functions at once
+  using Function = std::function<Value(const dealii::Point<2> &)>;
 
-  /** A box is compared with as many parts as it has of @p n_parts, the number for the whole in each direction. */
+  /**
+   * A box is compared with as many parts as it has of @p n_parts, the number for the whole in each direction. The whole is cut at
+   * @p lines first, from 0 to 1 in each direction; where these are too many, at some of them.
+   */
   BoxCutter(Function function, const dealii::QGauss<1> &gauss,
-            const std::array<unsigned int, 2> &n_parts);
+            const std::array<unsigned int, 2> &n_parts, std::array<std::vector<double>, 2> lines);
 
   struct Piece
   {
     dealii::BoundingBox<2> box;
-    dealii::Tensor<1, 2> integral, finer; ///< by the rule on the box, and on its finest parts
+    Value integral, finer; ///< by the rule on the box, and on its finest parts
     double deviation; ///< the largest difference of moments with 1, xi, eta, xi eta between those
   };
 
   const std::vector<Piece> &cut();
 
 private:
-  using Moments = std::array<dealii::Tensor<1, 2>, 4>; ///< with 1, xi, eta, xi eta
+  using Moments = std::array<Value, 4>; ///< with 1, xi, eta, xi eta
 
   /** Values at the points of parts in a grid, row by row. */
   struct Grid
   {
     std::array<std::vector<double>, 2> coordinates;
-    std::vector<dealii::Tensor<1, 2>> values;
-    const dealii::Tensor<1, 2> &at(const std::array<unsigned int, 2> &i) const
+    std::vector<Value> values;
+    const Value &at(const std::array<unsigned int, 2> &i) const
     {
       return values[i[1] * coordinates[0].size() + i[0]];
     }

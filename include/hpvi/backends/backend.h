@@ -130,6 +130,9 @@ public:
   /** Bisects what no indicator can see. */
   virtual void mark_unresolved(Refinement &refinement) const = 0;
 
+  /** Does the discrete problem see all that it is known to be given: loads, strains, springs, gaps, displacements, friction? Collective. */
+  virtual bool resolves_data() = 0;
+
   /** What u_N misses of the data, in the energy norm; @p bound of the step tells more of it. */
   virtual double missed(const std::optional<ErrorBound> &bound) const = 0;
 

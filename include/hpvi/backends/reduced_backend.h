@@ -74,6 +74,7 @@ public:
   }
 
   void mark_unresolved(Refinement &refinement) const override;
+  bool resolves_data() override;
   double missed(const std::optional<ErrorBound> &bound) const override
   {
     if (!unresolved.empty() || !missed_displacements.empty())

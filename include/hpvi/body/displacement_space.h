@@ -20,7 +20,7 @@ class DisplacementSpace
 public:
   /**
    * @p degrees by active cell index; the triangulation must outlive the space. The finite elements
-   * are those of @p tables, the loads those of @p rules, without which there are no strain_points().
+   * are those of @p tables, the rules for data of the scene @p rules, which must outlive the space.
    */
   DisplacementSpace(const Scene<dim> &scene, const dealii::Triangulation<dim> &triangulation,
                     const Degrees &degrees, const ShapeTables<dim> &tables,
@@ -38,13 +38,13 @@ public:
   /** As in DofNumbering. */
   dealii::ArrayView<const dealii::types::global_dof_index> cell_dofs(unsigned int cell) const;
 
-  /** strain_points() of a cell, of a scene with initial strains. */
-  unsigned int strain_points(unsigned int cell) const;
+  /** To be asked only where the space has been given some. */
+  const LoadRules<dim> &rules() const;
 
 private:
   const DofNumbering<dim> dof_numbering;
   const dealii::AffineConstraints<double> affine_constraints;
-  std::vector<unsigned int> n_strain_points; ///< by active cell index
+  const LoadRules<dim> *const load_rules;
 };
 } // namespace hpvi
 

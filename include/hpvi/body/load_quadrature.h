@@ -7,7 +7,6 @@
 #include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -24,26 +23,55 @@ dealii::Tensor<1, dim> load_at(const Load<dim> &load, const dealii::Point<dim> &
   return result;
 }
 
-/** Points and weights for a load on a face (d = 1) or in a cell (d = 2), on [0,1]^d. */
+/** A part of [0,1]^d with its own Gauss rule, of n points per direction. */
+template <int d>
+struct RulePart
+{
+  dealii::BoundingBox<d> box;
+  unsigned int n;
+};
+
+/** Points and weights for data on a face (d = 1) or in a cell (d = 2), on [0,1]^d. */
 template <int d>
 struct LoadRule
 {
+  std::vector<RulePart<d>> parts;
   unsigned int n_gauss;     ///< it is the Gauss rule of so many points per direction; 0: it is cut
-  unsigned int most_points; ///< of the Gauss rule on any piece, per direction
+  unsigned int most_points; ///< of the Gauss rule on any part, per direction
   dealii::Quadrature<d> quadrature;
   std::vector<double> cuts; ///< of a face: 0, where pieces meet, 1
 };
 
+/** A Gauss rule on each of @p parts. */
+template <int d>
+LoadRule<d> rule_on(const std::vector<RulePart<d>> &parts, const ShapeTables<2> &tables);
+
+/** Shape functions of one degree at the points of a rule, in a cell or on a face of it: those of @p tables unless the rule is cut. */
+class ShapesOfRule
+{
+public:
+  ShapesOfRule(const LoadRule<2> &rule, unsigned int degree, const ShapeTables<2> &tables);
+  ShapesOfRule(const LoadRule<1> &rule, unsigned int face, unsigned int degree,
+               const ShapeTables<2> &tables);
+
+  ShapesOfRule(const ShapesOfRule &) = delete; // members refer to one another
+
+private:
+  const ShapeTable<2> own; ///< of a rule that is cut
+
+public:
+  const ShapeTable<2> &table;
+};
+
 /**
- * A Gauss rule on each of some boxes, for the components of a load, whose @p value is asked for at points of [0,1]^d: as
- * many points per direction, at least @p degree + 2, as give moments with polynomials of degree 2 to round-off.
+ * How many points each of some boxes needs for some functions on [0,1]^d: as many per direction, at least @p degree + 2, as give moments with
+ * polynomials of degree 2 to round-off.
  */
 template <int d>
-LoadRule<d>
-rule_on(const std::vector<dealii::BoundingBox<d>> &boxes, unsigned int degree,
-        const std::array<Expression<2>, 2> &components,
-        const std::function<double(const dealii::Function<2> &, const dealii::Point<d> &)> &value,
-        const ShapeTables<2> &tables);
+std::vector<RulePart<d>>
+rule_parts(const std::vector<dealii::BoundingBox<d>> &boxes, unsigned int degree,
+           const std::vector<std::function<double(const dealii::Point<d> &)>> &functions,
+           const ShapeTables<2> &tables);
 } // namespace hpvi
 
 #endif

@@ -4,26 +4,32 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <hpvi/body/displacement_cuts.h>
+#include <hpvi/body/given_data.h>
 #include <hpvi/body/load_quadrature.h>
-#include <hpvi/body/strain_points.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace hpvi
 {
-/** An edge or cell on which the load by its rule and by one four times finer are not the same. */
+/** A cell, the same in all meshes with its coarse cells, and a number: the key of what steps share of it. */
+using CellKey = std::array<unsigned int, 5>;
+CellKey cell_key(const dealii::Triangulation<2>::cell_iterator &cell, unsigned int number);
+
+/** An edge or cell on which the integral of a datum by its rule and by one four times finer are not the same. */
 template <int dim>
 struct UnresolvedLoad
 {
+  Datum datum;
   std::string name; ///< as in "Traction on top", "Body force"
   unsigned int cell;
-  dealii::Point<dim> where;            ///< the middle of the worst piece
-  dealii::Tensor<1, dim> force, finer; ///< by both rules [stress length^(dim-1)]
-  double deviation; ///< of forces and, with a lever of half the edge or cell, moments
+  dealii::Point<dim> where;   ///< the middle of the worst piece
+  DatumValue integral, finer; ///< by both rules [unit of the datum, and of the edge or cell]
+  double part;                ///< of all data of this kind
 };
 
 /** All loads of a scene together. */
@@ -42,16 +48,16 @@ struct LoadSum
 };
 
 /**
- * The one quadrature rule for each load on each face and cell, for everything that holds the load: discrete equations, equilibrated
- * stresses, oscillation. Loads are looked at once, on the coarse mesh, with some 500 samples along a side of the
- * body, 100 x 100 inside, and no fewer than four times as many per direction as a Gauss rule has: where they jump, bend or are narrow, coarse edges are cut
+ * The one quadrature rule for each datum that is integrated on a face or in a cell, for everything that holds it: discrete equations, equilibrated
+ * stresses, oscillation, work on test displacements. Data are looked at once, on the coarse mesh, with some 500 samples along a side of the
+ * body, 100 x 100 inside and 500 along two lines of each direction, and no fewer than four times as many per direction as a Gauss rule has: where they jump, bend or are narrow, coarse edges are cut
  * by make_cut_rule() and coarse cells into rectangles, at jumps along their axes or by bisection. Refined edges and cells inherit these cuts.
  *
  * On what is not cut, and on each piece, a Gauss rule has as many points per direction, at least p + 2, as give
- * the moments of the load with polynomials of degree 2 to round-off. Then the discrete equations hold with the exact
+ * the moments of the datum with polynomials of degree 2 to round-off. Then the discrete equations hold with the exact
  * load for every hat function times a rigid motion, which equilibrated stresses build on.
  *
- * Where no 64 pieces do, the load is unresolved, on the coarse mesh; on finer ones its edges and cells are
+ * Where no 64 pieces do, the datum is unresolved, on the coarse mesh; on finer ones its edges and cells are
  * cut anew, and may be resolved there.
  */
 template <int dim>
@@ -70,63 +76,64 @@ public:
   /** In s on [0,1] of a face, which has a traction. */
   LoadRule<1> traction(const Cell &cell, unsigned int face, unsigned int degree) const;
 
+  /** In s on [0,1] of a face, which has springs, for their stiffness times products of two polynomials of @p degree. */
+  LoadRule<1> spring(const Cell &cell, unsigned int face, unsigned int degree) const;
+
   /** In reference coordinates; how many points it has is looked for once in each cell. */
   LoadRule<dim> body_force(const Cell &cell, unsigned int degree) const;
 
-  /** As strain_points() has them, which looks for them once in each cell. */
-  unsigned int strain_points(const Cell &cell, unsigned int degree) const;
+  /** Likewise, with p + 3 points at least: equations are those of the polynomials through the values at these points. */
+  LoadRule<dim> initial_strain(const Cell &cell, unsigned int degree) const;
 
-  /** Of the active cells of @p mesh: both rules differ by more than 1e-9 of all loads. */
+  /** Of the active cells of @p mesh: both rules differ by more than 1e-9 of all data of a kind. */
   std::vector<UnresolvedLoad<dim>> unresolved(const dealii::Triangulation<dim> &mesh) const;
 
   const LoadSum &sum() const;
 
+  /** Of all components of a datum [its unit, and that of the body's area or boundary]; what it is in absolute values. */
+  struct Total
+  {
+    DatumValue sum;
+    double absolute = 0;
+  };
+  const Total &total_of(Datum datum) const;
+
   /**
-   * Has a mesh with the resultant @p force of its loads seen what lay between the samples: is that not sum(), by more than 1e-9 of all loads, where
-   * these count as resolved? Curved bodies change with the degree of their cells, and so do resultants.
+   * Has a mesh on which data of a kind have this @p sum seen what lay between the samples: is that not total_of(), by more than 1e-9 of
+   * all, where these count as resolved? Curved bodies change with the degree of their cells, and so do sums.
    */
-  bool are_missing_something(const dealii::Tensor<1, dim> &force) const;
+  bool are_missing_something(Datum datum, const DatumValue &sum) const;
 
   /** Of the tractions of each boundary that has any, on the cells of @p numbering as the discrete equations have them: curved edges change with them. */
   std::map<dealii::types::boundary_id, LoadSum>
   sums_by_boundary(const dealii::DoFHandler<dim> &numbering) const;
 
-  /** What both rules differ by where they agree to 1e-9, in all, over LoadSum::absolute. */
-  double difference() const;
+  /** What both rules differ by where they agree to 1e-9, in all, over Total::absolute. */
+  double difference(Datum datum) const;
 
 private:
-  /** Both rules of a load on an edge or in a cell. */
-  struct Comparison
-  {
-    dealii::Tensor<1, dim> force, finer;
-    double deviation = 0;     ///< as UnresolvedLoad has it
-    dealii::Point<dim> worst; ///< in reference coordinates
-  };
+  /** A coarse cell, its face or inside, and what is given there. */
+  using Place = std::tuple<dealii::types::coarse_cell_id, unsigned int, Datum>;
 
-  struct Pieces
-  {
-    std::vector<double> cuts;                    ///< of an edge: 0, where pieces meet, 1
-    std::vector<dealii::BoundingBox<dim>> boxes; ///< of a cell; all of it
-    Comparison comparison;
-  };
-
-  using Place = std::pair<dealii::types::coarse_cell_id, unsigned int>; ///< its face; none: inside
-
-  Pieces cut_cell(const Cell &cell) const;
-  Pieces cut(const Cell &cell, unsigned int face) const;
-  Pieces pieces(const Cell &cell, unsigned int face) const;
-  bool is_unresolved(const Pieces &pieces) const;
-  void add(const Cell &cell, unsigned int face);
+  DataPieces pieces(const Cell &cell, unsigned int face, Datum datum) const;
+  bool is_unresolved(const DataPieces &pieces, Datum datum) const;
+  bool is_any_unresolved(Datum datum) const;
+  LoadRule<1> on_face(const Cell &cell, unsigned int face, Datum datum, unsigned int degree,
+                      const std::vector<std::function<double(double)>> &factors) const;
+  LoadRule<dim> in_cell(const Cell &cell, Datum datum, unsigned int degree) const;
+  void look_at(const Cell &cell, unsigned int face, Datum datum);
+  void add(const Cell &cell, unsigned int face, Datum datum);
   void add_traction(LoadSum &sum, const Cell &cell, unsigned int face, unsigned int degree) const;
   void add(LoadSum &sum, const dealii::Tensor<1, dim> &force, const dealii::Point<dim> &x) const;
 
   const Scene<dim> &scene;
   const std::shared_ptr<const ShapeTables<dim>> tables;
   const unsigned int finer;
-  std::map<Place, Pieces> coarse; ///< what varies
-  mutable std::map<CellKey, unsigned int> known_strain_points,
-      known_force_points; ///< by cell and degree; 0: the rule is cut
+  std::map<Place, DataPieces> coarse; ///< what varies
+  /** Of loads and initial strains, by cell and degree. */
+  mutable std::array<std::map<CellKey, std::vector<RulePart<dim>>>, 2> known_parts;
   LoadSum total;
+  std::array<Total, 3> totals; ///< by datum
 };
 } // namespace hpvi
 

@@ -207,7 +207,8 @@ public:
 private:
   using Kind = typename ContactMultiplier<dim>::Kind;
 
-  void number_friction(ContactFace<dim> &face, const ShapeTables<dim> &tables);
+  void number_friction(ContactFace<dim> &face, const Scene<dim> &scene,
+                       const ShapeTables<dim> &tables);
   void add_past(const ContactFace<dim> &face, const dealii::QGauss<1> &gauss);
   void number_pressures(ContactFace<dim> &face, const ShapeTables<dim> &tables);
   void number_nodes(ContactFace<dim> &face, const DisplacementSpace<dim> &displacement_space,

@@ -73,6 +73,11 @@ template <int dim>
 dealii::Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
                                      const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
 
+/** The same and what initial strains do, by @p rules of the scene on any space with its coarse cells. */
+template <int dim>
+dealii::Vector<double> body_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
+                                  const ShapeTables<dim> &tables, const LoadRules<dim> &rules);
+
 /** Forces and moments on rigid plates; with initial_strain_loads() all. */
 template <int dim>
 dealii::Vector<double> plate_loads(const Scene<dim> &scene, const DisplacementSpace<dim> &space,

@@ -51,18 +51,23 @@ dealii::Tensor<1, dim> initial_stress_divergence(const Scene<dim> &scene, const 
   return result;
 }
 
-/** The square in energy of what the polynomial through @p n x n points misses of eps_0 in the cell, seen at more of them. */
+/** The square in energy of what the polynomials through the points of the rule in a cell miss of eps_0, seen at more of them. */
 double initial_stress_error(const Scene<2> &scene,
-                            const dealii::Triangulation<2>::cell_iterator &cell, unsigned int n,
+                            const dealii::Triangulation<2>::cell_iterator &cell,
+                            unsigned int degree, const LoadRules<2> &rules,
                             const ShapeTables<2> &tables);
 
+/** Its root on all cells of @p space together: initial_strain_loads() on v is off by no more times |v|_a. */
+double initial_stress_error(const Scene<2> &scene, const DisplacementSpace<2> &space,
+                            const LoadRules<2> &rules, const ShapeTables<2> &tables);
+
 /**
- * `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length]. Where div v counts projected only, that of eps_0 is
+ * `int C eps_0 : eps(v_i)`, what the initial strain does as a load [stress length], by @p rules of the scene, which may be on other cells than its own. Where div v counts projected only, that of eps_0 is
  * projected likewise: the pressure is that of both.
  */
 dealii::Vector<double> initial_strain_loads(const Scene<2> &scene,
                                             const DisplacementSpace<2> &space,
-                                            const ShapeTables<2> &tables,
+                                            const ShapeTables<2> &tables, const LoadRules<2> &rules,
                                             Volume volume = Volume::full);
 
 /**

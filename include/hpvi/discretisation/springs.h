@@ -20,16 +20,10 @@ struct SpringFace
   dealii::FullMatrix<double> matrix; ///< int k_n v_n w_n + k_t v_t w_t of two of their functions
 };
 
-/**
- * All of a mesh, by the one rule that everything has: of degree 2p + 1 where k is constant, ten more where it varies. Or by one with
- * @p times as many points, to see what that rule misses.
- */
+/** All of a mesh, by the rules of @p space. */
 template <int dim>
 std::vector<SpringFace> spring_faces(const Scene<dim> &scene, const DisplacementSpace<dim> &space,
-                                     const ShapeTables<dim> &tables, unsigned int times = 1);
-
-const dealii::QGauss<1> &spring_rule(const BoundaryCondition<2> &boundary, unsigned int degree,
-                                     const ShapeTables<2> &tables);
+                                     const ShapeTables<dim> &tables);
 
 /** What springs add to a(u, v_i) and to a(u, u): `int k_n u_n v_n + k_t u_t v_t`; of all boundaries, or of one. */
 double

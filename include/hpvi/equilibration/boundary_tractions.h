@@ -57,9 +57,8 @@ private:
     bool leans = false;          ///< an unknown component has a weight in it
   };
 
-  LoadRule<1> load_rule(const StressEdge &edge) const;
+  LoadRule<1> rule(const StressEdge &edge, Datum datum) const;
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
-  const dealii::QGauss<1> &spring_rule(const StressEdge &edge) const;
   dealii::Tensor<1, 2> spring_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;

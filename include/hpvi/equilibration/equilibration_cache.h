@@ -3,7 +3,7 @@
 #define hpvi_equilibration_cache_h
 
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/body/strain_points.h>
+#include <hpvi/body/load_rule.h>
 #include <hpvi/equilibration/patch_data.h>
 #include <hpvi/stresses/legendre.h>
 #include <hpvi/stresses/macro_stress_element.h>
@@ -43,7 +43,7 @@ struct EquilibrationCache
   };
   std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
-  std::map<CellKey, double> initial_stress_errors, ///< by cell and number of points
+  std::map<CellKey, double> initial_stress_errors, ///< by cell and degree
       missed_forces;                               ///< by cell and 1000 m + p
 
   /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */

@@ -5,6 +5,7 @@
 #include <hpvi/equilibration/patch_problem.h>
 #include <hpvi/stresses/macro_stress_element.h>
 
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -52,6 +53,9 @@ private:
   EquilibrationCache &cache;
   std::vector<Cell> cells;
 };
+
+/** Where a body force or initial strain is cut inside a cell, in words; else empty. These stresses know none of its pieces. */
+std::string cut_inside_distorted_cell(const Solution<2> &solution);
 } // namespace hpvi
 
 #endif

@@ -10,7 +10,7 @@ namespace hpvi
 /**
  * The linear problem a(z, v) = q(v) for all v of V, the displacements that vanish where components are prescribed and
  * slide where contact is bilateral; unilateral contact and friction leave V free. q is a load: of a @p probe along a boundary
- * the mean of the @p component of v there; of one over a disc that with the weight of smooth_mean(). |z|_a is the norm of q
+ * the mean of the @p component of v there, a force where that is a rigid plate, none where it is prescribed; of one over a disc that with the weight of smooth_mean(). |z|_a is the norm of q
  * on V.
  */
 Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, unsigned int component);

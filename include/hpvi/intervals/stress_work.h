@@ -19,8 +19,8 @@ struct WorkOnShapes
 
 /**
  * A part of the body that lies in the cell a of u_N and the cell b of another mesh, which in_a and in_b are in their reference
- * cells, and what sigma(u_N) does there on the strains of the shape functions of b: component by component, as
- * Solution::coefficients() has them.
+ * cells, and what C eps(u_N) does there on the strains of the shape functions of b: component by component, as
+ * Solution::coefficients() has them. Initial strains are among the loads.
  */
 struct WorkOnPart
 {

@@ -57,6 +57,12 @@ public:
   };
   Residual residual(const Solution<2> &solution) const;
 
+  /** What rules on this mesh miss of initial strains: times |w|_a, of L(w). */
+  double strain_error() const
+  {
+    return missed_strain;
+  }
+
 private:
   /** Which combinations of unknowns are held, and the matrix of the others. */
   struct System
@@ -91,7 +97,8 @@ private:
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> stiffness; ///< by cell
   dealii::SparsityPattern pattern;
   dealii::SparseMatrix<double> K;
-  dealii::Vector<double> applied;                          ///< L(v_i)
+  dealii::Vector<double> applied; ///< L(v_i)
+  const double missed_strain;
   std::map<unsigned int, std::unique_ptr<System>> systems; ///< by body
   const std::shared_ptr<PartTables> tables_in_parts;
 };
