@@ -106,26 +106,31 @@ namespace
 constexpr unsigned int along = 16,
                        across = 8; ///< Gauss points of a piece when edges and cells are cut
 
-/**
- * Where two lines in direction d through the unit cell, at no place that data would be at, meet what a grid of samples may miss: a strip
- * across it that is narrow.
- */
-std::vector<double> cuts_along(const unsigned int d, const BoxCutter::Function &f,
-                               const QGauss<1> &gauss, const unsigned int n_parts)
+/** Where a line in direction d through the unit cell, at @p level across it, is cut. */
+std::vector<double> cuts_along(const unsigned int d, const double level,
+                               const BoxCutter::Function &f, const QGauss<1> &gauss,
+                               const unsigned int n_parts)
+{
+  const auto along_line = [&](const double s)
+  {
+    const DatumValue value = f(d == 0 ? Point<2>(s, level) : Point<2>(level, s));
+    return value[0] + 0.7548777 * value[1] + 0.5698403 * value[2] + 0.4301597 * value[3];
+  };
+  return make_cut_rule(along_line, gauss, {0, 1, 2}, n_parts).cuts;
+}
+
+/** Those that two lines have in common: at a strip across the cell, which a grid of samples may miss. */
+std::vector<double> common_cuts(const unsigned int d, const BoxCutter::Function &f,
+                                const QGauss<1> &gauss, const unsigned int n_parts)
 {
   std::vector<double> result;
-  for (const double level : {0.2763932, 0.6180340})
-  {
-    const auto along_line = [&](const double s)
-    {
-      const DatumValue value = f(d == 0 ? Point<2>(s, level) : Point<2>(level, s));
-      return value[0] + 0.7548777 * value[1] + 0.5698403 * value[2] + 0.4301597 * value[3];
-    };
-    const std::vector<double> cuts = make_cut_rule(along_line, gauss, {0, 1, 2}, n_parts).cuts;
-    result.insert(result.end(), cuts.begin(), cuts.end());
-  }
-  std::sort(result.begin(), result.end());
-  return coarse_cuts::seen_from(0., 1., result);
+  const auto one = cuts_along(d, 0.2763932, f, gauss, n_parts),
+             other = cuts_along(d, 0.6180340, f, gauss, n_parts);
+  for (const double cut : one)
+    if (std::any_of(other.begin(), other.end(),
+                    [cut](const double s) { return std::abs(s - cut) < 1e-12; }))
+      result.push_back(cut);
+  return result;
 }
 
 DataPieces cut_cell(const Scene<2> &scene, const coarse_cuts::Cell &cell, const Datum datum,
@@ -138,8 +143,8 @@ DataPieces cut_cell(const Scene<2> &scene, const coarse_cuts::Cell &cell, const 
   { return std::abs(determinant(map.jacobian(s))) * given.value(map.point(s)); };
   std::array<std::vector<double>, 2> lines;
   for (unsigned int d = 0; d < 2; ++d)
-    lines[d] = cuts_along(d, per_area, tables.gauss(along),
-                          coarse_cuts::n_parts(cell, 32 * finer, body.n_cells(d), 4));
+    lines[d] = common_cuts(d, per_area, tables.gauss(along),
+                           coarse_cuts::n_parts(cell, 32 * finer, body.n_cells(d), 4));
   BoxCutter cutter(per_area, tables.gauss(across),
                    {{coarse_cuts::n_parts(cell, 12 * finer, body.n_cells(0), 2),
                      coarse_cuts::n_parts(cell, 12 * finer, body.n_cells(1), 2)}},

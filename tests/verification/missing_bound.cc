@@ -158,8 +158,18 @@ const std::vector<Reason> reasons = {
      "traction on top is not resolved near (", " of all loads"},
     {"springs",
      with(held, {{"Boundary right/Traction", "1; 0"},
-                 {"Boundary top/Spring", "10*if(x < 0.37, 1, 0.3); 0"}}),
-     "the springs on top are not resolved near (0.25, 1)", " of the stiffest"}};
+                 {"Boundary top/Spring", "2 + sin(1e5*x*x); 0"}}),
+     "spring on top is not resolved near (", " of all springs"},
+    {"initial_strain",
+     with(held, {{"Material/Initial strain", "if(x > 0.2 + 0.7*y, 0.01, 0); 0; 0"}}),
+     "initial strain is not resolved near (", " of all stresses of initial strains"},
+    {"cut_in_a_distorted_cell",
+     with(body("0, 0; 1, 0; 1.1, 1.2; 0, 1", "2, 2"),
+          {{"Boundary bottom/Displacement", "0; 0"},
+           {"Body force/Expression", "exp(-((x - 0.4)/0.1)^2); 0"},
+           {"Error/Bound on distorted cells", "true"},
+           {"Adaptivity/Maximum steps", "1"}}),
+     "Body force is cut inside the cell at (", ","}};
 
 class AnyReason : public ::testing::TestWithParam<Reason>
 {
