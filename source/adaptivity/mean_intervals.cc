@@ -90,6 +90,11 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
   result.scene = std::make_shared<const Scene<2>>(dual_scene(scene, probe, component));
   if (is_zero(*result.scene))
     return result;
+  for (const types::boundary_id id : probe.on)
+    if (result.scene->boundaries[id].symmetry)
+      result.why = result.scene->boundaries[id].name + " slides at an angle to x and y";
+  if (!result.why.empty())
+    return result;
   result.why = moves;
   if (!is_held(*result.scene))
     return result;
@@ -113,9 +118,9 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
             },
             [](const Progress &) {});
   }
-  catch (const InputError &error)
+  catch (const InputError &)
   {
-    result.why = error.what();
+    result.why = "its mean is no load that the scene can bear";
   }
   catch (const NumericalFailure &error)
   {

@@ -79,7 +79,16 @@ void load_boundary(Scene<2> &dual, const Probe<2> &probe, const unsigned int com
     length += length_of(sides[id]);
   for (const types::boundary_id id : probe.on)
   {
+    if (sides[id].pieces.empty()) // parts have it all
+      continue;
     BoundaryCondition<2> &boundary = dual.boundaries[id];
+    const Tensor<1, 2> n = sides[id].normal(sides[id].point(0, 0.5));
+    for (unsigned int d = 0; d < 2; ++d) // a load may stand beside u_d = 0, and not beside u_n = 0
+      if (boundary.symmetry && std::abs(n[d]) > 1 - 1e-12)
+      {
+        boundary.symmetry = false;
+        boundary.displacement[d] = expression<2>(0.);
+      }
     if (boundary.plate)
       boundary.plate->force[component] =
           boundary.plate->is_free(component) ? length_of(sides[id]) / length : 0.;

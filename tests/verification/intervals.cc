@@ -434,4 +434,86 @@ TEST(Intervals, OfBodiesThatContactHoldsAreNone)
   EXPECT_NEAR(numbers.intervals.at("bottom.T").back().centre, -0.1, 1e-9);
   EXPECT_LT(numbers.intervals.at("bottom.T").back().half_width, 1e-8);
 }
+
+/** A probe on a side that something holds, and what is known of its mean. */
+struct HeldProbe
+{
+  std::string name;
+  Overrides scene;
+  std::string side, known, none; ///< components with an interval; why the others have none
+};
+
+Overrides pulled(const Overrides &more, const std::string &cells = "4, 4")
+{
+  Overrides result{{"Geometry/Subdivisions", cells},
+                   {"Boundary left/Displacement", "0.001*y; 0"},
+                   {"Boundary top/Traction", "0.01; 0.02*x"}};
+  result.insert(result.end(), more.begin(), more.end());
+  return result;
+}
+
+const std::vector<HeldProbe> held_probes{
+    {"plate_under_a_force",
+     pulled({{"Boundary right/Rigid", "true"}, {"Boundary right/Force", "0.01; -0.01"}}), "right",
+     "xy", ""},
+    {"plate_that_is_moved",
+     pulled({{"Boundary right/Rigid", "true"}, {"Boundary right/Displacement", "free; 0.003"}}),
+     "right", "xy", ""},
+    {"support", pulled({}), "left", "xy", ""},
+    {"support_of_one_component", pulled({{"Boundary right/Displacement", "free; 0.001"}}), "right",
+     "xy", ""},
+    {"symmetry", pulled({{"Boundary bottom/Symmetry", "true"}}), "bottom", "xy", ""},
+    {"bilateral", pulled({{"Boundary bottom/Contact", "bilateral"}}), "bottom", "xy", ""},
+    {"spring", pulled({{"Boundary right/Spring", "3*(1 + y); 2"}}), "right", "xy", ""},
+    {"part",
+     pulled({{"Boundary end/On", "right"},
+             {"Boundary end/Where", "y - 0.5"},
+             {"Boundary end/Traction", "0.01; 0"}}),
+     "end", "xy", ""},
+    {"symmetry_at_an_angle",
+     pulled({{"Geometry/Shape", "quadrilateral"},
+             {"Geometry/Corners", "0, 0; 1, -0.2; 1.2, 0.8; 0.2, 1"},
+             {"Boundary bottom/Symmetry", "true"}}),
+     "bottom", "", "slides at an angle"}};
+
+class AnyProbe : public ::testing::TestWithParam<HeldProbe>
+{
+};
+
+TEST_P(AnyProbe, HasTheMeanOfAFinerRun)
+{
+  const HeldProbe &row = GetParam();
+  const auto run = [&](const std::string &method, const std::string &steps)
+  {
+    Overrides entries = row.scene;
+    for (const auto &entry : Overrides{{"Probe here/On", row.side},
+                                       {"Adaptivity/Method", method},
+                                       {"Adaptivity/Maximum steps", steps},
+                                       {"Adaptivity/Tolerance", "0"}})
+      entries.push_back(entry);
+    return numbers_of(scene_of(entries));
+  };
+  const Numbers coarse = run("hup2", "3"), fine = run("hpa3", "9");
+  EXPECT_GT(coarse.n_steps, 0U);
+  for (const std::string component : {"x", "y"})
+  {
+    const std::string name = "here." + component;
+    if (row.known.find(component) == std::string::npos)
+    {
+      EXPECT_EQ(coarse.intervals.count(name), 0U) << name;
+      EXPECT_NE(coarse.none.find(row.none), std::string::npos) << coarse.none;
+      continue;
+    }
+    ASSERT_EQ(coarse.intervals.count(name), 1U) << name << ": " << coarse.none;
+    const Interval &exact = fine.intervals.at(name).back();
+    for (const Interval &interval : coarse.intervals.at(name))
+      EXPECT_LE(std::abs(interval.centre - exact.centre),
+                interval.half_width + exact.half_width + 1e-12)
+          << name;
+    EXPECT_LE(exact.half_width, coarse.intervals.at(name).front().half_width) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Held, AnyProbe, ::testing::ValuesIn(held_probes),
+                         [](const auto &row) { return row.param.name; });
 } // namespace
