@@ -103,8 +103,7 @@ GivenData given_data(const Scene<2> &scene, const coarse_cuts::Cell &cell, const
 //
 namespace
 {
-constexpr unsigned int along = 16,
-                       across = 8; ///< Gauss points of a piece when edges and cells are cut
+constexpr unsigned int along = 16; ///< Gauss points of a piece when edges are cut, and along lines
 
 /** Where a line in direction d through the unit cell, at @p level across it, is cut. */
 std::vector<double> cuts_along(const unsigned int d, const double level,
@@ -145,9 +144,11 @@ DataPieces cut_cell(const Scene<2> &scene, const coarse_cuts::Cell &cell, const 
   for (unsigned int d = 0; d < 2; ++d)
     lines[d] = common_cuts(d, per_area, tables.gauss(along),
                            coarse_cuts::n_parts(cell, 32 * finer, body.n_cells(d), 4));
+  // Polynomials through the values of a strain count, not moments alone: a smooth one shall keep one piece.
+  const unsigned int across = datum == Datum::initial_strain ? 16 : 8, parts = 96 / across * finer;
   BoxCutter cutter(per_area, tables.gauss(across),
-                   {{coarse_cuts::n_parts(cell, 12 * finer, body.n_cells(0), 2),
-                     coarse_cuts::n_parts(cell, 12 * finer, body.n_cells(1), 2)}},
+                   {{coarse_cuts::n_parts(cell, parts, body.n_cells(0), 2),
+                     coarse_cuts::n_parts(cell, parts, body.n_cells(1), 2)}},
                    lines);
   DataPieces result;
   double worst = 0;

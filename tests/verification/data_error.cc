@@ -198,7 +198,7 @@ TEST(DataErrorOfOneCell, IsWhatStressesLackOfAnInitialStress)
 TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
 {
   const Scene<2> scene =
-      loaded(rhombi[0], {{"Material/Initial strain", "0; if(x > 0.37, 0.1, 0); 0"}});
+      loaded(rhombi[0], {{"Material/Initial strain", "0; if(x > 0.37 + 0.3*y, 0.1, 0); 0"}});
   const RandomMesh mesh(scene, 1, 0, 2, 2);
   const Laboratory lab(scene, mesh);
   const Solution<2> solution = lab.solve();
