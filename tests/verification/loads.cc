@@ -224,6 +224,35 @@ TEST(LoadRules, LoseNoStripOfBodyForceOnRefinedCells)
   }
 }
 
+/** Strips across the body that lie between the points of any grid of samples: lines along it have more of them. */
+TEST(LoadRules, FindStripsOfEachDatumBetweenTheGrid)
+{
+  const double half = 1. / 600;
+  for (unsigned int k = 0; k < 40; ++k)
+    for (const unsigned int n : {1U, 3U})
+    {
+      const double at = 0.01 + 0.0243 * k;
+      const unsigned int d = k % 2;
+      const auto strip = [&](const double value)
+      {
+        return expression<2>(std::function<double(const Point<2> &)>(
+            [=](const Point<2> &x) { return std::abs(x[d] - at) < half ? value : 0.; }));
+      };
+      Scene<2> scene = body({1., 1.}, {{n, n}});
+      scene.body_force[0] = strip(7.);
+      scene.initial_strains.resize(1);
+      scene.initial_strains[0].components[2] = strip(1e-3);
+      scene.boundary(d == 0 ? "bottom" : "left").spring.normal = strip(5.);
+      const Mesh mesh(scene);
+      const auto sum = [&](const Datum datum, const unsigned int c)
+      { return mesh.rules.total_of(datum).sum[c]; };
+      EXPECT_NEAR(sum(Datum::load, 0), 14 * half, 1e-12) << at;
+      EXPECT_NEAR(sum(Datum::initial_strain, 2), 2e-3 * half * 1000 / 1.3, 1e-12) << at;
+      EXPECT_NEAR(sum(Datum::spring, 0), 10 * half, 1e-12) << at;
+      EXPECT_TRUE(mesh.rules.unresolved(mesh.mesh).empty()) << at;
+    }
+}
+
 /** Narrower than the distance of samples, at a place where none sees it, and between all lines that are looked along: a finer mesh does, looks closer, and says so. */
 TEST(LoadRules, AreMadeAnewWhereAMeshSeesMore)
 {
