@@ -151,7 +151,10 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
     { return owned.index_within_set(dof(dofs, tables.inner[face.face][k], component)); };
     ContactMoment<dim> moment;
     moment.kind = kind;
-    moment.x = map.point(table.points[k]);
+    moment.x = moment.centroid = map.point(table.points[k]);
+    if (face.own) // which of a parallelogram is the Gauss point
+      moment.centroid = Point<dim>(
+          mean<Tensor<1, dim>>(face, k, [](const Point<dim> &x) -> Tensor<1, dim> { return x; }));
     moment.area = face.own ? face.own->areas[k] : table.weights[k] * map.face_area(face.face);
     if (moment.is_friction())
     {
@@ -165,7 +168,8 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
     }
     else
     {
-      moment.gap[0] = moment_of_gap(face, k);
+      if (condition(face.cell, face.face).gap)
+        moment.gap[0] = mean<double>(face, k, [&](const Point<dim> &x) { return gap_at(face, x); });
       moment.sign = face.sign();
       moment.unknowns.fill(unknown(face.normal()));
     }
@@ -174,31 +178,38 @@ void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
   }
 }
 
-/** `int psi_k u_0 / int psi_k` by p+2 points a direction, as in the plane. */
+/** `int psi_k f / int psi_k` by p+2 points a direction, as in the plane. */
 template <int dim>
-double MomentSpace<dim>::moment_of_gap(const MomentFace<dim> &face, const unsigned int k) const
+template <typename Value>
+Value MomentSpace<dim>::mean(const MomentFace<dim> &face, const unsigned int k,
+                             const std::function<Value(const Point<dim> &)> &f) const
 {
-  const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
-  if (!boundary.gap)
-    return 0;
   const QGauss<dim - 1> rule(tables.degree + 2);
   const CellMap<dim> map = map_of<dim>(face.cell);
-  double integral = 0;
+  const double area = face.own ? face.own->areas[k] : tables.moment_points[face.face].weights[k];
+  Value result{};
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
-    const Point<dim> unit = point_on_face<dim>(face.face, rule.point(q)), x = map.point(unit);
-    const double gap = boundary.gap->value(x);
-    if (!std::isfinite(gap))
-    {
-      std::ostringstream line;
-      line << "Boundary " << boundary.name << "/Gap: is " << gap << " at (" << x
-           << "); give a gap that is finite everywhere";
-      throw InputError(line.str());
-    }
-    integral += rule.weight(q) * tables.psi(k, face.face, unit) * gap *
-                (face.own ? map.face_measure(face.face, unit) : 1.);
+    const Point<dim> unit = point_on_face<dim>(face.face, rule.point(q));
+    const double ds = face.own ? map.face_measure(face.face, unit) : 1.;
+    result += rule.weight(q) * ds * tables.psi(k, face.face, unit) / area * f(map.point(unit));
   }
-  return integral / (face.own ? face.own->areas[k] : tables.moment_points[face.face].weights[k]);
+  return result;
+}
+
+template <int dim>
+double MomentSpace<dim>::gap_at(const MomentFace<dim> &face, const Point<dim> &x) const
+{
+  const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
+  const double gap = boundary.gap->value(x);
+  if (!std::isfinite(gap))
+  {
+    std::ostringstream line;
+    line << "Boundary " << boundary.name << "/Gap: is " << gap << " at (" << x
+         << "); give a gap that is finite everywhere";
+    throw InputError(line.str());
+  }
+  return gap;
 }
 
 template <int dim>

@@ -50,11 +50,9 @@ std::vector<double> rigid_motions(const MomentSpace<dim> &space)
   for (const MomentFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
-    const CellMap<dim> map = map_of<dim>(face.cell);
     for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
     {
-      const Tensor<1, dim> arm =
-          map.point(space.tables.moment_points[face.face].points[k]) - centre;
+      const Tensor<1, dim> arm = space.contact[face.first() + k].centroid - centre;
       for (const unsigned int c : face.components())
         for (unsigned int m = 0; m < n_motions<dim>; ++m)
           result[m * n + space.owned.index_within_set(

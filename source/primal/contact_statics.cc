@@ -242,9 +242,8 @@ std::vector<ContactSpot> ContactStatics::spots_of(const MomentFace<3> &face) con
   std::vector<ContactSpot> result;
   for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
   {
-    const ContactMoment<3> &moment =
-        space.contact[(face.has_friction() ? face.friction : face.pressure) + k];
-    result.push_back({moment.x, face.axes.normal,
+    const ContactMoment<3> &moment = space.contact[face.first() + k];
+    result.push_back({moment.centroid, face.axes.normal,
                       face.has_friction() ? moment.limit : FrictionLimit(), moment.area,
                       face.has_pressure(), face.has_pressure() && !boundary.is_unilateral()});
   }
@@ -281,9 +280,10 @@ SpaceMotion ContactStatics::sum(const Force &coefficients) const
 std::string ContactStatics::in_words(const Force &motion, const double load,
                                      const std::string &what, const double resistance) const
 {
-  const SpaceMotion moved = sum(motion);
+  const double way = load < 0 ? -1 : 1; // the one in which the loads push
+  const SpaceMotion moved = sum(way * motion);
   // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
-  const double unit = moved.turns() ? moved.rotation.norm() : moved.translation.norm();
+  const double unit = way * (moved.turns() ? moved.rotation.norm() : moved.translation.norm());
   std::ostringstream line;
   line.precision(10);
   line << "the loads " << (moved.turns() ? "turn" : "push") << " the body " << moved.in_words()
@@ -328,7 +328,7 @@ std::optional<ContactStatics::Missing> ContactStatics::missing() const
     return {};
   Missing result{{},
                  0,
-                 "no equilibrium on this mesh, whose pressures act at Gauss points: " +
+                 "no equilibrium on this mesh, whose pressures act inside of its faces: " +
                      why(on_mesh, *separation) +
                      " there; raise Geometry/Subdivisions or move the loads"};
   for (const MomentFace<3> &face : space.faces)

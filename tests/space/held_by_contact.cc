@@ -318,7 +318,7 @@ TEST(HeldByContact, WhatSetsInIsNamedWithItsForces)
                                        "axis along (0, 1, 0) through (1"},
       // Beyond the last Gauss point of the finest of these meshes, and before the edge.
       {joined(body_force("1.999; -1; 0"), {{"Boundary bottom/Friction coefficient", "5"}}),
-       "no equilibrium on this mesh, whose pressures act at Gauss points: toppling: "},
+       "no equilibrium on this mesh, whose pressures act inside of its faces: toppling: "},
       {joined(frictionless, {{"Boundary left/Displacement", "0; free; free"},
                              {"Body force/Expression", "0.5; -1; 0.1"}}),
        "no equilibrium: sliding: the loads push the body along (0, 0, 1) with 0.4, contact can "

@@ -312,6 +312,89 @@ TEST(Hexahedra, StandOnASlopeOfAnyDirection)
   EXPECT_THROW(stands(0.49999), NumericalFailure);
 }
 
+// ---------------------------------------------------------------- held by contact alone
+
+/** Columns of cells over a floor of quadrilaterals, inner vertices moved anywhere by up to 0.3 of a cell, those of the rim along it. */
+Map floor_of(const unsigned int n, const unsigned int seed)
+{
+  return [=](const Point<3> &x)
+  {
+    const auto shift = [&](const unsigned int axis)
+    {
+      std::mt19937 random(seed + 2 * std::lround(n * x[0] + (n + 1) * n * x[2]) + axis / 2);
+      random.discard(7);
+      const bool may_move = x[axis] > 0 && x[axis] < 1;
+      return may_move ? 0.6 * (random() / 4294967296. - 0.5) / n : 0.;
+    };
+    return Point<3>(2 * (x[0] + shift(0)), x[1], 2 * (x[2] + shift(2)));
+  };
+}
+
+struct Floor
+{
+  std::string name;
+  unsigned int n; ///< cells in x and in z
+  Map map;
+  std::string law = "0.5";                 ///< a coefficient, or "bound" or "none"
+  Point<3> load = Point<3>(0.1, -1, 0.05); ///< traction on the top
+  bool is_graded = false;
+};
+
+/** The arms of moments are centroids, which of faces that are no parallelograms are not the Gauss points. */
+TEST(Hexahedra, RestOnAnyQuadrilaterals)
+{
+  const Map shifted = [](const Point<3> &x)
+  {
+    const bool moves = std::abs(x[0] - 0.5) + std::abs(x[2] - 0.5) < 0.1;
+    return Point<3>(2 * x[0] + (moves ? 0.2 : 0.), x[1], 2 * x[2] + (moves ? 0.12 : 0.));
+  };
+  const std::vector<Floor> floors{
+      {"one vertex shifted", 2, shifted},
+      {"2 x 2, random", 2, floor_of(2, 1)},
+      {"3 x 3, random", 3, floor_of(3, 2)},
+      {"3 x 3, Tresca", 3, floor_of(3, 3), "bound"},
+      {"4 x 4, near sliding", 4, floor_of(4, 4), "0.1125"},
+      {"2 x 2, hanging nodes", 2, floor_of(2, 5), "0.5", Point<3>(0.1, -1, 0.05), true},
+      {"2 x 2, no friction", 2, floor_of(2, 6), "none", Point<3>(0, -1, 0)},
+      {"3 x 3, hanging nodes, to one side", 3, floor_of(3, 7), "0.8", Point<3>(-0.3, -1, -0.3),
+       true},
+      {"a fan", 2, fan},
+      {"3 x 3, turned", 3, [](const Point<3> &x) { return turned(floor_of(3, 8)(x)); }}};
+  for (const Floor &floor : floors)
+    for (const unsigned int degree : {2U, 3U})
+    {
+      SCOPED_TRACE(floor.name + ", degree " + std::to_string(degree));
+      Scene<3> scene = scene_of({{{floor.n, 1, floor.n}}, floor.map, true}, "hexahedra-floor");
+      const Tensor<1, 3> normal = sides_of(scene.geometry)[scene.boundary("bottom").id].outward;
+      scene.adaptivity.method = degree == 2 ? Method::hup2 : Method::hup3;
+      scene.adaptivity.start_degree = degree;
+      scene.adaptivity.maximum_steps = 1;
+      scene.boundary("top").displacement = {};
+      BoundaryCondition<3> &bottom = scene.boundary("bottom");
+      bottom.contact = Contact::unilateral;
+      if (floor.law == "bound")
+        bottom.friction.bound = expression<3>(0.3);
+      else if (floor.law != "none")
+        bottom.friction.coefficient = expression<3>(std::stod(floor.law));
+      if (floor.is_graded)
+      {
+        scene.geometry.graded_towards = {floor.map(Point<3>(0, 0, 0))};
+        scene.geometry.grading_levels = 1;
+      }
+      const bool is_turned = std::abs(normal[1] + 1) > 1e-9;
+      const Point<3> load = is_turned ? turned(floor.load) : floor.load;
+      for (unsigned int c = 0; c < 3; ++c)
+        scene.boundary("top").traction[c] = expression<3>(load[c]);
+      steps_of<3>(scene,
+                  [&](const StepReport<3> &step)
+                  {
+                    EXPECT_EQ(step.primal->newton.fell_back, false);
+                    EXPECT_LT(step.equilibrium.force_imbalance, 1e-9);
+                    EXPECT_LT(step.equilibrium.moment_imbalance, 1e-9);
+                  });
+    }
+}
+
 /** A skew angle of cells, which re-entrant edges and free sides leave: bisected everywhere it is the finer one. */
 TEST(Hexahedra, OfAnAngleHaveTheEnergyOfNestedMeshes)
 {

@@ -45,11 +45,12 @@ struct ContactMoment
 
   Kind kind;
   dealii::Point<dim> x;
-  double area;            ///< int psi_k [length^(dim-1)]
-  double bound = 1;       ///< g(x) [stress] of friction; with a #partner without pressure
-  double weight = 0;      ///< G [force], of a pressure [area]
-  ContactVector<dim> gap; ///< u_0, of friction the past slip [length]
-  double sign = 1;        ///< of the outer normal along its unknown, of a pressure
+  dealii::Point<dim> centroid; ///< `int psi_k x / int psi_k`, where the force acts
+  double area;                 ///< int psi_k [length^(dim-1)]
+  double bound = 1;            ///< g(x) [stress] of friction; with a #partner without pressure
+  double weight = 0;           ///< G [force], of a pressure [area]
+  ContactVector<dim> gap;      ///< u_0, of friction the past slip [length]
+  double sign = 1;             ///< of the outer normal along its unknown, of a pressure
   std::array<unsigned int, dim - 1> unknowns; ///< of its moments among those of this process
 
   FrictionLimit limit; ///< of friction
@@ -108,6 +109,11 @@ struct MomentFace
   bool has_pressure() const
   {
     return pressure != dealii::numbers::invalid_unsigned_int;
+  }
+
+  unsigned int first() const ///< of its moments
+  {
+    return has_friction() ? friction : pressure;
   }
 
   std::vector<unsigned int> components() const; ///< which of those at inner nodes are moments

@@ -12,6 +12,7 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -114,7 +115,10 @@ private:
   void find_contact();
   void add_moments(const MomentFace<dim> &face, typename ContactMoment<dim>::Kind kind,
                    const std::vector<dealii::types::global_dof_index> &dofs);
-  double moment_of_gap(const MomentFace<dim> &face, unsigned int k) const;
+  template <typename Value>
+  Value mean(const MomentFace<dim> &face, unsigned int k,
+             const std::function<Value(const dealii::Point<dim> &)> &f) const;
+  double gap_at(const MomentFace<dim> &face, const dealii::Point<dim> &x) const;
   MomentFace<dim> face_of(const Cell &cell, unsigned int number) const;
   dealii::types::global_dof_index dof(const std::vector<dealii::types::global_dof_index> &dofs,
                                       unsigned int shape, unsigned int component) const;

@@ -37,7 +37,7 @@ public:
   /** Throws NumericalFailure, with the motion that sets in and both forces, where no pressures at all balance the loads. */
   void require_equilibrium() const;
 
-  /** What the mesh lacks, whose pressures act at Gauss points: loads may pass between the last one and an edge. */
+  /** What the mesh lacks, whose pressures act inside of its faces: loads may pass between the last point and an edge. */
   struct Missing
   {
     std::vector<MomentSpace<3>::Cell> cells; ///< of this process, with faces that would resist
@@ -65,7 +65,7 @@ private:
   std::vector<DistributedVector> steps;   ///< the same in the unknowns
   Force loads;                            ///< along them; 0 where round-off is all there is
   std::vector<double> sizes;              ///< of the loads along each, without their signs
-  std::vector<ContactSpot> on_mesh, ends; ///< of all processes: Gauss points; corners of faces
+  std::vector<ContactSpot> on_mesh, ends; ///< of all processes: of moments; corners of faces
 };
 } // namespace hpvi
 
