@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/balance/equality_constraints.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
@@ -80,10 +81,11 @@ Tractions<dim> on_this_mesh(const ContactSpace<dim> &contact_space)
 
 /**
  * More than on any mesh: pressures act at points, where friction that has a largest value obeys either the
- * cone, or with @p capped that value on the whole face.
+ * cone, or with @p capped that value on the whole face; with @p is_rough nothing slides.
  */
 template <int dim>
-Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space, const bool capped = false)
+Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space, const bool capped = false,
+                           const bool is_rough = false)
 {
   Tractions<dim> result;
   for (const ContactFace<dim> &face : contact_space.faces())
@@ -94,9 +96,9 @@ Tractions<dim> on_any_mesh(const ContactSpace<dim> &contact_space, const bool ca
     for (const PointLimit &point : face.limits)
       most += face.length * point.weight * point.friction.most;
     const bool is_capped = capped && std::isfinite(most);
-    const double friction = face.condition->is_tied() ? infinity
-                            : is_capped               ? most
-                                                      : face.friction_without_pressure();
+    const double friction = face.condition->is_tied() || is_rough ? infinity
+                            : is_capped                           ? most
+                                        : face.friction_without_pressure();
     result.add(middle.x, middle.tangent, -friction, friction);
     if (!face.condition->has_pressure())
       continue;
@@ -191,21 +193,31 @@ void forget_small(RigidBodyMotion<dim> &motion, const double turn)
     forget(other);
 }
 
-/** As in "the loads turn the body about (1 0) with 2, contact can resist with 1". */
+/** The motion, without what is too small to be told. */
 template <int dim>
-std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalance,
-                     const double otherwise = infinity)
+RigidBodyMotion<dim> seen_motion(const LoadedMotions<dim> &loaded,
+                                 const Vector<double> &coefficients)
 {
-  RigidBodyMotion<dim> motion = loaded.sum(imbalance.motion);
+  RigidBodyMotion<dim> motion = loaded.sum(coefficients);
   // A rotation about a far point is one more to read than a sliding body.
   if (motion.others.empty() &&
       std::abs(motion.rotation) < 0.1 * fastest_turn(loaded) * motion.translation.norm())
     motion.rotation = 0;
   if (!motion.others.empty())
     forget_small(motion, fastest_turn(loaded));
+  return motion;
+}
+
+/** As in "the loads turn the body about (1 0) with 2, contact can resist with 1". */
+template <int dim>
+std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalance,
+                     const double otherwise = infinity)
+{
+  const RigidBodyMotion<dim> motion = seen_motion(loaded, imbalance.motion);
   const bool pushes = motion.is_translation();
   // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
-  const double unit = pushes ? motion.largest_translation() : motion.largest_rotation();
+  const double unit =
+      (pushes ? motion.largest_translation() : motion.largest_rotation()) / loaded.thickness;
   std::ostringstream line;
   line.precision(10);
   line << "the loads " << (pushes ? "push" : "turn") << (motion.others.empty() ? " the body " : " ")
@@ -229,38 +241,47 @@ std::optional<double> LoadedMotions<dim>::along(const RigidBodyMotion<dim> &moti
 {
   static_assert(dim == 2, "one rotation");
   const double turn = fastest_turn(*this);
-  if (turn == 0. && motion.rotation != 0.)
+  if (turn == 0. && motion.largest_rotation() != 0.)
     return {};
-  const auto coordinates = [&](const RigidBodyMotion<dim> &one)
+  const auto coordinates = [&](const RigidBodyMotion<dim> &all)
   {
-    const Tensor<1, dim> at_centre = one.at(motions.front().centre);
-    return Tensor<1, dim + 1>({at_centre[0], at_centre[1], turn > 0. ? one.rotation / turn : 0.});
+    std::vector<double> result;
+    for (unsigned int b = 0; b < n_bodies(); ++b)
+    {
+      const RigidBodyMotion<dim> &one = b == 0 ? all : all.others[b - 1];
+      const Tensor<1, dim> at_centre = all.at(motions.front().centre, b);
+      result.insert(result.end(),
+                    {at_centre[0], at_centre[1], turn > 0. ? one.rotation / turn : 0.});
+    }
+    return Vector<double>(result.begin(), result.end());
   };
-  std::vector<Tensor<1, dim + 1>> basis;
+  std::vector<Vector<double>> basis;
   std::vector<double> load;
   for (unsigned int m = 0; m < motions.size(); ++m)
   {
-    Tensor<1, dim + 1> rest = coordinates(motions[m]);
+    Vector<double> rest = coordinates(motions[m]);
     load.push_back(loads[m]);
     for (unsigned int k = 0; k < m; ++k)
     {
-      const double part = rest * basis[k];
-      rest -= part * basis[k];
+      const double part = dot(rest, basis[k]);
+      rest.add(-part, basis[k]);
       load.back() -= part * load[k];
     }
-    load.back() /= rest.norm();
-    basis.push_back(rest / rest.norm());
+    const double length = rest.l2_norm();
+    load.back() /= length;
+    rest /= length;
+    basis.push_back(rest);
   }
-  Tensor<1, dim + 1> rest = coordinates(motion);
-  const double size = rest.norm();
+  Vector<double> rest = coordinates(motion);
+  const double size = rest.l2_norm();
   double result = 0;
   for (unsigned int k = 0; k < basis.size(); ++k)
   {
-    const double part = rest * basis[k];
-    rest -= part * basis[k];
+    const double part = dot(rest, basis[k]);
+    rest.add(-part, basis[k]);
     result += part * load[k];
   }
-  return rest.norm() <= 1e-8 * size ? std::optional<double>(result) : std::nullopt;
+  return rest.l2_norm() <= 1e-8 * size ? std::optional<double>(result) : std::nullopt;
 }
 
 template <int dim>
@@ -275,8 +296,14 @@ void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMot
   std::string words = collapse(contact_space, loaded);
   if (words.empty())
   {
-    const std::string entry = friction_entry(contact_space);
-    words = in_words(loaded, *imbalance) + " at most; add a support, " +
+    // What even friction without limit does not hold lifts off or topples.
+    const std::optional<Imbalance> lifted = imbalance_of(
+        on_any_mesh(contact_space, false, /*is_rough=*/true), loaded, loaded.motions.size());
+    const std::string entry = lifted ? "" : friction_entry(contact_space);
+    words = (!lifted                                                ? "sliding: "
+             : seen_motion(loaded, lifted->motion).is_translation() ? "lifting off: "
+                                                                    : "toppling: ") +
+            in_words(loaded, lifted ? *lifted : *imbalance) + " at most; add a support, " +
             (entry.empty() ? "" : "raise " + entry + " ") + "or change the loads";
   }
   throw NumericalFailure("no equilibrium: " + words);

@@ -13,7 +13,7 @@ LoadedMotions<dim> loaded_motions(const Discretisation<dim> &discretisation)
   const RigidMotions<dim> &free = *discretisation.free_motions;
   const Vector<double> &f = discretisation.system.f;
   const unsigned int n = discretisation.scene.free_motions().size();
-  LoadedMotions<dim> result{{}, Vector<double>(n), free.n_seen()};
+  LoadedMotions<dim> result{{}, Vector<double>(n), free.n_seen(), discretisation.scene.thickness};
   for (unsigned int m = 0; m < n; ++m)
   {
     Vector<double> one(n);

@@ -276,6 +276,144 @@ TEST_P(HeldByContact, ABlockTipsAboutItsCorner)
   EXPECT_NO_THROW(run(scene));
 }
 
+/** With the thickness the numbers are those of the body, as in tables, and only they. */
+TEST_P(HeldByContact, ForcesInWordsAreThoseOfTheWholeThickness)
+{
+  Scene<2> sliding = pushed_block(2, 0.7, 0.6), lifting = resting_block(0, 1.25),
+           toppling = resting_block(5);
+  toppling.boundary("bottom").friction.bound = expression<2>(10.);
+  for (Scene<2> *const scene : {&sliding, &lifting, &toppling})
+    scene->thickness = 30;
+  EXPECT_NE(failure_of(sliding).find("with 42, friction resists with 36;"), std::string::npos);
+  EXPECT_NE(failure_of(lifting).find("the loads pull with 30, "), std::string::npos);
+  EXPECT_NE(failure_of(toppling).find("the loads turn the body with 30 and meet"),
+            std::string::npos);
+  sliding = pushed_block(2, 0.59, 0.6);
+  sliding.thickness = 30;
+  EXPECT_NO_THROW(run(sliding));
+}
+
+// ---------------------------------------------------------------- several bodies
+
+/** What differs from b, 2 x 1, that lies pressed by 2 on a, which is held; c may lie on it. */
+struct Pile
+{
+  std::string name;
+  Overrides entries;
+  std::string words; ///< behind "no equilibrium: "
+};
+
+const Overrides c_on_b{
+    {"Body c/Lower corner", "1, 2"},          {"Body c/Upper corner", "3, 3"},
+    {"Boundary b.top/Pressure", ""},          {"Boundary c.top/Pressure", "1"},
+    {"Contact k/Between", "c.bottom, b.top"}, {"Contact k/Friction coefficient", "0.3"}};
+
+Scene<2> pile(const Overrides &first, const Overrides &second = {})
+{
+  Overrides entries{
+      {"Body a/Upper corner", "4, 1"},           {"Body b/Lower corner", "1, 1"},
+      {"Body b/Upper corner", "3, 2"},           {"Boundary a.bottom/Displacement", "0; 0"},
+      {"Boundary b.top/Pressure", "1"},          {"Contact j/Between", "b.bottom, a.top"},
+      {"Contact j/Friction coefficient", "0.3"}, {"Adaptivity/Maximum steps", "1"}};
+  for (const Overrides *const more : {&first, &second})
+    entries.insert(entries.end(), more->begin(), more->end());
+  return scene_of(entries);
+}
+
+TEST(Piles, GiveWayInTheWordsOfStatics)
+{
+  const std::string b_slides = "sliding along j: the loads push b with 0.8, friction resists with "
+                               "0.3 * 2 = 0.6; add a support, raise Friction coefficient or lower "
+                               "the loads",
+                    change = "; add a support or change the loads";
+  const auto on_b = [](Overrides more)
+  {
+    more.insert(more.begin(), c_on_b.begin(), c_on_b.end());
+    return more;
+  };
+  const std::vector<Pile> piles{
+      {"b slides", {{"Boundary b.left/Traction", "0.8; 0"}}, b_slides},
+      {"to the left", {{"Boundary b.left/Traction", "-0.8; 0"}}, b_slides},
+      {"told from below",
+       {{"Boundary b.left/Traction", "0.8; 0"}, {"Contact j/Between", "a.top, b.bottom"}},
+       b_slides},
+      {"30 thick",
+       {{"Boundary b.left/Traction", "0.8; 0"},
+        {"Material/Plane", "stress"},
+        {"Material/Thickness", "30"}},
+       "sliding along j: the loads push b with 24, friction resists with 0.3 * 60 = 18; add a "
+       "support, raise Friction coefficient or lower the loads"},
+      {"without friction",
+       {{"Boundary b.left/Traction", "0.8; 0"}, {"Contact j/Friction coefficient", ""}},
+       "sliding along j: the loads push b with 0.8, nothing resists" + change},
+      {"b lifts off",
+       {{"Boundary b.top/Pressure", "-1"}},
+       "lifting off j: the loads pull b with 2, contact can only press" + change},
+      {"b topples",
+       {{"Boundary b.left/Traction", "5; 0"}, {"Contact j/Friction coefficient", "5"}},
+       "toppling about (3 1): the loads turn b with 0.5 and meet j at (3.25 1), beyond its end" +
+           change},
+      {"b topples, told from below",
+       {{"Boundary b.left/Traction", "-5; 0"},
+        {"Contact j/Between", "a.top, b.bottom"},
+        {"Contact j/Friction coefficient", "5"}},
+       "toppling about (1 1): the loads turn b with 0.5 and meet j at (0.75 1), beyond its end" +
+           change},
+      {"c slides on b",
+       on_b({{"Boundary c.left/Traction", "0.8; 0"}, {"Contact j/Friction coefficient", "0.5"}}),
+       "sliding along k: the loads push c with 0.8, friction resists with 0.3 * 2 = 0.6; add a "
+       "support, raise Friction coefficient or lower the loads"},
+      {"c takes b along",
+       on_b({{"Boundary c.left/Traction", "0.5; 0"}, {"Contact j/Friction coefficient", "0.2"}}),
+       "sliding along j: the loads push b and c with 0.5, friction resists with 0.2 * 2 = 0.4; add "
+       "a support, raise Friction coefficient or lower the loads"},
+      {"c is glued to b",
+       on_b({{"Boundary b.left/Traction", "0.8; 0"},
+             {"Contact k/Law", "tied"},
+             {"Contact k/Friction coefficient", ""}}),
+       "sliding along j: the loads push b and c with 0.8, friction resists with 0.3 * 2 = 0.6; add "
+       "a support, raise Friction coefficient or lower the loads"},
+      {"a slides on the floor",
+       {{"Boundary b.left/Traction", "0.55; 0"},
+        {"Boundary a.bottom/Displacement", ""},
+        {"Boundary a.bottom/Contact", "unilateral"},
+        {"Boundary a.bottom/Friction coefficient", "0.2"}},
+       "sliding along a.bottom: the loads push a and b with 0.55, friction resists with 0.2 * 2 = "
+       "0.4; add a support, raise Friction coefficient or lower the loads"},
+      {"pulled out from between two",
+       on_b({{"Boundary b.left/Traction", "1; 0"},
+             {"Boundary c.top/Pressure", ""},
+             {"Boundary c.top/Displacement", "0; 0"},
+             {"Contact j/Friction coefficient", ""},
+             {"Contact k/Friction coefficient", ""},
+             {"Contact j/Friction bound", "0.1"},
+             {"Contact k/Friction bound", "0.2"}}),
+       "sliding along j and k: the loads push b with 1, friction resists with 0.6; add a support, "
+       "raise Friction bound or lower the loads"},
+      {"a disc in the place of a block",
+       {{"Body b/Lower corner", ""},
+        {"Body b/Upper corner", ""},
+        {"Body b/Shape", "half disc"},
+        {"Body b/Centre", "2, 1.5"},
+        {"Body b/Radius", "0.5"},
+        {"Body b/Angle", "180"},
+        {"Boundary b.top/Pressure", ""},
+        {"Boundary b.flat/Pressure", "-1"},
+        {"Contact j/Between", "b.arc, a.top"}},
+       "lifting off: the loads push b along (0 1) with 1, contact can resist with 0 at most" +
+           change}};
+  for (const Pile &row : piles)
+    EXPECT_EQ(failure_of(pile(row.entries)), "no equilibrium: " + row.words) << row.name;
+}
+
+/** What the words say is the limit: a little below it there is an equilibrium. */
+TEST(Piles, StandBelowTheirLimits)
+{
+  EXPECT_NO_THROW(run(pile({{"Boundary b.left/Traction", "0.599; 0"}})));
+  EXPECT_NO_THROW(run(pile(c_on_b, {{"Boundary c.left/Traction", "0.399; 0"},
+                                    {"Contact j/Friction coefficient", "0.2"}})));
+}
+
 // ---------------------------------------------------------------- near the end of the foundation
 
 /** A wall 1 x 2 of weight 2 on cells of degree @p degree, its resultant at @p x along its base. */

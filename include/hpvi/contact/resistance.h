@@ -16,7 +16,13 @@ struct LoadedMotions
 {
   std::vector<RigidBodyMotion<dim>> motions; ///< independent, with one centre
   dealii::Vector<double> loads;              ///< 0 where round-off is all there is
-  unsigned int n_seen; ///< how many of them, the first ones, the multiplier of the mesh sees
+  unsigned int n_seen;  ///< how many of them, the first ones, the multiplier of the mesh sees
+  double thickness = 1; ///< of the body [length], by which forces in words are multiplied
+
+  unsigned int n_bodies() const
+  {
+    return 1 + motions.front().others.size();
+  }
 
   /** L(R) of any motion; nothing where supports resist it. */
   std::optional<double> along(const RigidBodyMotion<dim> &motion) const;
