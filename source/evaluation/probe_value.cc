@@ -19,6 +19,13 @@ double von_mises(const FullStress &stress)
   return std::sqrt(1.5) * deviator(stress).norm();
 }
 
+std::array<double, 2> principal_values(const SymmetricTensor<2, 2> &tensor)
+{
+  const double m = (tensor[0][0] + tensor[1][1]) / 2,
+               r = std::hypot((tensor[0][0] - tensor[1][1]) / 2, tensor[0][1]);
+  return {{m + r, m - r}};
+}
+
 template <int dim>
 std::array<double, 3> principal_stresses(const FullStress &stress)
 {
@@ -28,7 +35,7 @@ std::array<double, 3> principal_stresses(const FullStress &stress)
   for (unsigned int i = 0; i < 2; ++i)
     for (unsigned int j = i; j < 2; ++j)
       in_plane[i][j] = stress[i][j];
-  const std::array<double, 2> both = eigenvalues(in_plane);
+  const std::array<double, 2> both = principal_values(in_plane);
   return {{both[0], both[1], stress[2][2]}};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/body/cell_map.h>
+#include <hpvi/evaluation/probe_value.h>
 #include <hpvi/stresses/mean_gradients.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,7 +16,13 @@ using namespace dealii;
 template <int dim>
 double MeanGradient<dim>::largest_strain() const
 {
-  const auto principal = eigenvalues(symmetrize(value));
+  const auto principal = [strain = symmetrize(value)]()
+  {
+    if constexpr (dim == 2)
+      return principal_values(strain);
+    else
+      return eigenvalues(strain);
+  }();
   return std::max(std::abs(principal.front()), std::abs(principal.back()));
 }
 

@@ -21,6 +21,9 @@ using FullStress = dealii::SymmetricTensor<2, 3>;
 /** `sqrt(3/2 s:s)` with the deviator s. */
 double von_mises(const FullStress &stress);
 
+/** The larger one first: `m +- r`, Mohr's circle; deal.II's discriminant of equal ones may be negative by round-off. */
+std::array<double, 2> principal_values(const dealii::SymmetricTensor<2, 2> &tensor);
+
 /** In the plane those in it, the larger first, and sigma_zz as it is; in space all three, the largest first. */
 template <int dim>
 std::array<double, 3> principal_stresses(const FullStress &stress);
