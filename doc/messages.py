@@ -30,7 +30,7 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
 PASSED_ON = {
     "base/parameter_file:", "base/parameter_file:fail", "base/processes:together", "base/file_format:reject", "checks/rejection:reject",
     "checks/rejection:check_value", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
-    "checks/shape:check_materials", "adaptivity/load_history:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
+    "checks/shape:check_materials", "adaptivity/load_history:run", "adaptivity/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
     "backends/primal_backend:reach_loads", "backends/reduced_backend:discretise", "program/sweep_run:naming_values",
@@ -50,7 +50,7 @@ SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary
             "closed_forms/closed_form": "Boundary NAME", "contact/contact_numbering": "Boundary NAME", "moments/moment_space": "Boundary NAME",
             "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Body force", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
-SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "reader/free_names"),
+SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/free_names"),
             "Expressions": ("input/expressions",), "Mesh files": ("gmsh/", "shapes/mesh_from_file"),
             "Files of earlier runs": ("base/file_format", "adaptivity/", "evaluation/stored_solution", "output/tables"),
             "The directory of results": ("output/",), "Scenes made by code": ("body/mesh", "scene/scene", "backends/backend")}

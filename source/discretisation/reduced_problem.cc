@@ -5,6 +5,7 @@
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/quadratic/active_set.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -16,17 +17,36 @@ using namespace dealii;
 
 namespace
 {
+/** Of a program with numbers that are none: units are the cause where the others are far from 1. */
+std::string no_number(const LAPACKFullMatrix<double> &S, const Vector<double> &d,
+                      const std::string &entry)
+{
+  double largest_of_S = 0, largest_of_d = 0;
+  const auto take = [](double &largest, const double value)
+  { largest = std::isnan(value) ? largest : std::max(largest, std::abs(value)); };
+  for (unsigned int i = 0; i < d.size(); ++i)
+  {
+    take(largest_of_d, d[i]);
+    for (unsigned int j = 0; j < d.size(); ++j)
+      take(largest_of_S, S(i, j));
+  }
+  constexpr double far = 1e60; // squares of their quotients reach the end of double precision
+  const auto is_far = [](const double value)
+  { return value > far || (value > 0 && value < 1 / far); };
+  if (is_far(largest_of_S) || is_far(largest_of_d))
+    return "holds numbers that overflow; choose units in which " + entry +
+           " and loads are moderate";
+  return "holds a number that is none, though all others are moderate: look in hpvi --picture for "
+         "contact edges without length, or report the scene";
+}
+
 std::string not_converged(const CoulombReport &report, const ConeProgram &program,
                           const SolverSettings &solver)
 {
   std::ostringstream line;
   line << "Coulomb friction (" << program.d.size() << " unknowns) ";
   if (std::isnan(report.residual))
-  {
-    line << "holds numbers that overflow; choose units in which Friction coefficient and loads are "
-            "moderate";
-    return line.str();
-  }
+    return line.str() + no_number(program.S, program.d, "Friction coefficient");
   line << "has not converged after " << report.newton_steps << " steps of Newton's method and "
        << report.fixed_point_steps << " problems of Tresca: relative residual " << report.residual
        << ", tolerance " << solver.qp_tolerance;
@@ -42,13 +62,13 @@ std::string not_converged(const CoulombReport &report, const ConeProgram &progra
   return line.str();
 }
 
-std::string not_converged(const QpReport &report, const unsigned int size, const double tolerance)
+std::string not_converged(const QpReport &report, const LAPACKFullMatrix<double> &S,
+                          const Vector<double> &d, const double tolerance)
 {
   std::ostringstream line;
-  line << "the quadratic program for the multiplier (" << size << " unknowns) ";
+  line << "the quadratic program for the multiplier (" << d.size() << " unknowns) ";
   if (std::isnan(report.projected_gradient))
-    line << "holds numbers that overflow; choose units in which Friction bound and loads are "
-            "moderate";
+    line << no_number(S, d, "Friction bound");
   else
     line << "has not converged after " << report.multiplications
          << " products with S: relative projected gradient " << report.projected_gradient
@@ -133,7 +153,8 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   schur_complement.S().vmult(product, result.z);
   result.moments -= product;
   if (!result.qp.converged)
-    throw NumericalFailure(not_converged(result.qp, d.size(), settings.qp_tolerance));
+    throw NumericalFailure(
+        not_converged(result.qp, schur_complement.S(), d, settings.qp_tolerance));
   if (settings.condition_number)
   {
     result.condition_raw = condition_number(schur_complement.S());

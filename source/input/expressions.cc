@@ -289,8 +289,9 @@ std::string ExpressionReader<dim>::objection(const std::string &text) const
   std::map<std::string, double> with_time = constants;
   const bool has_time = !with_time.emplace("t", 0.).second;
   if (!has_time && complaint<dim>(text, with_time).empty())
-    return "uses t, the time of a load history, and the scene has none; set Loading/Steps or write "
-           "a function of x and y";
+    return std::string("uses t, the time of a load history, and the scene has none; set "
+                       "Loading/Steps or write a function of ") +
+           (dim == 2 ? "x and y" : "x, y and z");
   const std::string variables = dim == 2 ? (has_time ? "x, y and t" : "x and y")
                                          : (has_time ? "x, y, z and t" : "x, y and z");
   std::vector<std::string> names;

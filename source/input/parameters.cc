@@ -256,133 +256,15 @@ std::string Parameters::print(const bool documented) const
 
 const Entry *Parameters::known_entry(const Assignment &assignment) const
 {
-  const bool section_known =
-      std::any_of(entries.begin(), entries.end(),
-                  [&](const Entry &e) { return e.section == assignment.section; });
-  if (!section_known)
-    fail(assignment.where, assignment.section,
-         "is an unknown subsection; " + instead_of_section(assignment.section));
-  if (assignment.name.empty())
-    return nullptr;
-  for (const Entry &entry : entries)
-    if (entry.section == assignment.section && entry.name == assignment.name)
-      return &entry;
-  const Entry written{assignment.section, assignment.name, "", nullptr, "", ""};
-  fail(assignment.where, written.path() + " = " + assignment.value,
-       "is an unknown entry; " + instead_of_entry(assignment.section, assignment.name));
-}
-
-// ---------------------------------------------------------------- remedies for unknown names
-
-namespace
-{
-std::string quoted(const std::string &name)
-{
-  return "\"" + name + "\"";
-}
-
-/** May @p written be a slip of the pen for @p known? Word by word, for "Boundary low" is not meant for "Boundary top". */
-bool is_near(const std::string &written, const std::string &known)
-{
-  const unsigned int distance = edit_distance(written, known);
-  if (distance <= 1)
-    return known.size() > 2;
-  const std::vector<std::string> a = Utilities::split_string_list(written, ' '),
-                                 b = Utilities::split_string_list(known, ' ');
-  if (distance > 3 || a.size() != b.size())
-    return false;
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (3 * edit_distance(a[k], b[k]) > std::max(a[k].size(), b[k].size()))
-      return false;
-  return true;
-}
-
-/** The one of @p names that @p written may be meant for; empty: none. */
-std::string nearest(const std::string &written, const std::vector<std::string> &names)
-{
-  std::string result;
-  for (const std::string &name : names)
-    if (is_near(written, name) &&
-        (result.empty() || edit_distance(written, name) < edit_distance(written, result)))
-      result = name;
-  return result;
-}
-} // namespace
-
-std::vector<std::string> Parameters::sections() const
-{
-  std::vector<std::string> result;
-  for (const Entry &entry : entries)
-    if (!entry.section.empty() && (result.empty() || result.back() != entry.section))
-      result.push_back(entry.section);
-  return result;
-}
-
-std::vector<std::string> Parameters::names_in(const std::string &section) const
-{
-  std::vector<std::string> result;
-  for (const Entry &entry : entries)
-    if (entry.section == section)
-      result.push_back(entry.name);
-  return result;
-}
-
-std::string Parameters::entries_called(const std::string &name) const
-{
-  std::vector<std::string> result;
-  for (const Entry &entry : entries)
-    if (lower_case(entry.name) == lower_case(name))
-      result.push_back(quoted(entry.path()));
-  return listed(result, "or");
-}
-
-std::string Parameters::hint(const std::string &word) const
-{
-  for (const Hint &hint : hints)
-    if (std::find(hint.words.begin(), hint.words.end(), lower_case(word)) != hint.words.end())
-      return hint.remedy;
-  return {};
-}
-
-/** Of several sections that begin with the same word as @p section: "left" and "top" of "Boundary left", "Boundary top". */
-std::string Parameters::names_of_kind(const std::string &section) const
-{
-  const std::string kind = section.substr(0, section.find(' ') + 1);
-  std::vector<std::string> names;
-  for (const std::string &known : sections())
-    if (!kind.empty() && known.rfind(kind, 0) == 0)
-      names.push_back(known.substr(kind.size()));
-  return names.size() > 1 ? listed(names, "and") : "";
-}
-
-std::string Parameters::instead_of_section(const std::string &section) const
-{
-  if (const std::string remedy = hint(section); !remedy.empty())
-    return remedy;
-  if (const std::string entry = entries_called(section); !entry.empty())
-    return "this is an entry: set " + entry;
-  if (const std::string near = nearest(section, sections()); !near.empty())
-    return "the nearest known one is " + quoted(near);
-  if (const std::string names = names_of_kind(section); !names.empty())
-    return "this scene has: " + names;
-  return "there are " + listed(sections(), "and");
-}
-
-std::string Parameters::instead_of_entry(const std::string &section, const std::string &name) const
-{
-  if (const std::string remedy = hint(name); !remedy.empty())
-    return remedy;
-  const std::vector<std::string> all = sections(), here = names_in(section);
-  if (const std::string near = nearest(name, here); !near.empty())
-    return "the nearest known one is " + quoted(section.empty() ? near : section + "/" + near);
-  if (std::find(all.begin(), all.end(), name) != all.end())
-    return "this is a subsection, which has " + listed(names_in(name), "and");
-  if (const std::string elsewhere = entries_called(name); !elsewhere.empty())
-    return "set " + elsewhere;
-  if (!section.empty())
-    return section + " has " + listed(here, "and");
-  return listed(here, "and") + " stand outside of subsections, all other entries in " +
-         listed(all, "or");
+  const auto is_there = [&](const Entry &entry)
+  { return entry.section == assignment.section && entry.name == assignment.name; };
+  const auto entry = std::find_if(entries.begin(), entries.end(), is_there);
+  if (entry != entries.end())
+    return &*entry;
+  const Remedies remedies(entries, hints);
+  if (!assignment.name.empty() || !remedies.knows_section(assignment.section))
+    remedies.refuse(assignment);
+  return nullptr;
 }
 
 template std::vector<Point<2>> Parameters::points<2>(const std::string &,

@@ -33,6 +33,14 @@ NamedSide side_called(const Parameters &parameters, const std::string &section,
       else if (!sides[s].empty())
         all.push_back(bodies[b] + "." + sides[s]);
   }
+  for (unsigned int b = 0; b < bodies.size(); ++b)
+    if (singles[b].geometry.mesh)
+      for (const std::string &curve : singles[b].geometry.mesh->interfaces)
+        if (bodies[b] + "." + curve == name)
+          parameters.reject(section, "Between",
+                            "names " + printable(name) + ", a curve inside of body " + bodies[b] +
+                                "; let each side of it be a Body NAME, by its Surfaces, and name "
+                                "the boundaries of these");
   parameters.reject(section, "Between",
                     "names " + printable(name) +
                         ", which is no side; this scene has: " + listed(all, "and"));

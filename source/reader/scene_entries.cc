@@ -271,6 +271,10 @@ bool is_of_the_plane(const Entry &entry)
          entry.name == "Thermal expansion" || entry.name == "Rigid" || entry.name == "Force" ||
          entry.name == "Rotation" || entry.name == "Moment" || entry.name == "Contact direction" ||
          (entry.section == "Output" && entry.name == "Mesh picture") ||
+         (entry.section == "Solver" &&
+          (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
+           entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||
+           entry.name == "Threads")) ||
          (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
 }
 

@@ -49,6 +49,11 @@ std::vector<Hint> hints_about_conditions()
        "set \"Boundary bottom/Gap\", with \"Boundary bottom/Contact\" = unilateral"},
       {{"unilateral", "bilateral", "frictionless", "contact type", "contact pair"},
        "set \"Boundary bottom/Contact\" to bilateral, unilateral or tangential"},
+      {{"friction", "coefficient", "friction law", "coulomb", "coulomb friction", "tresca",
+        "tresca friction", "mu_f", "mu", "coefficient of friction"},
+       "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
+       "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
+       "modulus\" and \"Material/Poisson's ratio\""},
       {{"penalty", "contact stiffness", "penalty parameter"},
        "contact has no constant to choose; remove it"}};
 }
@@ -60,6 +65,8 @@ std::vector<Hint> hints_about_method()
           {{"steps", "max steps", "number of steps", "iterations"},
            "the number of adaptive steps is \"Adaptivity/Maximum steps\", that of load steps "
            "\"Loading/Steps\""},
+          {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
+           "a load history has \"Loading/Steps\", in which t runs from 0 to 1"},
           {{"max unknowns", "maximum dofs", "max dofs"}, "set \"Adaptivity/Maximum unknowns\""},
           {{"max seconds", "time limit"}, "set \"Adaptivity/Maximum seconds\""},
           {{"error", "accuracy", "precision"}, "set \"Adaptivity/Tolerance\""},
@@ -72,9 +79,33 @@ std::vector<Hint> hints_about_method()
            "the directory is that of the option --output"}};
 }
 
-const std::vector<std::string> words_of_friction = {
-    "friction", "coefficient",     "friction law", "coulomb", "coulomb friction",
-    "tresca",   "tresca friction", "mu_f",         "mu",      "coefficient of friction"};
+/** Between bodies, where the names of entries are others. */
+std::vector<Hint> hints_about_pairs()
+{
+  return {{{"contact", "contact type", "type", "unilateral", "bilateral", "tangential", "tied",
+            "glued", "frictionless"},
+           "set \"Contact joint/Law\" to unilateral, bilateral, tied or tangential",
+           "Contact "},
+          {{"obstacle", "clearance", "interference", "penetration", "distance"},
+           "set \"Contact joint/Gap\"",
+           "Contact "},
+          {{"sides", "surfaces", "master", "bodies"},
+           "the two sides are \"Contact joint/Between\" = BODY.side, BODY.side",
+           "Contact "}};
+}
+
+/** Of curves inside of a body, which have a shape and nothing else. */
+std::vector<Hint> hints_about_curves_inside(const std::vector<std::string> &interfaces)
+{
+  std::vector<Hint> result;
+  for (const std::string &curve : interfaces)
+    result.push_back({{},
+                      "it is a curve inside of the body, which has Curve alone, for nothing acts "
+                      "there; for contact along it let each side be a Body NAME, by its Surfaces, "
+                      "and write a subsection Contact NAME between them",
+                      "Boundary " + curve});
+  return result;
+}
 
 const std::vector<std::string> words_of_orthotropy = {"orthotropic",
                                                       "orthotropy",
@@ -111,10 +142,6 @@ std::vector<Hint> hints_in_plane()
        "set \"Material/Elasticity\" = orthotropic, \"Material/Young's moduli\" = E1, E2, E3, "
        "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12 and "
        "\"Material/Angle\""},
-      {words_of_friction,
-       "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
-       "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
-       "modulus\" and \"Material/Poisson's ratio\""},
       {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
        "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"thermal", "heat", "temperature change", "thermal strain", "eigenstrain", "prestress",
@@ -130,9 +157,7 @@ std::vector<Hint> hints_in_plane()
       {{"size"}, "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\""},
       {{"boundary front", "boundary back"}, "only space has it; set \"Dimension\" to 3"},
       {{"plane strain", "plane stress", "axisymmetric", "axisymmetry", "axial symmetry"},
-       "set \"Material/Plane\" to stress, strain or axisymmetric"},
-      {{"time", "t", "time step", "time steps", "end time", "final time", "load steps"},
-       "a load history has \"Loading/Steps\", in which t runs from 0 to 1"}};
+       "set \"Material/Plane\" to stress, strain or axisymmetric"}};
 }
 
 std::vector<Hint> hints_in_space()
@@ -141,9 +166,6 @@ std::vector<Hint> hints_in_space()
   for (const char *const entry : {"young's moduli", "poisson's ratios", "shear moduli", "angle"})
     orthotropic.push_back(entry);
   return {{orthotropic, "only a body in the plane may be orthotropic; remove it"},
-          {words_of_friction,
-           "friction is \"Boundary bottom/Friction bound\", Tresca's; a shear modulus follows from "
-           "\"Material/Young's modulus\" and \"Material/Poisson's ratio\""},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
           {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
           {{"spring", "elastic foundation", "winkler"},
@@ -154,22 +176,30 @@ std::vector<Hint> hints_in_space()
           {{"size"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\", and a "
            "probe in space has no disc"},
-          {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy; Gz"},
+          {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy"},
           {{"corners"}, "space has no shape but the box; remove it"},
           {{"exact solution"}, "space offers no closed form; remove it"},
+          {{"qp solver", "qp warm start", "qp tolerance", "qp maximum multiplications",
+            "diagonal scaling", "coulomb solver", "check uniqueness"},
+           "only the reduced path of the plane has it; remove it"},
+          {{"threads"},
+           "a body in space has one thread of each process; start several, mpirun -np N hpvi, and "
+           "remove it"},
           {{"mesh picture"}, "it shows a plane; remove it, solution-NN.vtu has the mesh"},
           {{"bound", "bound on distorted cells"},
            "space has no guaranteed bound of the error, but an indicator; remove it"}};
 }
 } // namespace
 
-std::vector<Hint> scene_hints(const int dim, const std::vector<std::string> &boundaries)
+std::vector<Hint> scene_hints(const int dim, const std::vector<std::string> &boundaries,
+                              const std::vector<std::string> &interfaces)
 {
   std::vector<Hint> hints{
       {{"boundary", "boundaries", "boundary condition", "boundary conditions", "bc"},
        "conditions stand in the subsections Boundary " + listed(boundaries, "and")}};
   for (const std::vector<Hint> &some :
-       {dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),
+       {hints_about_curves_inside(interfaces), dim == 2 ? hints_about_pairs() : std::vector<Hint>(),
+        dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),
         hints_about_conditions(), hints_about_method()})
     hints.insert(hints.end(), some.begin(), some.end());
   for (Hint &hint : hints)

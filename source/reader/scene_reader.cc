@@ -125,8 +125,11 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   choose(scene.output.steps, "Output", "Steps", output_steps_names);
   choose(scene.solver.path, "Solver", "Path", path_names);
   choose(scene.solver.linear, "Solver", "Linear", linear_names);
-  choose(scene.solver.qp_solver, "Solver", "QP solver", qp_solver_names);
-  choose(scene.solver.coulomb_method, "Solver", "Coulomb solver", coulomb_method_names);
+  if constexpr (dim == 2)
+  {
+    choose(scene.solver.qp_solver, "Solver", "QP solver", qp_solver_names);
+    choose(scene.solver.coulomb_method, "Solver", "Coulomb solver", coulomb_method_names);
+  }
   choose(scene.solver.normal_contact, "Solver", "Normal contact", normal_contact_names);
 }
 
@@ -312,8 +315,8 @@ Scene<dim> read_scene(const std::string &file,
                       const SceneUse use)
 {
   const FreeNames names = names_in<dim>(file, overrides);
-  const auto parameters =
-      std::make_shared<Parameters>(scene_entries(dim, names), scene_hints(dim, names.sides), file);
+  const auto parameters = std::make_shared<Parameters>(
+      scene_entries(dim, names), scene_hints(dim, names.sides, names.interfaces), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",

@@ -22,6 +22,27 @@ invalid "Body third/Size" "unknown entry" -- "Body third/Size=3"
 invalid "Contact joint/Slide" "unknown entry" -- "Contact joint/Slide=3"
 invalid "Contact joint/Contact" "unknown entry" -- "Contact joint/Contact=tied"
 
+# --- what people mean stands in the entries of this scene
+unknown() { # ENTRY WORD...
+  local entry="$1"
+  shift
+  invalid "unknown" "$@" -- "$entry=1"
+}
+unknown "Contact joint/Friction" '"Contact joint/Friction bound"' '"Contact joint/Friction coefficient"'
+unknown "Contact joint/mu" '"Contact joint/Friction coefficient"'
+unknown "Contact joint/Type" '"Contact joint/Law" to unilateral, bilateral, tied or tangential'
+unknown "Contact joint/Contact" '"Contact joint/Law"'
+unknown "Contact joint/Clearance" '"Contact joint/Gap"'
+unknown "Contact joint/Sides" '"Contact joint/Between" = BODY.side, BODY.side'
+unknown "Boundary upper.left/Coefficient" '"Boundary upper.left/Friction coefficient"'
+unknown "Boundary upper.top/Force density" "Boundary upper.top has Displacement"
+unknown "Boundary upper.left/Loads" '"Boundary upper.left/Traction"'
+unknown "Body upper/Width" '"Body upper/Lower corner" and "Body upper/Upper corner"'
+unknown "Body upper/Mesh size" '"Body upper/Subdivisions"'
+unknown "Friction" '"Boundary lower.left/Friction bound"'
+unknown "Mesh" '"Body lower/Subdivisions"'
+unknown "Material soft/E" "\"Material soft/Young's modulus\""
+
 # --- scenes of one body and of several
 invalid "Geometry" "Body" -- "Geometry/Upper corner=1, 1"
 invalid "Geometry" "Body" -- "Geometry/Grading levels=2"

@@ -133,6 +133,14 @@ mesh "$scratch/drawing.geo" "is a drawing" "gmsh -2 -format msh41"
 mesh "$scratch/binary.msh" "is a binary file" "-format msh41 -o ascii.msh"
 mesh "$scratch/triangle.msh" "triangles (1)" "Mesh.RecombineAll = 1"
 mesh "$scratch/cut.msh" "the file is cut short"
+# Without names along its boundary a body cannot be held: with none at all, with points, with surfaces or inner curves alone.
+sed '/^1 [1345] "/d; s/^7$/3/; /^[0-9]* 1 2 [1345] /d' "$scenes/body.msh" >"$scratch/inner_curve.msh"
+sed '/^1 [1-5] "/d; s/^7$/2/; /^[0-9]* 1 2 [1-5] /d' "$scenes/body.msh" >"$scratch/no_curves.msh"
+for file in inner_curve no_curves; do
+  lines=$(($(grep -n '^\$EndElements' "$scratch/$file.msh" | cut -d: -f1) - $(grep -n '^\$Elements' "$scratch/$file.msh" | cut -d: -f1) - 2))
+  sed -i "/^\\\$Elements/{n;s/.*/$lines/}" "$scratch/$file.msh"
+  mesh "$scratch/$file.msh" "the boundary of the body has no physical curve" 'Physical Curve("left") = {4};'
+done
 mesh "$scenes/ring.prm" "no mesh file of Gmsh" "\$MeshFormat"
 mesh /dev/null "cannot be read"
 invalid "Geometry/Subdivisions = 2, 2" "whose coarse mesh is given" -- "Geometry/Subdivisions=2, 2"
@@ -142,7 +150,18 @@ invalid "Boundary inside/Curve = ellipse" "give circle, spline or nothing" -- "B
 invalid "Boundary start/Curve = circle" "straight" "from (1, 0) to (2, 0)" "remove it" -- "Boundary start/Curve=circle"
 invalid "Boundary end/Curve = circle" "has 2 vertices" "a circle needs three" -- "Boundary end/Curve=circle"
 invalid "Boundary start/Curve = spline" "has 3 vertices" "a spline needs four" -- "Boundary start/Curve=spline"
-invalid "Boundary joint/Pressure = 1" "is an unknown entry" -- "Boundary joint/Pressure=1"
+inner="it is a curve inside of the body, which has Curve alone"
+for entry in Pressure=1 Contact=unilateral "Friction coefficient=0.3" Gap=0 Displacement=0 Spring=1 Colour=red; do
+  invalid "Boundary joint/${entry%%=*} = ${entry#*=}" "is an unknown entry; $inner" "for contact along it let each side be a Body NAME" -- "Boundary joint/$entry"
+done
+invalid "Boundary end/Colour = red" "unknown entry; Boundary end has Displacement" -- "Boundary end/Colour=red"
+both=("Body a/Shape=file" "Body a/File=$scenes/body.msh" "Body b/Lower corner=0, 2" "Body b/Upper corner=1, 3")
+sed '/^subsection \(Geometry\|Boundary.*\)$/,/^end/d' "$scenes/mesh.prm" >"$scratch/two.prm"
+arguments=()
+for override in "${both[@]}" "Contact c/Between=a.joint, b.bottom"; do
+  arguments+=(--set "$override")
+done
+refused "Contact c/Between = a.joint, b.bottom" "names a.joint, a curve inside of body a" "by its Surfaces" -- --validate "${arguments[@]}" "$scratch/two.prm"
 invalid "Boundary part/Curve" "unknown entry" -- "Boundary part/On=inside" "Boundary part/Where=1" "Boundary part/Curve=circle"
 invalid "Boundary part/Where" "where the mesh has a vertex" -- "Boundary part/On=inside" "Boundary part/Where=x - 0.7"
 invalid "Boundary part/On = joint" "is no side" "give inside, outside, start or end" -- "Boundary part/On=joint" "Boundary part/Where=1"

@@ -74,7 +74,21 @@ invalid "Material/Initial strain" "only a body in the plane" -- "Material/Initia
 invalid "Temperature" "only a body in the plane" -- "Temperature/Expression=20"
 invalid "Boundary top/Rigid" "only a body in the plane" -- "Boundary top/Rigid=true"
 invalid "Boundary bottom/Contact direction" "only a body in the plane" -- "Boundary bottom/Contact direction=0; -1; 0"
-invalid "Boundary top/Shear" "two tangents" -- "Boundary top/Shear=1"
+invalid "Boundary top/Shear" 'space has two tangents; write "Boundary top/Traction" = Gx; Gy; Gz' -- "Boundary top/Shear=1"
+invalid "Boundary left/Shear" 'write "Boundary left/Traction" = Gx; Gy; Gz' -- "Boundary left/Shear=1"
+! grep -q "Gz; Gz" "$scratch/lines" || { echo "a fourth component"; failures=1; }
+invalid "Boundary top/Forces" '"Boundary top/Traction" = Gx; Gy; Gz' '"Body force/Expression" = Fx; Fy; Fz' -- "Boundary top/Forces=1"
+invalid "Boundary back/Fixed" '"Boundary back/Displacement" = ux; uy; uz' -- "Boundary back/Fixed=true"
+invalid "Boundary bottom/Friction" '"Boundary bottom/Friction bound"' '"Boundary bottom/Friction coefficient"' -- "Boundary bottom/Friction=1"
+invalid "Loading/Time" '"Loading/Steps"' -- "Loading/Time=1"
+invalid "Displacement" "uses t" "set Loading/Steps or write a function of x, y and z" -- "Boundary right/Displacement=0.01*t; 0; 0"
+invalid "Boundary foot/Where" "uses t" "write a function of x, y and z" -- "Boundary foot/On=top" "Boundary foot/Where=x - t"
+# Entries that do nothing here.
+for entry in "Coulomb solver=fixed point" "Coulomb solver=newton" "Check uniqueness=true" "QP solver=mprgp" "QP warm start=false" "QP tolerance=1e-10" \
+  "QP maximum multiplications=10" "Diagonal scaling=false"; do
+  invalid "Solver/${entry%%=*} = ${entry#*=}" "only the reduced path of the plane has it; remove it" -- "Solver/$entry"
+done
+invalid "Solver/Threads = 2" "mpirun -np N hpvi" "remove it" -- "Solver/Threads=2"
 invalid "Boundary foot/Where" "inside a face" "grid line" -- "Boundary foot/On=top" "Boundary foot/Where=x^2 + z^2 - 0.5"
 invalid "Material soft/Where" "inside a cell" -- "Material soft/Where=x^2 + y^2 + z^2 - 0.5"
 invalid "Mesh picture" "shows a plane" "solution-NN.vtu" -- "Output/Mesh picture=true"
@@ -104,6 +118,7 @@ foot "is in no physical volume" -- 's/^50 5 2 4/50 5 2 0/'
 foot "has a face of no cell" -- 's/^1 3 2 1 1 .*/1 3 2 1 1 1 2 3 4/'
 foot "cells may not overlap" -- 's/^50 5 2 4 1 .*/50 5 2 4 1 1 2 7 6 16 17 22 21/'
 foot "Boundary flank/Symmetry" "along no axis" -- '' --set "Boundary flank/Pressure=" --set "Boundary flank/Symmetry=true"
+foot "the boundary of the body has no physical surface" 'Physical Surface("left") = {4};' -- '5s/.*/1/; 6,8d; 90s/.*/32/; /^[0-9]* 3 2 /d'
 foot "Boundary side" "this scene has" -- '' --set "Boundary side/Pressure=1"
 foot "Boundary bottom/Curve" "unknown entry" -- '' --set "Boundary bottom/Curve=circle"
 foot "Subdivisions" "no meaning for a file" -- '' --set "Geometry/Subdivisions=2, 2, 2"

@@ -177,11 +177,16 @@ TEST(Hints, NameEntriesThatThereAre)
   for (const int dim : {2, 3})
   {
     std::vector<std::string> paths, words;
-    for (const Entry &entry : scene_entries(dim, {}))
+    FreeNames names;
+    if (dim == 2)
+      names.pairs = {"joint"};
+    names.sides = boundary_names(dim);
+    for (const Entry &entry : scene_entries(dim, names))
       paths.push_back(entry.path());
-    for (const Hint &hint : scene_hints(dim, boundary_names(dim)))
+    for (const Hint &hint : scene_hints(dim, boundary_names(dim), {"inside"}))
     {
-      words.insert(words.end(), hint.words.begin(), hint.words.end());
+      if (hint.in.empty()) // else it is told before the others
+        words.insert(words.end(), hint.words.begin(), hint.words.end());
       const std::regex quoted("\"([^\"]*)\"");
       for (std::sregex_iterator it(hint.remedy.begin(), hint.remedy.end(), quoted), end; it != end;
            ++it)

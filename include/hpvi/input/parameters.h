@@ -2,7 +2,7 @@
 #ifndef hpvi_parameters_h
 #define hpvi_parameters_h
 
-#include <hpvi/base/parameter_file.h>
+#include <hpvi/input/remedies.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
@@ -16,34 +16,12 @@
 
 namespace hpvi
 {
-/** One entry of a parameter file. */
-struct Entry
-{
-  std::string section; ///< empty: top level
-  std::string name;
-  std::string default_value;
-  std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
-  std::string wanted; ///< completes "give ..." in an error message
-  std::string documentation;
-
-  std::string path() const;
-  /** "is not accepted here; give ..." where @p value does not match; else empty. */
-  std::string objection(const std::string &value) const;
-};
-
 /** One of @p words. */
 std::shared_ptr<const dealii::Patterns::PatternBase> one_of(const std::vector<std::string> &words);
 
 /** @p word, which may be empty, or what @p other accepts. */
 std::shared_ptr<const dealii::Patterns::PatternBase>
 word_or(const std::string &word, const dealii::Patterns::PatternBase &other);
-
-/** What to write in the place of names that people try first and no file has. */
-struct Hint
-{
-  std::vector<std::string> words; ///< of entries and subsections, in lower case
-  std::string remedy;             ///< completes "is unknown; ..."
-};
 
 /** @p text without what no parameter file can hold: '#', line breaks, a backslash at the end. */
 std::string storable(std::string text);
@@ -104,16 +82,7 @@ private:
   void assign(const std::pair<std::string, std::string> &override);
   /** Null for the opening line of a known subsection. Throws where the name is unknown. */
   const Entry *known_entry(const Assignment &assignment) const;
-  /** What to write instead: a hint, an entry of this name, a name that differs in few letters, or all that there are. */
-  std::string names_of_kind(const std::string &section) const;
-  std::string instead_of_section(const std::string &section) const;
-  std::string instead_of_entry(const std::string &section, const std::string &name) const;
-  std::string hint(const std::string &word) const;          ///< empty: there is none
   const std::string &own(const std::string &section) const; ///< with_section()
-  std::vector<std::string> sections() const;
-  std::vector<std::string> names_in(const std::string &section) const;
-  /** The quoted paths of all entries called @p name, "a", "b" or "c". */
-  std::string entries_called(const std::string &name) const;
 
   const std::vector<Entry> entries;
   const std::vector<Hint> hints;

@@ -66,14 +66,17 @@ void for_each_value(Scene &scene, const Visitor &visit)
     visit("Error", "Bound on distorted cells", scene.bound_on_distorted_cells);
   auto &solver = scene.solver;
   visit("Solver", "Primal tolerance", solver.primal_tolerance);
-  visit("Solver", "QP warm start", solver.qp_warm_start);
-  visit("Solver", "QP tolerance", solver.qp_tolerance);
-  visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
-  visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
+  if (in_plane)
+  {
+    visit("Solver", "QP warm start", solver.qp_warm_start);
+    visit("Solver", "QP tolerance", solver.qp_tolerance);
+    visit("Solver", "QP maximum multiplications", solver.qp_maximum_multiplications);
+    visit("Solver", "Diagonal scaling", solver.diagonal_scaling);
+    visit("Solver", "Check uniqueness", solver.check_uniqueness);
+    visit("Solver", "Threads", solver.threads);
+  }
   visit("Solver", "Multiplier degree offset", solver.multiplier_offset);
-  visit("Solver", "Check uniqueness", solver.check_uniqueness);
   visit("Solver", "Condition number", solver.condition_number);
-  visit("Solver", "Threads", solver.threads);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);
   if (in_plane)

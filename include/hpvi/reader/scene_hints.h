@@ -9,8 +9,12 @@
 
 namespace hpvi
 {
-/** For names that are not among scene_entries(): what users of other programs write first. Paths of entries stand in quotes. */
-std::vector<Hint> scene_hints(int dim, const std::vector<std::string> &boundaries);
+/**
+ * For names that are not among scene_entries(): what users of other programs write first. Paths of entries stand in quotes.
+ * @p interfaces: curves inside of bodies.
+ */
+std::vector<Hint> scene_hints(int dim, const std::vector<std::string> &boundaries,
+                              const std::vector<std::string> &interfaces = {});
 } // namespace hpvi
 
 #endif
