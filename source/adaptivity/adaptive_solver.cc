@@ -9,7 +9,9 @@
 #include <hpvi/adaptivity/step_stages.h>
 #include <hpvi/adaptivity/thickness.h>
 #include <hpvi/backends/threads.h>
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/checks/rejection.h>
 
 namespace hpvi
 {
@@ -102,32 +104,49 @@ void AdaptiveSolver<dim>::prepare(const Announce &about_to)
 //
 // After so much preparation it reads as it is told. The report goes out before refinement, so that whoever listens may write
 // files, stop, or change nothing; and a step whose mesh would not change again is the last one.
+namespace
+{
+template <int dim>
+void run_steps(StepStages<dim> &stages,
+               const std::function<void(const StepReport<dim> &)> &finished_step)
+{
+  for (bool finished = false; !finished;)
+  {
+    stages.solve();
+    stages.judge();
+    StepReport<dim> step = stages.tell();
+    step.stopped_by = stages.end_of_run();
+    if (stages.asks_for_bound(step))
+    {
+      stages.close_bound();
+      stages.add_bound(step);
+      stages.count(step);
+      step.stopped_by = stages.end_of_run();
+    }
+    finished = !step.stopped_by.empty();
+    if (finished)
+      conclude(*stages.backend, stages.history, step);
+    take_thickness(step);
+    finished_step(step);
+    if (!finished)
+      stages.refine();
+  }
+}
+} // namespace
+
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const Announce &about_to)
 {
   const Team team = team_of(stages->scene, stages->backend->communicator);
   stages->hear(about_to);
-  for (bool finished = false; !finished;)
+  try
   {
-    stages->solve();
-    stages->judge();
-    StepReport<dim> step = stages->tell();
-    step.stopped_by = stages->end_of_run();
-    if (stages->asks_for_bound(step))
-    {
-      stages->close_bound();
-      stages->add_bound(step);
-      stages->count(step);
-      step.stopped_by = stages->end_of_run();
-    }
-    finished = !step.stopped_by.empty();
-    if (finished)
-      conclude(*stages->backend, stages->history, step);
-    take_thickness(step);
-    finished_step(step);
-    if (!finished)
-      stages->refine();
+    run_steps(*stages, finished_step);
+  }
+  catch (const NumericalFailure &failure)
+  {
+    throw NumericalFailure(in_entries_of(stages->scene, failure.what()));
   }
   stages->ahead.reset();
 }

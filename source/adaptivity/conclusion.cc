@@ -2,6 +2,7 @@
 #include <hpvi/adaptivity/column_width.h>
 #include <hpvi/adaptivity/conclusion.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/checks/rejection.h>
 
 namespace hpvi
 {
@@ -20,9 +21,10 @@ void conclude(const Backend<dim> &backend, const History<dim> &history, StepRepo
            [&]() { of_all = warnings(step.scene, step.contact, body, history); });
   step.warnings =
       joined(of_all, backend.warnings(step.contact, step.equilibrium),
-             tolerance_warnings(limits, step.no_bound),
              tolerance_warnings(limits, history.back().relative_half_width, no_half_width(step)),
              step.bound ? bound_warnings(step.relative_bound, step.bound->imbalance) : Warnings());
+  for (Warning &warning : step.warnings)
+    warning.text = in_entries_of(step.scene, warning.text);
 }
 
 template void conclude(const Backend<2> &, const History<2> &, StepReport<2> &);

@@ -208,6 +208,10 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
   }
   finished.data = current->past_data;
   has_ended = true;
+  const auto is_passing = [](const Warning &one) // another load step may reach it
+  { return one.kind == WarningKind::no_contact; };
+  report.warnings.erase(std::remove_if(report.warnings.begin(), report.warnings.end(), is_passing),
+                        report.warnings.end());
   keep_worst(finished.warnings, report.warnings, place());
   if (finished.load.number == scene.loading.steps)
     report.warnings = finished.warnings;

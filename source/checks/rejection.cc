@@ -5,6 +5,7 @@
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
 
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -39,6 +40,23 @@ void check_value(const Scene<dim> &scene, const std::string &section, const std:
         reject(scene, section, name, objection, shown);
 }
 
+template <int dim>
+std::string in_entries_of(const Scene<dim> &scene, const std::string &message)
+{
+  std::vector<std::pair<std::string, std::string>> changes;
+  if (scene.geometry.shape == Shape::file)
+    changes = {{"raise Geometry/Subdivisions", "take more cells in Geometry/File"},
+               {"Geometry/Subdivisions", "cells in Geometry/File"}};
+  if (scene.geometry.shape == Shape::bodies)
+    changes = {{"Geometry/", "Body NAME/"}};
+  std::string result = message;
+  for (const auto &[of_a_box, own] : changes)
+    for (std::size_t at = 0; (at = result.find(of_a_box, at)) != std::string::npos;
+         at += own.size())
+      result.replace(at, of_a_box.size(), own);
+  return result;
+}
+
 std::string name_of(const Contact contact)
 {
   return contact == Contact::tied ? "tied" : contact_names[static_cast<unsigned int>(contact)];
@@ -52,6 +70,8 @@ template void reject(const Scene<2> &, const std::string &, const std::string &,
                      const std::string &, const std::string &);
 template void reject(const Scene<3> &, const std::string &, const std::string &,
                      const std::string &, const std::string &);
+template std::string in_entries_of(const Scene<2> &, const std::string &);
+template std::string in_entries_of(const Scene<3> &, const std::string &);
 template void check_value(const Scene<2> &, const std::string &, const std::string &,
                           const std::string &);
 template void check_value(const Scene<3> &, const std::string &, const std::string &,

@@ -248,7 +248,7 @@ std::string extremes_words(const Scene<dim> &scene, const JsonTree &summary)
   return words;
 }
 
-/** Columns of the last row that begin with the name of a probe. */
+/** Columns of the last row that probes have. */
 template <int dim>
 std::string probes_words(const Scene<dim> &scene, const RunFiles &files)
 {
@@ -259,13 +259,14 @@ std::string probes_words(const Scene<dim> &scene, const RunFiles &files)
   for (const Probe<dim> &probe : scene.probes)
   {
     std::string list;
-    for (const auto &[column, value] : last)
-      if (const std::string begin = probe.name + "_";
-          column.rfind(begin, 0) == 0 && !value.empty() &&
-          (column.size() < 6 || column.substr(column.size() - 6) != "_bound"))
-        list += (list.empty() ? "" : ", ") + column.substr(begin.size()) + " " +
+    for (const std::string &column : columns_of(probe))
+    {
+      const std::string value = value_of(last, column), end = column.substr(probe.name.size() + 1);
+      if (!value.empty() && end.find("_bound") == std::string::npos)
+        list += (list.empty() ? "" : ", ") + end + " " +
                 measured(value, value_of(last, column + "_bound"),
-                         column[begin.size()] == 'u' ? scene.length_unit : scene.stress_unit);
+                         end[0] == 'u' ? scene.length_unit : scene.stress_unit);
+    }
     if (!list.empty())
       words += item(list + ".", "Probe " + probe.name + ":");
   }

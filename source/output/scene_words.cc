@@ -9,6 +9,7 @@
 #include <hpvi/output/probe_marks.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
@@ -242,9 +243,9 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
     if (words.empty())
       free.push_back(boundary.name.empty()
                          ? (dim == 2 ? "edges without a name" : "faces without a name")
-                         : boundary.name);
+                         : name_and_place(scene, boundary));
     else
-      lines += boundary.name + ": " + words + "\n";
+      lines += name_and_place(scene, boundary) + ": " + words + "\n";
   }
   return lines + (free.empty() ? "" : "free: " + joined(free) + "\n");
 }

@@ -40,7 +40,10 @@ bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
 template <int dim>
 void print_table_head(const Scene<dim> &scene, const bool is_primal)
 {
-  std::cout << "step  elements  dofs_free multipliers  p    estimate  relative"
+  std::cout << "errors in parts of the solution, by energy norms: indicator (guarantees nothing)"
+            << (has_bound_column(scene, is_primal) ? ", bound (guaranteed)" : "")
+            << (scene.has_known_solution() ? ", true_error" : "") << '\n'
+            << "step  elements  dofs_free multipliers  p  indicator"
             << (has_bound_column(scene, is_primal) ? "     bound" : "")
             << (scene.has_known_solution() ? "  true_error" : "")
             << (is_primal ? "       slack  newton  cg_steps   seconds"
@@ -48,9 +51,20 @@ void print_table_head(const Scene<dim> &scene, const bool is_primal)
             << (scene.has_load_history() ? " load_step       t" : "") << std::endl;
 }
 
+/** A number with @p digits, or where it says nothing "-". */
+std::string shown(const double value, const bool says_something, const int digits)
+{
+  std::ostringstream out;
+  out << std::scientific << std::setprecision(digits) << value;
+  return says_something ? out.str() : "-";
+}
+
 template <int dim>
 void print_row(const StepReport<dim> &step)
 {
+  // Of a body that moves and is not yet deformed the indicator is thousands of times the solution.
+  constexpr double nothing = 100, round_off = 1e-14;
+
   const bool is_primal = bool(step.primal);
   std::ostringstream degrees;
   degrees << step.size.p_min();
@@ -58,16 +72,20 @@ void print_row(const StepReport<dim> &step)
     degrees << '-' << step.size.p_max();
   std::cout << std::setw(4) << step.number << std::setw(10) << step.size.n_cells << std::setw(11)
             << step.size.n_free << std::setw(is_primal ? 12 : 10) << step.size.n_multipliers
-            << std::setw(is_primal ? 3 : 6) << degrees.str() << std::scientific
-            << std::setprecision(3) << std::setw(is_primal ? 12 : 11) << step.norms.total
-            << std::setprecision(1) << std::setw(10) << step.relative_estimate;
-  if (step.bound)
-    std::cout << std::setw(10) << step.relative_bound;
-  else if (has_bound_column(step.scene, is_primal))
-    std::cout << std::setw(10) << "-";
-  if (!std::isnan(step.errors.energy))
-    std::cout << std::setprecision(3) << std::setw(12) << step.errors.energy;
-  std::cout << std::setprecision(3) << std::setw(12) << step.energies.slack;
+            << std::setw(is_primal ? 3 : 6) << degrees.str() << std::setw(is_primal ? 11 : 10)
+            << shown(step.relative_estimate, step.relative_estimate < nothing, 1);
+  if (has_bound_column(step.scene, is_primal))
+    std::cout << std::setw(10)
+              << shown(step.relative_bound, step.bound && step.relative_bound < nothing, 1);
+  if (step.scene.has_known_solution())
+    std::cout << std::setw(12)
+              << shown(step.errors.energy / step.errors.energy_norm,
+                       std::isfinite(step.errors.energy / step.errors.energy_norm), 3);
+  std::cout << std::setw(12)
+            << shown(step.energies.slack,
+                     std::abs(step.energies.slack) >
+                         round_off * step.energies.norm * step.energies.norm,
+                     3);
   if (is_primal)
     std::cout << std::setw(8) << step.primal->newton.steps + step.primal->newton.augmented_steps
               << std::setw(10) << step.primal->newton.cg_steps;
@@ -90,15 +108,22 @@ std::string work_in_words(const LoadStep &load)
          text(load.released, 2) + ", unbalanced " + text(load.unbalanced, 2) + "\n";
 }
 
-/** Why the last step has no bound of its error, or no step has one, although the scene wants it. */
+/** Why the last step has no bound of its error, or no step has one, although the scene wants it, for itself or for a tolerance. */
 template <int dim>
 std::string missing_bound_in_words(const StepReport<dim> &step, const std::string &last_bound)
 {
-  if (step.bound || step.primal || !step.scene.error_bound)
+  const Adaptivity &limits = step.scene.adaptivity;
+  const bool is_in_its_place = limits.tolerance > 0 && limits.tolerance_on == Indicator::bound &&
+                               limits.tolerance_column.empty(),
+             is_wanted = step.scene.error_bound && !step.primal;
+  if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
   const bool has_none = step.load.number == 0 && !step.scene.no_error_bound().empty();
   return "\nno bound of the error" + (has_none ? "" : " in step " + text(step.number)) + ": " +
-         step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n";
+         step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n" +
+         (is_in_its_place ? "Adaptivity/Tolerance was compared with the indicator in its place, "
+                            "which guarantees nothing\n"
+                          : "");
 }
 
 /** Where J(u_N) bounds the least energy from above alone. */

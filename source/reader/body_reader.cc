@@ -7,6 +7,8 @@
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
+#include <hpvi/scene/hexahedral_mesh.h>
+#include <hpvi/shapes/hexahedra_from_file.h>
 #include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/shape.h>
 
@@ -51,7 +53,8 @@ Expression<dim> read_where(const Parameters &parameters, const std::string &sect
   static const std::regex t("\\bt\\b");
   if (std::regex_search(where, t))
     parameters.reject(section, "Where",
-                      "uses t, and a body keeps its parts; write a function of x and y");
+                      std::string("uses t, and a body keeps its parts; write a function of ") +
+                          (dim == 2 ? "x and y" : "x, y and z"));
   const ExpressionReader<dim> reader(parameters, {{"pi", numbers::PI}});
   return reader.template read<1>(section, "Where", "", points)[0];
 }
@@ -190,6 +193,10 @@ void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> 
   if constexpr (dim == 2)
     if (scene.geometry.shape == Shape::file || scene.geometry.shape == Shape::bodies)
       for (const std::string &remark : remarks_on_polygons(*scene.geometry.mesh))
+        scene.remarks.push_back(remark);
+  if constexpr (dim == 3)
+    if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry))
+      for (const std::string &remark : remarks_on_facets(*mesh))
         scene.remarks.push_back(remark);
   read_materials(parameters, names.materials, scene);
   const std::vector<Material> materials = scene.materials;

@@ -174,22 +174,26 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
   using Direction = typename TurningLoad<dim>::Direction;
   const std::vector<Point<dim>> points = side.sample();
   boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
+  const bool has_one_normal = common_normal(side).norm() > 0; // also as edges of a mesh
   const auto add = [&](const std::string &entry, const double sign, const Direction &direction)
   {
     const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
     for (unsigned int c = 0; c < dim; ++c)
       boundary.traction[c] =
-          side.is_flat() ? sum<dim>(boundary.traction[c], sign * direction(points.front())[c], load)
+          has_one_normal ? sum<dim>(boundary.traction[c], sign * direction(points.front())[c], load)
                          : sum<dim>(boundary.traction[c], sign,
                                     load ? std::make_shared<TurningLoad<dim>>(load, direction, c)
                                          : Expression<dim>());
   };
   if (points.empty()) // parts have taken it all
     return;
-  const auto normal = std::make_shared<const SideNormals<dim>>(side);
-  add("Pressure", -1, [normal](const Point<dim> &x) { return (*normal)(x); });
+  Direction normal = [normal = std::make_shared<const SideNormals<dim>>(side)](const Point<dim> &x)
+  { return (*normal)(x); };
+  if (has_one_normal)
+    normal = [n = common_normal(side)](const Point<dim> &) { return n; };
+  add("Pressure", -1, normal);
   if constexpr (dim == 2)
-    add("Shear", 1, [normal](const Point<dim> &x) { return -cross_product_2d((*normal)(x)); });
+    add("Shear", 1, [normal](const Point<dim> &x) { return -cross_product_2d(normal(x)); });
 }
 
 /** Glued on before anything happens: springs know no time. */

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -146,6 +148,50 @@ std::vector<Side<dim>> sides_of(const Scene<dim> &scene)
 }
 
 template <int dim>
+Tensor<1, dim> common_normal(const Side<dim> &side)
+{
+  if (side.is_flat() || side.pieces.empty())
+    return side.outward;
+  Tensor<1, dim> result;
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+  {
+    Tensor<1, dim> normal;
+    if constexpr (dim == 3)
+      normal = normal_of(side.pieces[k]);
+    else
+    {
+      if (!side.curves.empty() && side.curves[k])
+        return {};
+      normal = side.normal(k, 0.5);
+    }
+    for (unsigned int d = 0; d < dim; ++d)
+      normal[d] = std::abs(normal[d]) < 1e-12 ? 0. : normal[d];
+    normal /= normal.norm();
+    if (k > 0 && (normal - result).norm() > 1e-12)
+      return {};
+    result = k > 0 ? result : normal;
+  }
+  return result;
+}
+
+template <int dim>
+std::string name_and_place(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  const Side<dim> side = sides_of(scene)[boundary.id];
+  const Tensor<1, dim> normal = common_normal(side);
+  const auto is_in_one_plane = [&](const unsigned int d)
+  {
+    const double at = side.pieces[0][0][d], hair = 1e-9 * scene.geometry.diameter();
+    return std::all_of(side.pieces.begin(), side.pieces.end(),
+                       [&](const auto &piece) { return std::abs(piece[0][d] - at) < hair; });
+  };
+  for (unsigned int d = 0; d < dim && dim == 3 && !side.pieces.empty(); ++d)
+    if (std::abs(normal[d]) > 1 - 1e-12 && is_in_one_plane(d))
+      return boundary.name + " (" + "xyz"[d] + " = " + text(side.pieces[0][0][d], 6) + ")";
+  return boundary.name;
+}
+
+template <int dim>
 bool lies_on_axis(const Side<dim> &side)
 {
   const std::vector<Point<dim>> points = side.sample();
@@ -157,6 +203,10 @@ template types::boundary_id boundary_at(const Scene<2> &, unsigned int, const Po
 template types::boundary_id boundary_at(const Scene<3> &, unsigned int, const Point<3> &);
 template Point<2> middle_of(const CoarseFace<2> &);
 template Point<3> middle_of(const CoarseFace<3> &);
+template Tensor<1, 2> common_normal(const Side<2> &);
+template Tensor<1, 3> common_normal(const Side<3> &);
+template std::string name_and_place(const Scene<2> &, const BoundaryCondition<2> &);
+template std::string name_and_place(const Scene<3> &, const BoundaryCondition<3> &);
 template bool lies_on_axis(const Side<2> &);
 template bool lies_on_axis(const Side<3> &);
 template std::vector<CoarseFace<2>> coarse_faces(const Geometry<2> &, unsigned int);

@@ -94,6 +94,17 @@ std::string beside(const std::string &scene, const std::string &name)
   return (std::filesystem::path(scene).parent_path() / name).string();
 }
 
+void require_names(const std::vector<std::string> &boundaries, const std::string &file,
+                   const std::string &kind)
+{
+  const auto has_name = [](const std::string &name) { return !name.empty(); };
+  if (std::none_of(boundaries.begin(), boundaries.end(), has_name))
+    throw InputError(printable(file, 400) + ": the boundary of the body has no physical " + kind +
+                     ", by whose name it is held, loaded or in contact; give it some in the "
+                     "drawing, as in Physical " +
+                     (kind == "curve" ? "Curve" : "Surface") + "(\"left\") = {4};");
+}
+
 Entry curve_entry(const std::string &name)
 {
   return {"Boundary " + name,
@@ -147,6 +158,7 @@ ShapeKind<2> mesh_from_file()
         CoarseMesh mesh = read_mesh_file(file);
         if (const std::string surfaces = text("Surfaces"); !surfaces.empty())
           mesh = surfaces_of(mesh, words_in(surfaces));
+        require_names(mesh.boundaries, file, "curve");
         return SideNames{mesh.boundaries, mesh.interfaces, true};
       },
       false};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/text.h>
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 #include <hpvi/warnings/line.h>
 #include <hpvi/warnings/warnings.h>
@@ -93,6 +95,27 @@ Warnings penetration(const Scene<dim> &scene, const std::vector<ContactState<dim
             " by which it deforms; refine there, or put a vertex where Gap has a kink or a "
             "jump")}};
 }
+
+/** In space no picture shows a body that is moved away from its foundation. */
+template <int dim>
+Warnings no_contact(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact)
+{
+  std::vector<std::string> names;
+  for (const ContactState<dim> &state : contact)
+  {
+    const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
+    if (dim == 2 || !boundary.is_unilateral() || state.open_area < (1 - 1e-9) * state.area)
+      return {};
+    names.push_back(name_and_place(scene, boundary));
+  }
+  if (names.empty())
+    return {};
+  return {{WarningKind::no_contact, 0.,
+           "nothing touches: " + listed(names, "and") + (names.size() == 1 ? " is" : " are") +
+               " open all over; check which side that is, and the signs of loads, displacements "
+               "and Gap"}};
+}
+
 /**
  * What lies opposite to a point of two bodies is found along the normal of one of them, and tractions have that normal on
  * both. Where the gap has a slope the other one's differs by it, and forces by slope times friction, slips by slope times gap.
@@ -139,7 +162,8 @@ Warnings contact_warnings(const Scene<dim> &scene, const std::vector<ContactStat
                           const BodyState<dim> &body)
 {
   return joined(tensile_contact(scene, contact, body), pulling_pressure(scene, contact, body),
-                penetration(scene, contact, body), steep_gaps(scene, contact));
+                penetration(scene, contact, body), steep_gaps(scene, contact),
+                no_contact(scene, contact));
 }
 
 template Warnings contact_warnings(const Scene<2> &, const std::vector<ContactState<2>> &,

@@ -39,22 +39,10 @@ Warnings tolerance_warnings(const Adaptivity &adaptivity, const double relative_
   if (adaptivity.tolerance == 0 || adaptivity.tolerance_column.empty() ||
       !std::isnan(relative_half_width))
     return {};
-  return {{WarningKind::no_bound, 0.,
+  return {{WarningKind::no_interval, 0.,
            "Adaptivity/Tolerance was compared with nothing, and other limits ended the run: " +
                adaptivity.tolerance_column + " has no guaranteed interval, because " +
                no_interval}};
-}
-
-Warnings tolerance_warnings(const Adaptivity &adaptivity, const std::string &no_bound)
-{
-  if (!adaptivity.tolerance_column.empty())
-    return {};
-  if (adaptivity.tolerance == 0 || adaptivity.tolerance_on != Indicator::bound || no_bound.empty())
-    return {};
-  return {{WarningKind::no_bound, 0.,
-           "Adaptivity/Tolerance was compared with the residual indicator, which guarantees "
-           "nothing: there is no bound of the error, because " +
-               no_bound}};
 }
 
 Warnings bound_warnings(const double relative, const double imbalance)

@@ -288,10 +288,10 @@ class Words(PictureTest):
         self.assertEqual(self.words(scene=SCENES / "slab.prm"), [
             "body: box from (0, 0, 0) to (4, 4, 2), 32 coarse cells",
             "material: Young's modulus 15, Poisson's ratio 0.4",
-            "left: traction x: 1.5 to 7.5, y: -0.75, z: 0.5",
-            "right: clamped",
-            "bottom: bilateral contact, friction bound 4.5",
-            "free: top, front, back",
+            "left (x = 0): traction x: 1.5 to 7.5, y: -0.75, z: 0.5",
+            "right (x = 4): clamped",
+            "bottom (y = 0): bilateral contact, friction bound 4.5",
+            "free: top (y = 4), front (z = 0), back (z = 2)",
             "loads: force (36 -6 4), moment (0 8 28) about (2 2 1)"])
 
     def test_materials_are_those_that_cells_have(self):

@@ -173,6 +173,18 @@ class Report(RunTest):
                 if scene == "han-6-12":
                     self.check_equal_run(page, *settings)
 
+    def test_probes_have_their_own_columns(self):
+        """Other columns begin with the same words: p_max, normal_resultant_bound, seconds_solve, energy_norm."""
+        names = ("p", "normal", "friction", "energy", "error", "estimate", "seconds", "qp", "dofs", "tip")
+        self.run_scene(SHORT, *(f"Probe {name}/At={k / 4}, 1" for k, name in enumerate(names)))
+        page, row = self.page(), self.rows()[-1]
+        for name in names:
+            said = re.sub("<[^>]*>", "", page.split(f"Probe {name}:")[1].split("</li>")[0]).strip(" .\n").split(", ")
+            self.assertEqual([words.split()[0] for words in said], ["ux", "uy", "s1", "s2", "szz", "mises"], name)
+            for words in said:
+                column, value = words.split()[:2]
+                self.assertTrue(math.isclose(float(value), float(row[f"{name}_{column}"]), rel_tol=1e-5, abs_tol=1e-9), (name, words))
+
     def check_equal_run(self, page, *settings):
         self.run_scene(*settings)
         lines = [page.splitlines(), self.page().splitlines()]

@@ -426,6 +426,59 @@ TEST(Hexahedra, OfAnAngleHaveTheEnergyOfNestedMeshes)
   EXPECT_NEAR(bisected.estimate, fine.estimate, 1e-6 * fine.estimate);
 }
 
+/** Plane faces around an axis that look like a cylinder are told, and where a boundary has several each. */
+TEST(Hexahedra, SayWhereTheirFacesLookLikeACylinder)
+{
+  const auto ring = [](const double angle, const double radius, const double flat = 1)
+  {
+    return [=](const Point<3> &x)
+    {
+      const double r = radius * (1 + x[0]), a = angle * x[1] * numbers::PI / 180;
+      return Point<3>(r * std::cos(a), flat * r * std::sin(a), 3 * x[2]);
+    };
+  };
+  const auto frustums = [&](const Point<3> &x)
+  {
+    const Point<3> y = ring(90, 1)(x);
+    return Point<3>((1 - 0.2 * x[2]) * y[0], (1 - 0.2 * x[2]) * y[1], y[2]);
+  };
+  struct Row
+  {
+    std::string name;
+    Grid grid;
+    std::vector<std::string> words; ///< of all remarks
+  };
+  const std::string along = " around (0, 0, 0) along (0, 0, 1), and the body has edges there",
+                    left = "boundary left is a polygon of ",
+                    right = "boundary right is a polygon of ",
+                    faces = " plane faces with their vertices on a cylinder of radius ";
+  const std::vector<Row> rows{
+      {"a quarter",
+       {{{1, 6, 1}}, ring(90, 0.8)},
+       {left + "6" + faces + "0.8" + along, right + "6" + faces + "1.6" + along}},
+      {"a quarter, two layers",
+       {{{2, 4, 2}}, ring(90, 1), true},
+       {left + "4" + faces + "1" + along, right + "4" + faces + "2" + along}},
+      {"an arc",
+       {{{1, 4, 1}}, ring(40, 5)},
+       {left + "4" + faces + "5" + along, right + "4" + faces + "10" + along}},
+      {"turned",
+       {{{1, 6, 1}}, [&](const Point<3> &x) { return turned(ring(90, 0.8)(x)); }},
+       {left + "6" + faces + "0.8 around (", right + "6" + faces + "1.6 around ("}},
+      {"three faces", {{{1, 3, 1}}, ring(90, 1)}, {}},
+      {"corners", {{{1, 4, 1}}, ring(240, 1)}, {}},
+      {"an ellipse", {{{1, 6, 1}}, ring(90, 1, 0.8)}, {}},
+      {"a cone", {{{1, 6, 1}}, frustums}, {}},
+      {"a box", {{{3, 3, 3}}, [](const Point<3> &x) { return x; }}, {}}};
+  for (const Row &row : rows)
+  {
+    const std::vector<std::string> remarks = scene_of(row.grid, "hexahedra-cylinder").remarks;
+    ASSERT_EQ(remarks.size(), row.words.size()) << row.name;
+    for (unsigned int k = 0; k < remarks.size(); ++k)
+      EXPECT_EQ(remarks[k].find(row.words[k]), 0U) << row.name << ": " << remarks[k];
+  }
+}
+
 /** What a mesh may not be: one line with what is wrong. */
 TEST(Hexahedra, AreRefusedInOneLine)
 {

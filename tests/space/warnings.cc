@@ -3,6 +3,7 @@
 #include "runs.h"
 
 #include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
@@ -161,6 +162,57 @@ TEST(Warnings, DoNotStandWhereNothingAsksForCare)
   EXPECT_EQ(texts(by_reduced_path(block<2>(clamped({}, false)))), none);
   EXPECT_EQ(texts(by_primal_path(block<2>(clamped({}, false)))), none);
   EXPECT_EQ(texts(by_primal_path(block<3>(clamped({}, true)))), none);
+}
+
+/** In space no picture shows it: which sides are open all over, and where they lie. */
+TEST(Warnings, OfContactThatTouchesNowhere)
+{
+  const std::string bottom = "nothing touches: bottom (y = 0) is open all over; check which side",
+                    left = "nothing touches: left (x = 0) and bottom (y = 0) are open all over";
+  const Overrides on_bottom{{"Boundary bottom/Contact", "unilateral"}};
+  const auto more = [&](const Overrides &entries)
+  {
+    Overrides all = on_bottom;
+    all.insert(all.end(), entries.begin(), entries.end());
+    return all;
+  };
+  const std::vector<std::pair<Overrides, std::string>> rows{
+      {more({{"Boundary top/Displacement", "0.01; 0.005; -0.02"}}), bottom},
+      {more({{"Boundary top/Displacement", "0; 0.005; 0"},
+             {"Boundary bottom/Friction coefficient", "0.3"}}),
+       bottom},
+      {more({{"Boundary top/Displacement", "0; -0.01; 0"}, {"Boundary bottom/Gap", "0.02"}}),
+       bottom},
+      {more({{"Boundary top/Displacement", "0; 0; 0"}, {"Body force/Expression", "0; 0.01; 0"}}),
+       bottom},
+      {more({{"Boundary top/Displacement", "0; 0.005; 0"},
+             {"Boundary bottom/Friction bound", "0.001"}}),
+       bottom},
+      {more({{"Boundary top/Displacement", "0.01; 0.01; 0"},
+             {"Boundary left/Contact", "unilateral"}}),
+       left},
+      {more({{"Boundary top/Displacement", "0; -0.005; 0"}}), ""},
+      {more({{"Boundary top/Displacement", "0; -0.005; 0"}, {"Boundary bottom/Gap", "x/100"}}), ""},
+      {more({{"Boundary top/Displacement", "-0.01; 0.01; 0"},
+             {"Boundary left/Contact", "unilateral"}}),
+       ""},
+      {more({{"Boundary top/Displacement", "0.01; 0.01; 0"},
+             {"Boundary left/Contact", "bilateral"}}),
+       ""}};
+  for (const auto &[entries, words] : rows)
+  {
+    SCOPED_TRACE(entries.back().first + " = " + entries.back().second);
+    const Warnings found = by_primal_path(block<3>(entries));
+    EXPECT_EQ(has(found, WarningKind::no_contact, words), !words.empty());
+    EXPECT_EQ(has(found, WarningKind::no_contact, ""), !words.empty());
+  }
+  // Another load step may reach the foundation.
+  Overrides history = more({{"Boundary top/Displacement", "0; 0.01 - 0.02*t; 0"},
+                            {"Loading/Steps", "2"},
+                            {"Adaptivity/Tolerance", "0"}});
+  LoadHistory<3>(block<3>(history))
+      .run([&](const StepReport<3> &step)
+           { EXPECT_FALSE(has(step.warnings, WarningKind::no_contact, "")); });
 }
 
 /** Of steps there is the same to say wherever they were. */

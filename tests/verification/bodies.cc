@@ -702,6 +702,45 @@ TEST(Bodies, MeetStiffOnesAsFoundations)
 }
 
 /** Edges of 1.5 below a block of breadth 1: that of the longer body is master, and half of each is free. */
+/** One body as `Body b` is what it is as `Geometry`: loads act beside displacements that they do not work on. */
+TEST(Bodies, TakeLoadsAlongStraightSidesAsBoxesDo)
+{
+  const auto energy_of =
+      [](const std::string &section, const std::string &prefix, const Overrides &conditions)
+  {
+    Overrides entries{{section + "/Upper corner", "2, 1"},
+                      {section + "/Subdivisions", "2, 1"},
+                      {"Adaptivity/Method", "hup2"},
+                      {"Adaptivity/Maximum steps", "1"},
+                      {"Boundary " + prefix + "bottom/Displacement", "0; 0"}};
+    for (const auto &[entry, value] : conditions)
+      entries.emplace_back("Boundary " + prefix + entry, value);
+    double energy = 0;
+    AdaptiveSolver<2>(scene_of(entries))
+        .run([&](const StepReport<2> &step) { energy = step.energies.energy; });
+    return energy;
+  };
+  const std::vector<Overrides> rows{
+      {{"top/Displacement", "0.1; free"}, {"top/Pressure", "1 + x"}},
+      {{"top/Displacement", "free; -0.01"}, {"top/Shear", "0.3"}},
+      {{"left/Displacement", "free; 0"}, {"left/Pressure", "2"}},
+      {{"right/Displacement", "free; 0"}, {"right/Pressure", "y"}},
+      {{"right/Displacement", "0.01; free"}, {"right/Shear", "0.2*y"}},
+      {{"top/Displacement", "0; free"}, {"top/Pressure", "-1"}, {"left/Pressure", "1"}},
+      {{"top/Pressure", "x"}, {"top/Shear", "1"}, {"top/Traction", "1; 1"}}};
+  for (const Overrides &row : rows)
+  {
+    const double box = energy_of("Geometry", "", row);
+    EXPECT_NE(box, 0);
+    EXPECT_NEAR(energy_of("Body b", "b.", row), box, 1e-12 * std::abs(box)) << row[0].second;
+  }
+  for (const Overrides &row : {Overrides{{"top/Displacement", "free; 0.1"}, {"top/Pressure", "1"}},
+                               Overrides{{"top/Displacement", "0.1; free"}, {"top/Shear", "1"}},
+                               Overrides{{"left/Displacement", "0; free"}, {"left/Pressure", "1"}}})
+    for (const auto &[section, prefix] : {std::pair("Geometry", ""), {"Body b", "b."}})
+      EXPECT_THROW(energy_of(section, prefix, row), InputError) << section << row[0].second;
+}
+
 TEST(Bodies, MayHangOver)
 {
   const Scene<2> scene = scene_of({{"Body lower/Shape", "quadrilateral"},

@@ -4,7 +4,10 @@
 
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/body/deformation.h>
+#include <hpvi/checks/rejection.h>
+#include <hpvi/evaluation/probe_value.h>
 #include <hpvi/evaluation/solution_field.h>
+#include <hpvi/stresses/mean_gradients.h>
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
@@ -76,6 +79,64 @@ TEST(Warnings, StrainsAndRotationsThatAreNotSmall)
 }
 
 /** Unloaded at the end: the largest before counts, with its place. */
+/** What is said of the coarse mesh names the entries that make it. */
+TEST(Words, OfTheMeshAreThoseOfTheScene)
+{
+  const auto said = [](const Shape shape, const std::string &message)
+  {
+    Scene<2> scene;
+    scene.geometry.shape = shape;
+    return in_entries_of(scene, message);
+  };
+  const std::string raise = "raise Geometry/Subdivisions or set Geometry/Graded towards there";
+  EXPECT_EQ(said(Shape::box, raise), raise);
+  EXPECT_EQ(said(Shape::ring_sector, raise), raise);
+  EXPECT_EQ(said(Shape::bodies, raise),
+            "raise Body NAME/Subdivisions or set Body NAME/Graded towards there");
+  EXPECT_EQ(said(Shape::file, raise),
+            "take more cells in Geometry/File or set Geometry/Graded towards there");
+  EXPECT_EQ(said(Shape::file, "take fewer Geometry/Subdivisions"),
+            "take fewer cells in Geometry/File");
+  const Overrides flat{{"Body a/Upper corner", "40, 1"},
+                       {"Boundary a.bottom/Displacement", "0; 0"},
+                       {"Boundary a.top/Pressure", "1e-3"},
+                       {"Adaptivity/Maximum steps", "1"}};
+  EXPECT_TRUE(warns(scene_of(flat), "take more cells along the body, Body NAME/Subdivisions"));
+}
+
+/** Principal values that are equal up to round-off are numbers, and the larger one is the size of the tensor. */
+TEST(Warnings, StrainsThatAreEqualInAllDirectionsAreNumbers)
+{
+  const double e = 1.2e-5 * 20;
+  for (const double ulp : {0., 1e-16, -1e-16, 3e-17})
+    for (const double shear : {0., 1e-22, -4e-21, 1e-20, 1e-18, 1e-300})
+      for (const double size : {1., 1e-8, -300., 1e100, 1e-100})
+      {
+        MeanGradient<2> gradient{};
+        gradient.value =
+            Tensor<2, 2>({{size * e, size * shear}, {size * shear, size * e * (1 + ulp)}});
+        EXPECT_NEAR(gradient.largest_strain() / std::abs(size * e), 1, 1e-12) << shear;
+        FullStress stress;
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = i; j < 2; ++j)
+            stress[i][j] = gradient.value[i][j];
+        const auto principal = principal_stresses<2>(stress);
+        for (unsigned int i = 0; i < 2; ++i)
+          EXPECT_NEAR(principal[i] / (size * e), 1, 1e-12) << shear;
+        EXPECT_GE(principal[0], principal[1]);
+      }
+  EXPECT_FALSE(warns(scene_of({{"Geometry/Upper corner", "100, 10"},
+                               {"Geometry/Subdivisions", "4, 1"},
+                               {"Material/Young's modulus", "210000"},
+                               {"Material/Poisson's ratio", "0"},
+                               {"Material/Plane", "stress"},
+                               {"Material/Thermal expansion", "12e-6"},
+                               {"Temperature/Expression", "20"},
+                               {"Boundary left/Displacement", "0; free"},
+                               {"Boundary bottom/Symmetry", "true"}}),
+                     "the strain is"));
+}
+
 TEST(Warnings, StrainsOfPastLoadSteps)
 {
   std::vector<std::string> last;

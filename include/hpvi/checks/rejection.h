@@ -32,6 +32,10 @@ std::string section_of(const BoundaryCondition<dim> &boundary)
   return boundary.pair ? "Contact " + boundary.pair_name : "Boundary " + boundary.name;
 }
 
+/** @p message about the coarse mesh of a box in the entries that this scene has: of its bodies, or of the file that is its mesh. */
+template <int dim>
+std::string in_entries_of(const Scene<dim> &scene, const std::string &message);
+
 std::string name_of(Contact contact);
 } // namespace hpvi
 

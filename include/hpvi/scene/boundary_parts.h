@@ -37,6 +37,14 @@ std::vector<CoarseFace<dim>> coarse_faces(const Geometry<dim> &geometry, unsigne
 template <int dim>
 std::vector<Side<dim>> sides_of(const Scene<dim> &scene);
 
+/** The outer normal that all of the side has, in one plane or not, without the round-off of components; 0: it has several. */
+template <int dim>
+dealii::Tensor<1, dim> common_normal(const Side<dim> &side);
+
+/** Its name, in space with its place where it lies across an axis, as in "bottom (y = 0)": which is down is not said by a name. */
+template <int dim>
+std::string name_and_place(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary);
+
 /** Does it lie on x = 0, all of it? */
 template <int dim>
 bool lies_on_axis(const Side<dim> &side);

@@ -15,6 +15,10 @@ std::string beside(const std::string &scene, const std::string &name);
 /** Of a boundary, or an interface of a mesh: what its edges follow. */
 Entry curve_entry(const std::string &name);
 
+/** Throws InputError where no boundary has a name; @p kind: curve or surface. */
+void require_names(const std::vector<std::string> &boundaries, const std::string &file,
+                   const std::string &kind);
+
 /** Lines for users about boundaries that are polygons where circles might be meant. */
 std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh);
 } // namespace hpvi

@@ -21,6 +21,7 @@ enum class WarningKind
   pulling_pressure,  ///< unilateral contact pulls between the points of its multiplier
   penetration,       ///< deep beside the deformation
   gap_slope,         ///< of two bodies, where they press
+  no_contact,        ///< anywhere, in space
   transition,        ///< open, stick, slip change on a coarse edge
   open_friction,     ///< friction without contact
   stagnation,        ///< of the indicator
@@ -45,7 +46,7 @@ enum class WarningKind
   load,              ///< is not resolved
   displacement,      ///< lies between the nodes
   condition_number,  ///< is missing
-  no_bound,          ///< of the error, on which there is a tolerance
+  no_interval,       ///< of a number on which there is a tolerance
   several_solutions, ///< of Coulomb friction
   dense_work,        ///< takes long
   bound_round_off,   ///< holds up to round-off alone
@@ -121,9 +122,6 @@ Warnings several_solutions(const CoulombReport &report);
 /** What its mesh does not see: contact, gaps, bounds of friction, loads and displacements between the points of rules. */
 template <int dim>
 Warnings unseen_warnings(const Solution<dim> &solution);
-
-/** That a tolerance on the bound was held against the indicator, because of @p no_bound; none: it was not. */
-Warnings tolerance_warnings(const Adaptivity &adaptivity, const std::string &no_bound);
 
 /** That Adaptivity::tolerance_column has no half-width, NaN, because of @p no_interval; none: it has. */
 Warnings tolerance_warnings(const Adaptivity &adaptivity, double relative_half_width,
