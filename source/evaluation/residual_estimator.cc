@@ -19,6 +19,7 @@
 #include <hpvi/body/load_quadrature.h>
 #include <hpvi/body/second_derivatives.h>
 #include <hpvi/evaluation/contact_residuals.h>
+#include <hpvi/evaluation/elastic_strain.h>
 #include <hpvi/evaluation/residual_estimator.h>
 #include <hpvi/evaluation/shared_points.h>
 #include <hpvi/evaluation/turned_divergence.h>
@@ -188,15 +189,12 @@ Residuals<dim>::tractions(const Cell &cell, const ShapeTable<dim> &table,
   {
     if (q == 0 || !maps[index].is_affine())
       inverse = invert(maps[index].jacobian(table.points[q]));
-    Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, q * table.rows_per_point,
-                                                     table.derivatives.m(), inverse);
-    const double hoop =
-        u.empty() ? 0.
-                  : scene.hoop_strain(cell->material_id(), vector_at<dim>(u, result.size(), q),
-                                      gradient, maps[index].point(table.points[q]));
-    if (scene.has_initial_strain())
-      gradient -= scene.initial_strain_in(cell, maps[index].point(table.points[q]));
-    result[q] = law.traction(gradient, normals[q], hoop);
+    const Tensor<2, dim> gradient = physical_gradient<dim>(derivatives, q * table.rows_per_point,
+                                                           table.derivatives.m(), inverse);
+    const ElasticStrain<dim> strain = elastic_strain(
+        scene, cell->material_id(), maps[index], table.points[q],
+        u.empty() ? Tensor<1, dim>() : vector_at<dim>(u, result.size(), q), gradient);
+    result[q] = law.traction(strain.in_plane, normals[q], strain.hoop);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/body/mesh.h>
+#include <hpvi/evaluation/elastic_strain.h>
 #include <hpvi/evaluation/values_at.h>
 
 #include <algorithm>
@@ -52,20 +53,20 @@ std::vector<PointValue<dim>> values_at(const Field<dim> &field,
       for (unsigned int j = 0; j < dim; ++j)
         gradient[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
     }
-    const Point<dim> x = map.point(table.points[q]);
     gradient = gradient * invert(map.jacobian(table.points[q]));
-    const double hoop = scene.hoop_strain(cell->material_id(), value.displacement, gradient, x);
-    value.stress = law.stress(gradient - scene.initial_strain_in(cell, x), hoop);
+    const ElasticStrain<dim> strain = elastic_strain(scene, cell->material_id(), map,
+                                                     table.points[q], value.displacement, gradient);
+    value.stress = law.stress(strain.in_plane, strain.hoop);
     if constexpr (dim == 2)
-      value.across = material.transverse_stress(
-          value.stress, scene.is_axisymmetric() ? -hoop : initial_strain_across(scene, cell, x));
+      value.across = material.transverse_stress(value.stress, strain.across);
   }
   return result;
 }
 
 template <int dim>
 std::vector<std::optional<PointValue<dim>>> values_at(const Field<dim> &field,
-                                                      const std::vector<Point<dim>> &points)
+                                                      const std::vector<Point<dim>> &points,
+                                                      const std::optional<unsigned int> body)
 {
   std::vector<std::size_t> order(points.size()); // by x
   std::iota(order.begin(), order.end(), 0);
@@ -74,6 +75,8 @@ std::vector<std::optional<PointValue<dim>>> values_at(const Field<dim> &field,
   std::vector<std::optional<PointValue<dim>>> result(points.size());
   for (const auto &cell : field.dof_handler.active_cell_iterators())
   {
+    if (body && body_of<dim>(field.scene.geometry, cell) != *body)
+      continue;
     const auto [least, largest] = reach<dim>(cell);
     std::vector<std::size_t> found;
     std::vector<Point<dim>> references;
@@ -98,10 +101,10 @@ std::vector<std::optional<PointValue<dim>>> values_at(const Field<dim> &field,
 
 template std::vector<PointValue<2>> values_at(const Field<2> &, const Field<2>::Cell &,
                                               const ShapeTable<2> &);
-template std::vector<std::optional<PointValue<2>>> values_at(const Field<2> &,
-                                                             const std::vector<Point<2>> &);
+template std::vector<std::optional<PointValue<2>>>
+values_at(const Field<2> &, const std::vector<Point<2>> &, std::optional<unsigned int>);
 template std::vector<PointValue<3>> values_at(const Field<3> &, const Field<3>::Cell &,
                                               const ShapeTable<3> &);
-template std::vector<std::optional<PointValue<3>>> values_at(const Field<3> &,
-                                                             const std::vector<Point<3>> &);
+template std::vector<std::optional<PointValue<3>>>
+values_at(const Field<3> &, const std::vector<Point<3>> &, std::optional<unsigned int>);
 } // namespace hpvi

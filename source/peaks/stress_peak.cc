@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
-#include <hpvi/discretisation/initial_stress.h>
 #include <hpvi/evaluation/contact_traces.h>
+#include <hpvi/evaluation/elastic_strain.h>
 #include <hpvi/evaluation/probe_value.h>
 #include <hpvi/peaks/stress_peak.h>
 
@@ -46,19 +46,18 @@ StressSample<dim> largest_von_mises(const typename Field<dim>::Cell &cell, const
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    const Point<dim> x = map.point(table.points[q]);
     const Tensor<2, dim> gradient = reference * invert(map.jacobian(table.points[q]));
     Tensor<1, dim> u;
     for (unsigned int c = 0; c < dim && !values.empty(); ++c)
       u[c] = values[c * table.points.size() + q];
-    const double hoop = field.scene.hoop_strain(cell->material_id(), u, gradient, x);
-    const double value = von_mises<dim>(
-        material, law.stress(gradient - field.scene.initial_strain_in(cell, x), hoop),
-        values.empty() ? initial_strain_across(field.scene, cell, x) : -hoop);
+    const ElasticStrain<dim> strain =
+        elastic_strain(field.scene, cell->material_id(), map, table.points[q], u, gradient);
+    const double value =
+        von_mises<dim>(material, law.stress(strain.in_plane, strain.hoop), strain.across);
     if (value > largest.value)
     {
       largest.value = value;
-      largest.where = x;
+      largest.where = map.point(table.points[q]);
     }
   }
   return largest;

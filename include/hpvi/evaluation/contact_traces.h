@@ -3,6 +3,7 @@
 #define hpvi_contact_traces_h
 
 #include <hpvi/discretisation/solution.h>
+#include <hpvi/evaluation/elastic_strain.h>
 #include <hpvi/evaluation/field.h>
 
 namespace hpvi
@@ -41,12 +42,10 @@ public:
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int j = 0; j < dim; ++j)
         reference[c][j] = derivatives[c * table.derivatives.m() + q * table.rows_per_point + j];
-    dealii::Tensor<2, dim> strain = reference * dealii::invert(map.jacobian(table.points[q]));
-    const dealii::Point<dim> x = map.point(table.points[q]);
-    const double hoop = scene.hoop_strain(material, displacement(q), strain, x);
-    if (!scene.initial_strains.empty())
-      strain -= scene.initial_strain(material, x);
-    return law.stress(strain, hoop);
+    const ElasticStrain<dim> strain =
+        elastic_strain(scene, material, map, table.points[q], displacement(q),
+                       reference * dealii::invert(map.jacobian(table.points[q])));
+    return law.stress(strain.in_plane, strain.hoop);
   }
 
   /** sigma n - G: what the plane exerts, without an applied traction G. */

@@ -17,11 +17,13 @@ std::vector<PointValue<dim>> values_at(const Field<dim> &field,
 
 /**
  * u_N and its stress at many points on one process, by cells: what Field::at() says of each, null outside the body, in a
- * time that grows like the number of cells and that of points rather than with their product.
+ * time that grows like the number of cells and that of points rather than with their product. Of the number @p body of several, if it is
+ * given: at a joint each has its own.
  */
 template <int dim>
 std::vector<std::optional<PointValue<dim>>>
-values_at(const Field<dim> &field, const std::vector<dealii::Point<dim>> &points);
+values_at(const Field<dim> &field, const std::vector<dealii::Point<dim>> &points,
+          std::optional<unsigned int> body = std::nullopt);
 } // namespace hpvi
 
 #endif
