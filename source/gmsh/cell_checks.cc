@@ -150,7 +150,8 @@ void check_hanging_nodes(const CoarseMesh &mesh, const CellEdges &edges,
       complain("the node at " + to_string(mesh.vertices[v]) + " hangs on the edge " +
                edge_in_words(mesh, edges.all()[e].vertices) +
                " of another cell; give both surfaces one curve there, Coherence in the drawing "
-               "makes it");
+               "makes it, or a subsection Body NAME for each with its Surfaces, if they are bodies "
+               "of their own");
 }
 } // namespace
 

@@ -133,6 +133,7 @@ void check_places(const GmshFile &file, const CoarseMesh &mesh,
     complain("the nodes " + std::to_string(file.nodes[nodes[first]].tag) + " and " +
              std::to_string(file.nodes[nodes[second]].tag) + " are both at " + to_string(x[first]) +
              (n > 1 ? ", one of " + std::to_string(n) + " such pairs" : "") +
-             "; give surfaces that touch one curve there, Coherence in the drawing makes it");
+             "; give surfaces that touch one curve there, Coherence in the drawing makes it, or a "
+             "subsection Body NAME for each with its Surfaces, if they are bodies of their own");
 }
 } // namespace hpvi

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace hpvi
 {
@@ -20,14 +22,18 @@ namespace
 class MeshMaker
 {
 public:
-  MeshMaker(const GmshFile &file, const MeshComplaint &complain)
-      : file(file), complain(complain), vertex_of(file.nodes.size(), CoarseMesh::inside)
+  MeshMaker(const GmshFile &file, const std::vector<std::string> &surfaces,
+            const MeshComplaint &complain)
+      : file(file), wanted(surfaces), complain(complain),
+        vertex_of(file.nodes.size(), CoarseMesh::inside)
   {
   }
 
   CoarseMesh make()
   {
     take_cells();
+    if (mesh.cells.empty())
+      return std::move(mesh);
     take_vertices();
     orient_cells(mesh, lines, complain);
     const CellEdges edges(mesh, lines, complain);
@@ -43,6 +49,7 @@ private:
     return element_kind(element.type).dim == 2;
   }
 
+  /** All surfaces have numbers, those too that are left out. */
   void take_cells()
   {
     std::vector<std::int64_t> tags;
@@ -52,7 +59,9 @@ private:
     const GroupNumbers numbers(file, 2, tags, complain);
     mesh.surfaces = numbers.names();
     for (const GmshFile::Element &element : file.elements)
-      if (is_cell(element))
+      if (is_cell(element) && !is_wanted(numbers.number(element.group)))
+        leave_out(element);
+      else if (is_cell(element))
       {
         CoarseMesh::Cell cell;
         cell.surface = numbers.number(element.group);
@@ -66,6 +75,25 @@ private:
         mesh.cells.push_back(cell);
         lines.push_back(element.line);
       }
+  }
+
+  bool is_wanted(const unsigned int surface) const
+  {
+    return wanted.empty() ||
+           std::find(wanted.begin(), wanted.end(), mesh.surfaces[surface]) != wanted.end();
+  }
+
+  void leave_out(const GmshFile::Element &cell)
+  {
+    for (unsigned int k = 0; k < 4; ++k)
+      left_out.insert(std::minmax({cell.nodes[k], cell.nodes[(k + 1) % 4]}));
+  }
+
+  /** Is it of no cell of the file? Those of cells that are left out are left out with them. */
+  bool is_loose(const CellEdges &edges, const GmshFile::Element &line) const
+  {
+    return edge_between(edges, line.nodes[0], line.nodes[1]) == CoarseMesh::inside &&
+           left_out.count(std::minmax({line.nodes[0], line.nodes[1]})) == 0;
   }
 
   unsigned int take_node(const unsigned int node, const std::size_t line)
@@ -123,7 +151,7 @@ private:
         const unsigned int e =
             edge_between(edges, element.nodes[k], element.nodes[(k + 1) % kind.n_corners]);
         if (e == CoarseMesh::inside)
-          continue; // a line that edge_groups() refuses, or one in no group
+          continue; // a line that edge_groups() refuses, or one in no group, or what is left out
         const unsigned int middle = element.nodes[kind.n_corners + k];
         if (middles[e] != CoarseMesh::inside && middles[e] != middle)
           complain.damaged(element.line, "the edge " +
@@ -150,9 +178,11 @@ private:
     {
       if (is_cell(element) || element.group == 0)
         continue;
+      if (is_loose(edges, element))
+        refuse_loose_lines(edges, element);
       const unsigned int e = edge_between(edges, element.nodes[0], element.nodes[1]);
       if (e == CoarseMesh::inside)
-        refuse_loose_lines(edges, element);
+        continue;
       if (groups[e] != 0 && groups[e] != element.group)
         complain.at(element.line, "the edge " + edge_in_words(mesh, edges.all()[e].vertices) +
                                       " is in two physical groups, " + file.words({1, groups[e]}) +
@@ -167,8 +197,7 @@ private:
   {
     unsigned int n = 0;
     for (const GmshFile::Element &element : file.elements)
-      n += !is_cell(element) && element.group == first.group &&
-           edge_between(edges, element.nodes[0], element.nodes[1]) == CoarseMesh::inside;
+      n += !is_cell(element) && element.group == first.group && is_loose(edges, element);
     const auto place = [&](const unsigned int k)
     {
       const Point<3> &at = file.nodes[first.nodes[k]].at;
@@ -236,8 +265,10 @@ private:
   }
 
   const GmshFile &file;
+  const std::vector<std::string> &wanted;
   const MeshComplaint &complain;
   CoarseMesh mesh;
+  std::set<std::pair<unsigned int, unsigned int>> left_out; ///< edges of other surfaces, by nodes
   std::vector<unsigned int> vertex_of; ///< by node; CoarseMesh::inside: not used
   std::vector<unsigned int> nodes;     ///< by vertex
   std::vector<std::size_t> lines;      ///< by cell
@@ -248,11 +279,11 @@ private:
 };
 } // namespace
 
-CoarseMesh read_mesh_file(const std::string &path)
+CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string> &surfaces)
 {
   const GmshFile file = read_gmsh_file(path);
   const MeshComplaint complain(path);
   check_elements(file, complain);
-  return MeshMaker(file, complain).make();
+  return MeshMaker(file, surfaces, complain).make();
 }
 } // namespace hpvi

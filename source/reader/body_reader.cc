@@ -39,9 +39,6 @@ std::string remark_on_constants(const Material &material)
              : "";
 }
 
-namespace
-{
-/** What says where something is knows neither time nor material. */
 template <int dim>
 Expression<dim> read_where(const Parameters &parameters, const std::string &section,
                            const std::vector<Point<dim>> &points)
@@ -59,6 +56,8 @@ Expression<dim> read_where(const Parameters &parameters, const std::string &sect
   return reader.template read<1>(section, "Where", "", points)[0];
 }
 
+namespace
+{
 /** The value of an entry of the whole body, which any material may name; they have to agree. */
 std::string common_value(const Parameters &parameters, const std::vector<Material> &materials,
                          const std::string &entry)
@@ -199,6 +198,9 @@ void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> 
       for (const std::string &remark : remarks_on_facets(*mesh))
         scene.remarks.push_back(remark);
   read_materials(parameters, names.materials, scene);
+  if constexpr (dim == 2)
+    if (scene.is_axisymmetric())
+      lay_on_axis(scene.geometry);
   const std::vector<Material> materials = scene.materials;
   scene.materials.resize(1); // the shape must be sound before functions are tried on it
   scene.check_body();
@@ -224,6 +226,10 @@ std::vector<unsigned int> materials_along(const Scene<dim> &scene,
   return result;
 }
 
+template Expression<2> read_where(const Parameters &, const std::string &,
+                                  const std::vector<Point<2>> &);
+template Expression<3> read_where(const Parameters &, const std::string &,
+                                  const std::vector<Point<3>> &);
 template void read_body(const Parameters &, const FreeNames &, Scene<2> &);
 template void read_body(const Parameters &, const FreeNames &, Scene<3> &);
 template std::vector<unsigned int> materials_along(const Scene<2> &, const BoundaryCondition<2> &);

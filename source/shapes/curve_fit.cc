@@ -203,12 +203,15 @@ std::optional<CircleFit> polygon_for_circle(const CoarseMesh &mesh,
 {
   for (const EdgeChain &chain : chains_of(mesh, edges))
   {
-    const std::vector<Point<2>> points = points_of(mesh, chain);
+    std::vector<Point<2>> points = points_of(mesh, chain);
+    for (const unsigned int e : chain.edges)
+      if (mesh.edges[e].curve)
+        points.push_back(mesh.edges[e].curve.point(0.5));
     if (points.size() < 5)
       continue;
     bool is_smooth = true;
     for (unsigned int k = 1; k < chain.edges.size(); ++k)
-      is_smooth = is_smooth && turn_at(mesh, chain, k) < 45;
+      is_smooth = is_smooth && (mesh.edges[chain.edges[k]].curve || turn_at(mesh, chain, k) < 45);
     const auto fit = fit_circle(points);
     if (is_smooth && fit && fit->deviation <= 1e-10)
       return fit;

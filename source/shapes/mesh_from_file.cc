@@ -3,14 +3,17 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
 #include <hpvi/gmsh/mesh_file.h>
+#include <hpvi/gmsh/quadratic_edge.h>
 #include <hpvi/shapes/curve_fit.h>
 #include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/mesh_surfaces.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <map>
+#include <numeric>
 
 namespace hpvi
 {
@@ -30,6 +33,40 @@ std::vector<unsigned int> edges_of(const CoarseMesh &mesh,
   return result;
 }
 
+using Ends = std::array<unsigned int, 2>;
+
+/** The cell that has each edge counterclockwise. */
+std::map<Ends, unsigned int> cells_by_edge(const CoarseMesh &mesh)
+{
+  std::map<Ends, unsigned int> result;
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    for (unsigned int v = 0; v < 4; ++v)
+      result[{{mesh.cells[c].vertices[v], mesh.cells[c].vertices[(v + 1) % 4]}}] = c;
+  return result;
+}
+
+/** How many parts the cells make that no edge connects. */
+unsigned int n_parts(const CoarseMesh &mesh)
+{
+  std::vector<unsigned int> parent(mesh.cells.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](unsigned int c)
+  {
+    while (parent[c] != c)
+      c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  unsigned int n = mesh.cells.size();
+  const std::map<Ends, unsigned int> cells = cells_by_edge(mesh);
+  for (const auto &[ends, cell] : cells)
+    if (const auto other = cells.find({{ends[1], ends[0]}});
+        other != cells.end() && root(cell) != root(other->second))
+    {
+      parent[root(cell)] = root(other->second);
+      --n;
+    }
+  return n;
+}
 /** As its entry `Curve` says. */
 void bend(const Parameters &parameters, const std::string &name,
           const std::vector<unsigned int> &edges, CoarseMesh &mesh)
@@ -50,16 +87,15 @@ std::vector<std::string> words_in(const std::string &list)
   return Utilities::split_string_list(list, ',');
 }
 
-/** Those that a body takes. */
-std::vector<std::string> surfaces_in(const Parameters &parameters, const CoarseMesh &mesh)
+/** What a body takes is in the file. */
+void check_surfaces(const Parameters &parameters, const std::vector<std::string> &wanted,
+                    const CoarseMesh &mesh)
 {
-  const std::vector<std::string> result = words_in(parameters.text("Geometry", "Surfaces"));
-  for (const std::string &surface : result)
+  for (const std::string &surface : wanted)
     if (std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) == mesh.surfaces.end())
       parameters.reject("Geometry", "Surfaces",
                         "names " + printable(surface) + ", which the mesh has not; it has " +
                             listed(mesh.surfaces, "and"));
-  return result;
 }
 
 void read_file(const Parameters &parameters, Geometry<2> &geometry)
@@ -68,9 +104,11 @@ void read_file(const Parameters &parameters, Geometry<2> &geometry)
   if (file.empty())
     parameters.reject("Geometry", "File", "names no mesh; give a file of Gmsh, as body.msh");
   const std::string path = beside(parameters.file_name(), file);
-  CoarseMesh mesh = read_mesh_file(path);
-  if (parameters.has("Geometry", "Surfaces"))
-    mesh = surfaces_of(mesh, surfaces_in(parameters, mesh));
+  const std::vector<std::string> surfaces = parameters.has("Geometry", "Surfaces")
+                                                ? words_in(parameters.text("Geometry", "Surfaces"))
+                                                : std::vector<std::string>();
+  CoarseMesh mesh = read_mesh_file(path, surfaces);
+  check_surfaces(parameters, surfaces, mesh);
   if (const unsigned int n = n_parts(mesh); n > 1)
     throw InputError(printable(path, 400) + ": the cells make " + std::to_string(n) +
                      " parts that no edge connects, and a body is one part; save a file for each, "
@@ -122,17 +160,25 @@ std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
   std::vector<std::string> result;
   for (unsigned int b = 0; b < mesh.boundaries.size(); ++b)
   {
-    std::vector<unsigned int> straight;
+    std::vector<unsigned int> of_file; // what Curve has bent follows circles and splines
+    bool is_quadratic = false;
     for (const unsigned int e : edges_of(mesh, &CoarseMesh::Edge::boundary, b))
-      if (!mesh.edges[e].curve)
-        straight.push_back(e);
-    if (const auto fit = polygon_for_circle(mesh, straight))
-      result.push_back("boundary " +
-                       (mesh.boundaries[b].empty() ? "without a name" : mesh.boundaries[b]) +
-                       " is a polygon with its vertices on a circle of radius " +
-                       text(fit->radius, 6) + " around " + to_string(fit->centre) +
-                       ", and the body a polygon with corners there: set Boundary " +
-                       mesh.boundaries[b] + "/Curve = circle if that is meant");
+    {
+      const bool is_of_second_order =
+          dynamic_cast<const QuadraticEdge *>(mesh.edges[e].curve.curve.get()) != nullptr;
+      if (is_of_second_order || !mesh.edges[e].curve)
+        of_file.push_back(e);
+      is_quadratic = is_quadratic || is_of_second_order;
+    }
+    if (const auto fit = polygon_for_circle(mesh, of_file))
+      result.push_back(
+          "boundary " + (mesh.boundaries[b].empty() ? "without a name" : mesh.boundaries[b]) +
+          (is_quadratic ? " has edges of second order with their nodes"
+                        : " is a polygon with its vertices") +
+          " on a circle of radius " + text(fit->radius, 6) + " around " + to_string(fit->centre) +
+          (is_quadratic ? ", and the body parabolas with corners between them"
+                        : ", and the body a polygon with corners there") +
+          ": set Boundary " + mesh.boundaries[b] + "/Curve = circle if that is meant");
   }
   return result;
 }
@@ -155,9 +201,7 @@ ShapeKind<2> mesh_from_file()
         const std::string file = text("File");
         if (file.empty())
           return SideNames();
-        CoarseMesh mesh = read_mesh_file(file);
-        if (const std::string surfaces = text("Surfaces"); !surfaces.empty())
-          mesh = surfaces_of(mesh, words_in(surfaces));
+        const CoarseMesh mesh = read_mesh_file(file, words_in(text("Surfaces")));
         require_names(mesh.boundaries, file, "curve");
         return SideNames{mesh.boundaries, mesh.interfaces, true};
       },

@@ -15,6 +15,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace hpvi
@@ -276,6 +277,22 @@ Geometry<2> geometry_of(const Shape shape, const CoarseMesh &mesh)
   geometry.mesh = std::make_shared<const CoarseMesh>(mesh);
   geometry.corners = corners_around(mesh);
   return geometry;
+}
+
+void lay_on_axis(Geometry<2> &geometry)
+{
+  const double near = 1e-10 * geometry.diameter();
+  const auto lay = [near](Point<2> &x)
+  {
+    if (std::abs(x[0]) <= near)
+      x[0] = 0;
+  };
+  std::for_each(geometry.corners.begin(), geometry.corners.end(), lay);
+  if (!geometry.mesh)
+    return;
+  auto mesh = std::make_shared<CoarseMesh>(*geometry.mesh);
+  std::for_each(mesh->vertices.begin(), mesh->vertices.end(), lay);
+  geometry.mesh = mesh;
 }
 
 template <int dim>

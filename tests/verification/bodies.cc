@@ -7,7 +7,6 @@
 #include <hpvi/closed_forms/hertz.h>
 #include <hpvi/evaluation/contact_residuals.h>
 #include <hpvi/scene/bodies.h>
-#include <hpvi/shapes/mesh_surfaces.h>
 
 #include <cmath>
 
@@ -851,11 +850,6 @@ TEST(Bodies, ShareAMeshFile)
   EXPECT_NEAR(meshes.energy, boxes.energy, 1e-12);
   EXPECT_NEAR(meshes.normal, boxes.normal, 1e-10);
   EXPECT_NEAR(meshes.friction, boxes.friction, 1e-10);
-  // Without Surfaces the file is one body again.
-  const CoarseMesh whole = read_text(two_squares_41);
-  EXPECT_EQ(n_parts(whole), 1U);
-  EXPECT_EQ(n_parts(surfaces_of(whole, {"stiff"})), 1U);
-  EXPECT_EQ(surfaces_of(whole, {"stiff"}).cells.size(), 1U);
 }
 
 // ---------------------------------------------------------------- histories

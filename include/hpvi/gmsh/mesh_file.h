@@ -5,6 +5,7 @@
 #include <hpvi/scene/coarse_mesh.h>
 
 #include <string>
+#include <vector>
 
 namespace hpvi
 {
@@ -12,6 +13,10 @@ namespace hpvi
  * The body in the mesh file @p path of Gmsh: quadrilaterals of first or second order in z = 0, in format 4.1, 4.0 or
  * 2.2, ASCII. Boundaries, interfaces and surfaces are physical groups in the order of their tags; one without a name
  * is called by its tag.
+ *
+ * Where @p surfaces are named, the body consists of these, and the file counts as if it had no others: a curve between one of
+ * them and another is a boundary, and nodes of others may lie where these have theirs. CoarseMesh::surfaces still names all of the
+ * file; where it has none of those that are named, there are no cells.
  *
  * Edges of the boundary stand loop by loop, each where the one before it ends, and a loop begins where a boundary
  * begins. Those inside run counterclockwise around the cell of the surface with the lower number. Curves are those of
@@ -23,7 +28,8 @@ namespace hpvi
  * through edges; nodes outside the plane, twice at one place (to 1e-12 of the size) or hanging; edges in two groups,
  * or in one and of no cell; a group that lies on the boundary and inside; names that a scene cannot write.
  */
-CoarseMesh read_mesh_file(const std::string &path);
+CoarseMesh read_mesh_file(const std::string &path,
+                          const std::vector<std::string> &surfaces = {});
 } // namespace hpvi
 
 #endif

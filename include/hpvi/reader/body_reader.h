@@ -21,6 +21,11 @@ class Parameters;
 template <int dim>
 void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene);
 
+/** The entry `Where` of @p section, tried at @p points: what says where something is knows neither time nor material. */
+template <int dim>
+Expression<dim> read_where(const Parameters &parameters, const std::string &section,
+                           const std::vector<dealii::Point<dim>> &points);
+
 /** What expressions may use where the body is of @p material: E, nu, mu and pi, the time @p t in a load history. */
 std::map<std::string, double> constants_of(const Material &material, std::optional<double> t);
 

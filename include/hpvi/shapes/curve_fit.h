@@ -41,7 +41,10 @@ std::string bend_to_circles(CoarseMesh &mesh, const std::vector<unsigned int> &e
 /** Likewise to splines, each chain between corners of 45 degrees or more. */
 std::string bend_to_splines(CoarseMesh &mesh, const std::vector<unsigned int> &edges);
 
-/** Straight edges of one boundary, five vertices or more, that look like a circle: to 1e-10, in turns below 45 degrees. */
+/**
+ * Edges of one boundary, straight or of second order, that look like a circle: five nodes or more lie on it to 1e-10, and straight
+ * ones turn by less than 45 degrees. Whose middles are on it, too, is no polygon.
+ */
 std::optional<CircleFit> polygon_for_circle(const CoarseMesh &mesh,
                                             const std::vector<unsigned int> &edges);
 } // namespace hpvi

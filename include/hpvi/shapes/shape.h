@@ -62,6 +62,9 @@ std::string name_of_shape(Shape shape);
 /** A body with a mesh of its own, for scenes by code: call Scene::name_boundaries() after that. */
 Geometry<2> geometry_of(Shape shape, const CoarseMesh &mesh);
 
+/** Moves vertices that are nearer to x = 0 than 1e-10 of the size onto it: a drawing has its poles at x = -1.8e-15. */
+void lay_on_axis(Geometry<2> &geometry);
+
 /** "two" numbers and "x, y", in space "three" and "x, y, z". */
 template <int dim>
 struct PointWords
