@@ -3,11 +3,43 @@
 #include <hpvi/contact/contact_order.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace hpvi
 {
 using namespace dealii;
+
+namespace
+{
+/**
+ * The edges of one boundary, ascending, as they follow each other. The mesh begins its loops anywhere: what ends where a chain of
+ * edges begins comes before it, so that a chain begins at an end of the boundary.
+ */
+std::vector<unsigned int> chained(const CoarseMesh &mesh, std::vector<unsigned int> edges)
+{
+  const auto meet = [&](const unsigned int one, const unsigned int other)
+  { return mesh.edges[one].vertices[1] == mesh.edges[other].vertices[0]; };
+  for (auto begin = edges.begin(); begin != edges.end();)
+  {
+    auto end = begin + 1;
+    while (end != edges.end() && meet(end[-1], *end))
+      ++end;
+    const auto last =
+        std::find_if(end, edges.end(), [&](const unsigned int edge) { return meet(edge, *begin); });
+    if (last != edges.end())
+    {
+      auto first = last;
+      while (first != end && meet(first[-1], *first))
+        --first;
+      std::rotate(begin, first, last + 1);
+      end += last + 1 - first;
+    }
+    begin = end;
+  }
+  return edges;
+}
+} // namespace
 
 template <int dim>
 void sort_along_boundaries(const Geometry<dim> &geometry, std::vector<ContactFace<dim>> &faces)
@@ -21,19 +53,28 @@ void sort_along_boundaries(const Geometry<dim> &geometry, std::vector<ContactFac
                               return a.frame(0.5).tangent * (b.point(0.5) - a.point(0.5)) > 0;
                             });
   const EdgePlaces places(*geometry.mesh);
+  std::vector<EdgePlace> at;
+  std::map<types::boundary_id, std::vector<unsigned int>> edges;
+  for (const ContactFace<dim> &face : faces)
+  {
+    at.push_back(places(face.cell, face.face_no));
+    edges[face.condition->id].push_back(at.back().edge);
+  }
+  std::map<unsigned int, unsigned int> ranks;
+  for (auto &[boundary, own] : edges)
+  {
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    for (const unsigned int edge : chained(*geometry.mesh, own))
+      ranks.emplace(edge, ranks.size());
+  }
   std::vector<std::pair<double, unsigned int>> order;
   for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    const EdgePlace at = places(faces[k].cell, faces[k].face_no);
-    order.emplace_back(at.edge + (at.from + at.to) / 2, k);
-  }
+    order.emplace_back(ranks.at(at[k].edge) + (at[k].from + at[k].to) / 2, k);
   std::sort(order.begin(), order.end());
   std::vector<ContactFace<dim>> sorted;
   for (const auto &[place, k] : order)
     sorted.push_back(faces[k]);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const ContactFace<dim> &a, const ContactFace<dim> &b)
-                   { return a.condition->id < b.condition->id; });
   faces = std::move(sorted);
 }
 

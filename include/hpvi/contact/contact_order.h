@@ -9,8 +9,8 @@
 namespace hpvi
 {
 /**
- * Sorts faces one boundary after the other: of a mesh in the order of its edges, counterclockwise around the body; of a grid by
- * place along the tangent.
+ * Sorts faces one boundary after the other: of a mesh as its edges follow each other, counterclockwise around the body, from an end
+ * of the boundary; of a grid by place along the tangent.
  */
 template <int dim>
 void sort_along_boundaries(const Geometry<dim> &geometry, std::vector<ContactFace<dim>> &faces);
