@@ -54,6 +54,20 @@ std::vector<Point<dim>> points_on(const CoarseFace<dim> &face)
   return points_between<dim - 1, dim>(face.corners);
 }
 
+/** Between @p one and @p other, of which one alone is inside, where that changes. */
+template <int dim>
+Point<dim> change_between(const std::function<bool(const Point<dim> &)> &is_inside, Point<dim> one,
+                          Point<dim> other)
+{
+  const bool begins_inside = is_inside(one);
+  for (unsigned int k = 0; k < 50; ++k)
+  {
+    const Point<dim> middle = one + 0.5 * (other - one);
+    (is_inside(middle) == begins_inside ? one : other) = middle;
+  }
+  return other;
+}
+
 /** Which entry says where it is. */
 template <int dim>
 std::string place_entry(const BoundaryCondition<dim> &part)
@@ -78,7 +92,8 @@ void check_ends(const Scene<dim> &scene, const BoundaryCondition<dim> &part)
     for (const Point<dim> &x : points)
       if (is_inside(x) != is_inside(points.back()))
         reject(scene, section_of(part), place_entry(part),
-               "changes its sign inside a face of the coarse mesh, at " + to_string(x) +
+               "changes its sign inside a face of the coarse mesh, at " +
+                   to_string(change_between<dim>(is_inside, x, points.back())) +
                    "; end the part where " +
                    (scene.geometry.has_mesh() ? "the mesh has a vertex"
                                               : "Geometry/Subdivisions has a grid line"));
@@ -195,7 +210,10 @@ void check_material_places(const Scene<dim> &scene)
     for (const Point<dim> &x : points)
       if (const types::material_id other = scene.material_at(x); other != material)
         reject(scene, section_of_material(scene.materials[std::max(material, other)].name), "Where",
-               "changes its sign inside a cell of the coarse mesh, at " + to_string(x) +
+               "changes its sign inside a cell of the coarse mesh, at " +
+                   to_string(change_between<dim>([&](const Point<dim> &at)
+                                                 { return scene.material_at(at) == material; },
+                                                 x, points.back())) +
                    "; end the material where " +
                    (scene.geometry.has_mesh() ? "cells meet"
                                               : "Geometry/Subdivisions has a grid line"));

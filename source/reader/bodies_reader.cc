@@ -3,7 +3,9 @@
 #include <hpvi/input/expressions.h>
 #include <hpvi/input/parameters.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/bodies.h>
@@ -69,6 +71,12 @@ std::vector<Entry> pair_entries(const std::string &name)
       {section, "Gap", "", text, "one expression u_0 or nothing",
        "Distance u_0(x,y) beside that of the drawing, along the normal [length], negative: "
        "interference; of Law = unilateral; empty: 0."},
+      {section, "Closed within", "0", std::make_shared<Patterns::Double>(0),
+       "a number of 0 or more",
+       "Distance of the drawing, or depth to which it has the sides in each other, up to which "
+       "they "
+       "count as touching [length]; 1 % of the size of the bodies at most; 0: what the drawing has "
+       "is meant."},
       {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g; empty or 0: no friction."},
       {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
@@ -99,6 +107,31 @@ Scene<2> single_body(const Parameters &parameters, const std::string &name)
   single.check_body();
   return single;
 }
+
+/** Grid lines of boxes where parts of sides and materials end, as of one body. */
+void cut_bodies(const Parameters &parameters, const FreeNames &names,
+                std::vector<Scene<2>> &singles)
+{
+  for (unsigned int b = 0; b < singles.size(); ++b)
+  {
+    Scene<2> &body = singles[b];
+    for (const std::string &part : names.parts)
+      for (unsigned int side = 0; side < body.geometry.boundary_names().size(); ++side)
+        if (const std::string section = "Boundary " + part;
+            parameters.text(section, "On") ==
+            names.bodies[b] + "." + body.geometry.boundary_names()[side])
+          cut_side(body, side,
+                   read_where(parameters, section, sides_of(body.geometry)[side].sample()),
+                   section + "/Where");
+    if (!parameters.text(section_of_body(names.bodies[b]), "Material").empty())
+      continue;
+    for (const std::string &material : names.materials)
+      if (const std::string section = section_of_material(material);
+          !parameters.text(section, "Where").empty())
+        cut_body(body, read_where(parameters, section, sample_body(body.geometry)),
+                 section + "/Where");
+  }
+}
 } // namespace
 
 void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> &scene)
@@ -106,10 +139,15 @@ void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> 
   std::vector<Scene<2>> singles;
   for (const std::string &name : names.bodies)
     singles.push_back(single_body(parameters, name));
+  cut_bodies(parameters, names, singles);
   std::vector<PairSides> pairs;
   for (const std::string &name : names.pairs)
+  {
     pairs.push_back(
         read_pair_sides(parameters, section_of_pair(name), name, names.bodies, singles));
+    if (!pairs.back().closed.empty())
+      scene.remarks.push_back(pairs.back().closed);
+  }
   check_overlap(parameters, pairs);
   std::vector<SingleBody> bodies;
   for (unsigned int b = 0; b < singles.size(); ++b)
@@ -202,7 +240,7 @@ void read_pair(const Parameters &parameters, const std::optional<double> t, cons
     parameters.reject(section, "Law",
                       "needs bodies that touch, and " + scene.boundaries[pair.parts[0]].name +
                           " and " + scene.boundaries[pair.parts[1]].name +
-                          " lie apart; move them together or set unilateral");
+                          " lie apart; move them together, set Closed within, or unilateral");
   for (const char *const entry : {"Friction bound", "Friction coefficient"})
     if (part.is_tied() && !parameters.text(section, entry).empty())
       parameters.reject(section, entry, "means nothing where bodies are tied; remove it");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace hpvi
 {
@@ -51,7 +52,35 @@ void reject_overlap(const Parameters &parameters, const std::string &section, co
   parameters.reject(section, "Between",
                     "names sides that lie " + to_string(depth) +
                         " inside each other; move the bodies apart and give an interference as a "
-                        "negative Gap");
+                        "negative Gap, or set Closed within if none is meant");
+}
+
+/** The number of `Closed within`. */
+double read_closed(const Parameters &parameters, const std::string &section, const double size)
+{
+  constexpr double most = 0.01;
+  const double closed = parameters.number(section, "Closed within");
+  if (closed > most * size)
+    parameters.reject(section, "Closed within",
+                      "is more than 1 % of the size of the bodies, " + to_string(size) +
+                          "; give less, or move them together in the drawing");
+  return closed;
+}
+
+/** What counts as none of distances from @p least to @p largest, negative where sides lie inside each other. */
+std::string closed_in_words(const PairSides &pair, const double closed, const double least,
+                            const double largest)
+{
+  const std::string sides = pair.sides[0].name + " and " + pair.sides[1].name,
+                    entry = pair.section + "/Closed within = " + to_string(closed);
+  if (largest - least <= 1e-6 * closed && std::abs(least) <= closed)
+    return entry + ": " + sides + " lie " + to_string(std::abs(least)) +
+           (least < 0 ? " inside each other" : " apart") + " in the drawing, which counts as none";
+  const std::string distances = entry + ": distances of " + sides + " in the drawing, from " +
+                                to_string(least) + " to " + to_string(largest) + ", ";
+  return distances + (least > closed                          ? "are all larger, and count"
+                      : -least <= closed && largest <= closed ? "count as none"
+                                                              : "count as none up to it");
 }
 
 Expression<2> inside_of(const FacingSides &facing)
@@ -98,9 +127,22 @@ void cut_at_ends(const Parameters &parameters, const FacingSides &facing, PairSi
   pair.line = facing;
 }
 
+/** @p distance, but 0 up to @p closed. */
+Expression<2> beyond(const double closed, const Expression<2> &distance)
+{
+  if (closed == 0)
+    return distance;
+  return expression<2>(std::function<double(const Point<2> &)>(
+      [closed, distance](const Point<2> &x)
+      {
+        const double value = distance->value(x);
+        return std::abs(value) <= closed ? 0. : value;
+      }));
+}
+
 /** Edge by edge, where sides are curved or at an angle to each other. */
-void match_edges(const Parameters &parameters, const double size, PairSides &pair,
-                 std::vector<Scene<2>> &singles)
+void match_edges(const Parameters &parameters, const double size, const double closed,
+                 PairSides &pair, std::vector<Scene<2>> &singles)
 {
   const auto drawn = [&](const unsigned int k)
   { return DrawnSide(singles[pair.sides[k].body].geometry, pair.sides[k].side); };
@@ -114,9 +156,12 @@ void match_edges(const Parameters &parameters, const double size, PairSides &pai
                           (pair.slave ? "; name the other one or set automatic"
                                       : "; name two that lie opposite, or give them vertices "
                                         "where they do"));
-  if (edges.least < -same_place * size)
+  const double within = std::max(closed, same_place * size);
+  if (edges.least < -within)
     reject_overlap(parameters, pair.section, -edges.least);
-  const bool touches = edges.largest <= same_place * size;
+  const bool touches = edges.largest <= within;
+  if (closed > 0)
+    pair.closed = closed_in_words(pair, closed, edges.least, edges.largest);
   if (edges.left_out)
   {
     const NamedSide &side = pair.sides[edges.slave.value_or(0)];
@@ -127,7 +172,8 @@ void match_edges(const Parameters &parameters, const double size, PairSides &pai
   pair.slave = edges.slave;
   for (const unsigned int k : {0, 1})
   {
-    pair.distance[k] = touches ? nullptr : distance_along_normal(sides[k], sides[1 - k]);
+    pair.distance[k] =
+        touches ? nullptr : beyond(closed, distance_along_normal(sides[k], sides[1 - k]));
     pair.where[k] = expression<2>([side = sides[k], own = edges.in_pair[k]](const Point<2> &x)
                                   { return own[side.nearest_edge(x)] ? 1. : -1.; });
   }
@@ -161,12 +207,19 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
   const double size = std::max(singles[pair.sides[0].body].geometry.diameter(),
                                singles[pair.sides[1].body].geometry.diameter());
   std::string problem;
-  const std::optional<FacingSides> facing = facing_sides(side_of(0), side_of(1), size, problem);
+  std::optional<FacingSides> facing = facing_sides(side_of(0), side_of(1), size, problem);
   if (!problem.empty())
     parameters.reject(section, "Between",
                       "names sides that " + problem + "; name two that lie opposite");
+  const double closed = read_closed(parameters, section, size);
+  if (facing && closed > 0)
+  {
+    pair.closed = closed_in_words(pair, closed, facing->distance, facing->distance);
+    if (std::abs(facing->distance) <= closed)
+      facing->distance = 0;
+  }
   if (!facing)
-    match_edges(parameters, size, pair, singles);
+    match_edges(parameters, size, closed, pair, singles);
   else if (facing->distance < 0)
     reject_overlap(parameters, section, -facing->distance);
   else

@@ -32,10 +32,11 @@ struct PairSides
   std::array<Expression<2>, 2> distance;
   std::optional<unsigned int> slave;
   std::optional<FacingSides> line = std::nullopt; ///< of straight sides that are parallel
+  std::string closed = {}; ///< what `Closed within` does, in words; empty: it is 0
 };
 
 /**
- * `Between` and `Slave` of @p section. Boxes of @p singles get grid lines where the other side ends opposite to an edge. An edge of
+ * `Between`, `Closed within` and `Slave` of @p section. Boxes of @p singles get grid lines where the other side ends opposite to an edge. An edge of
  * another shape may hang over that end; its side is the master then, for a multiplier there would press where nobody is.
  */
 PairSides read_pair_sides(const Parameters &parameters, const std::string &section,
