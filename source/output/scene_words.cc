@@ -9,6 +9,7 @@
 #include <hpvi/output/probe_marks.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/primal/load_check.h>
+#include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
@@ -189,6 +190,21 @@ std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &m
   return lines;
 }
 
+/** Where bodies lie on each other as if they did not know. */
+std::string bare_joints_in_words(const Scene<2> &scene)
+{
+  std::string lines;
+  for (const BareJoint &joint : bare_joints(scene))
+    lines += joint.sides[0] + " and " + joint.sides[1] + " lie on each other at " +
+             place<2>(joint.at) + ", and no Contact names them\n";
+  return lines;
+}
+
+std::string bare_joints_in_words(const Scene<3> &)
+{
+  return {};
+}
+
 /** What a mesh file holds. */
 template <int dim>
 std::string mesh_in_words(const Scene<dim> &scene)
@@ -301,7 +317,8 @@ std::string scene_in_words(const Scene<dim> &scene)
   for (const std::string &remark : scene.remarks)
     remarks += remark + "\n";
   return (last.geometry.bodies.empty() ? body_in_words(last, mesh) : bodies_in_words(last, mesh)) +
-         mesh_in_words(last) + remarks + materials_in_words(last, mesh) +
+         mesh_in_words(last) + remarks + bare_joints_in_words(last) +
+         materials_in_words(last, mesh) +
          (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
                                          " load steps; what follows is at t = 1\n"
                                    : "") +

@@ -176,7 +176,7 @@ public:
   }
 
   MeshArrays mesh() const override;
-  PointArrays at(const std::vector<double> &points) const override;
+  PointArrays at(const std::vector<double> &points, const std::string &body) const override;
   PointArrays grid(unsigned int n) const override;
 
   void take(const StepReport<dim> &step);
@@ -228,15 +228,30 @@ MeshArrays RunOf<dim>::mesh() const
   return mesh;
 }
 
+/** Its number; of no name none. */
 template <int dim>
-PointArrays RunOf<dim>::at(const std::vector<double> &points) const
+std::optional<unsigned int> number_of_body(const Scene<dim> &scene, const std::string &name)
+{
+  if (name.empty())
+    return std::nullopt;
+  std::vector<std::string> names;
+  for (const Body<dim> &body : scene.geometry.bodies)
+    if (names.push_back(body.name); body.name == name)
+      return names.size() - 1;
+  throw std::invalid_argument(
+      "body: there is none called " + printable(name) + "; " +
+      (names.empty() ? "this scene has one body without a name" : "give " + listed(names, "or")));
+}
+
+template <int dim>
+PointArrays RunOf<dim>::at(const std::vector<double> &points, const std::string &body) const
 {
   std::vector<Point<dim>> places(points.size() / dim);
   for (std::size_t k = 0; k < places.size(); ++k)
     for (unsigned int d = 0; d < dim; ++d)
       places[k][d] = points[dim * k + d];
   PointArrays arrays;
-  const auto values = values_at(step().field, places);
+  const auto values = values_at(step().field, places, number_of_body(scene, body));
   for (std::size_t k = 0; k < places.size(); ++k)
     append(arrays, places[k], values[k]);
   return arrays;

@@ -32,13 +32,14 @@ Mesh mesh_of(const Result &result)
 py::array_t<double>
 at_points(const Result &result,
           const py::array_t<double, py::array::c_style | py::array::forcecast> &x,
-          const std::vector<double> PointArrays::*what, const std::vector<Size> &tail)
+          const std::string &body, const std::vector<double> PointArrays::*what,
+          const std::vector<Size> &tail)
 {
   const Size dim = result.dimension();
   if (x.ndim() == 0 || x.shape(x.ndim() - 1) != dim)
     throw py::value_error("points: the last axis has the coordinates, " + std::to_string(dim) +
                           " of them");
-  const PointArrays values = result.at({x.data(), x.data() + x.size()});
+  const PointArrays values = result.at({x.data(), x.data() + x.size()}, body);
   std::vector<Size> shape(x.shape(), x.shape() + x.ndim() - 1);
   shape.insert(shape.end(), tail.begin(), tail.end());
   return array(values.*what, shape);
@@ -144,15 +145,19 @@ void add_result(py::module_ &module)
 axes: matplotlib's, to draw into; scale: how many times displacements are shown.)")
       .def(
           "u",
-          [](const Result &result, const py::array_t<double> &points)
-          { return at_points(result, points, &PointArrays::u, {result.dimension()}); },
-          py::arg("points"), "The displacement at points, (..., dim); NaN outside the body.")
+          [](const Result &result, const py::array_t<double> &points, const std::string &body)
+          { return at_points(result, points, body, &PointArrays::u, {result.dimension()}); },
+          py::arg("points"), py::arg("body") = "",
+          "The displacement at points, (..., dim), of several bodies that of the one called body; "
+          "NaN outside of it.")
       .def(
           "stress",
-          [tensor](const Result &result, const py::array_t<double> &points)
-          { return at_points(result, points, &PointArrays::stress, tensor); },
-          py::arg("points"),
-          "The stress at points, (..., 3, 3), in the plane with sigma_zz; NaN outside the body.")
+          [tensor](const Result &result, const py::array_t<double> &points, const std::string &body)
+          { return at_points(result, points, body, &PointArrays::stress, tensor); },
+          py::arg("points"), py::arg("body") = "",
+          "The stress at points, (..., 3, 3), in the plane with sigma_zz, of several bodies that "
+          "of "
+          "the one called body; NaN outside of it.")
       .def("grid", &grid_of, py::arg("n") = 5,
            "x, u and stress at n points a direction of each cell, ends included.")
       .def_property_readonly(

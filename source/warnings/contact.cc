@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 #include <hpvi/warnings/line.h>
@@ -155,6 +156,27 @@ Warnings steep_gaps(const Scene<dim> &scene, const std::vector<ContactState<dim>
                 "slopes up to ",
                 steep, ": draw the sides so that they nearly are")}};
 }
+
+Warnings joints_without_pair(const Scene<2> &scene)
+{
+  const std::vector<BareJoint> joints = bare_joints(scene);
+  if (joints.empty())
+    return {};
+  const auto &[sides, at] = joints.front();
+  return {{WarningKind::bare_joint, static_cast<double>(joints.size()),
+           line(sides[0], " and ", sides[1], " lie on each other at (", at,
+                ") and no Contact names them",
+                joints.size() > 1 ? line(", one of ", joints.size(), " such joints") : "",
+                ": the bodies part or pass through each other there; open a subsection Contact "
+                "NAME with Between = ",
+                sides[0], ", ", sides[1])}};
+}
+
+/** One body. */
+Warnings joints_without_pair(const Scene<3> &)
+{
+  return {};
+}
 } // namespace
 
 template <int dim>
@@ -163,7 +185,7 @@ Warnings contact_warnings(const Scene<dim> &scene, const std::vector<ContactStat
 {
   return joined(tensile_contact(scene, contact, body), pulling_pressure(scene, contact, body),
                 penetration(scene, contact, body), steep_gaps(scene, contact),
-                no_contact(scene, contact));
+                no_contact(scene, contact), joints_without_pair(scene));
 }
 
 template Warnings contact_warnings(const Scene<2> &, const std::vector<ContactState<2>> &,

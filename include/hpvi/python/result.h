@@ -52,7 +52,8 @@ public:
   virtual Rows loading() const = 0; ///< loading.csv; empty without a history
   virtual std::vector<std::pair<std::string, Rows>> probe_lines() const = 0; ///< by name
   virtual MeshArrays mesh() const = 0;
-  virtual PointArrays at(const std::vector<double> &points) const = 0;
+  /** In the body of this name; empty: in any. Throws std::invalid_argument where there is none of it. */
+  virtual PointArrays at(const std::vector<double> &points, const std::string &body) const = 0;
   /** At n points a direction and cell, ends included, cell by cell, x slowest. */
   virtual PointArrays grid(unsigned int n) const = 0;
   virtual std::vector<double> bound_by_cell() const = 0; ///< empty: there is no bound

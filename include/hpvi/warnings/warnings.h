@@ -22,6 +22,7 @@ enum class WarningKind
   penetration,       ///< deep beside the deformation
   gap_slope,         ///< of two bodies, where they press
   no_contact,        ///< anywhere, in space
+  bare_joint,        ///< of two bodies that lie on each other, and no pair has them
   transition,        ///< open, stick, slip change on a coarse edge
   open_friction,     ///< friction without contact
   stagnation,        ///< of the indicator

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/bare_joints.h>
+#include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/drawn_side.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+constexpr double same_place = 1e-9; ///< of the size of the bodies
+
+struct FreeSide
+{
+  std::string name;
+  unsigned int body;
+  bool is_held;
+  DrawnSide drawn;
+};
+
+std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
+{
+  const std::vector<Side<2>> sides = sides_of(scene);
+  std::vector<FreeSide> result;
+  for (const BoundaryCondition<2> &boundary : scene.boundaries)
+  {
+    const Side<2> &side = sides[boundary.id];
+    if (boundary.pair || side.pieces.empty())
+      continue;
+    std::vector<EdgePath> edges;
+    for (unsigned int k = 0; k < side.pieces.size(); ++k)
+      edges.push_back({side.pieces[k], side.curves[k]});
+    const unsigned int body = scene.geometry.body_of_side(boundary.side);
+    result.push_back({boundary.name.empty()
+                          ? "a side of " + scene.geometry.bodies[body].name + " without a name"
+                          : boundary.name,
+                      body, boundary.has_displacement() || boundary.symmetry || boundary.plate,
+                      DrawnSide(edges)});
+  }
+  return result;
+}
+
+/** A place inside an edge of @p one from which the other side is no distance away along the normal, and a hair beside it, too. */
+std::optional<Point<2>> common_place(const DrawnSide &one, const DrawnSide &other,
+                                     const double size)
+{
+  const auto touches = [&](const EdgePath &edge, const double s)
+  {
+    const auto there = other.opposite(edge.point(s), edge.normal(s));
+    return there && std::abs(there->place.distance) <= same_place * size;
+  };
+  for (const EdgePath &edge : one.edges())
+    for (const double s : {0.25, 0.5, 0.75})
+      if (touches(edge, s) && touches(edge, s + 0.01))
+        return edge.point(s);
+  return std::nullopt;
+}
+} // namespace
+
+std::vector<BareJoint> bare_joints(const Scene<2> &scene)
+{
+  std::vector<BareJoint> result;
+  if (scene.geometry.bodies.empty())
+    return result;
+  const double size = scene.geometry.diameter();
+  const std::vector<FreeSide> sides = sides_without_pair(scene);
+  for (const FreeSide &one : sides)
+    for (const FreeSide &other : sides)
+    {
+      if (one.body >= other.body || (one.is_held && other.is_held))
+        continue;
+      // The shorter edge of two lies on the longer.
+      auto at = common_place(one.drawn, other.drawn, size);
+      if (!at)
+        at = common_place(other.drawn, one.drawn, size);
+      if (at)
+        result.push_back({{{one.name, other.name}}, *at});
+    }
+  return result;
+}
+} // namespace hpvi
