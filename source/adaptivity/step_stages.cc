@@ -7,8 +7,8 @@
 #include <hpvi/adaptivity/limits.h>
 #include <hpvi/adaptivity/marking.h>
 #include <hpvi/adaptivity/step_stages.h>
+#include <hpvi/base/finite.h>
 #include <hpvi/base/memory.h>
-#include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
 
@@ -60,7 +60,8 @@ void StepStages<dim>::judge()
 {
   estimate = backend->estimate();
   norms = hpvi::norms(estimate, backend->communicator);
-  check_finite("the error indicator", norms.total);
+  check_finite("the error indicator", norms.total,
+               scene.materials[0].modulus() * backend->field().largest_displacement());
   {
     StageTimer timer(backend->times.recover);
     energies = backend->energies();

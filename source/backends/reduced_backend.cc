@@ -5,9 +5,9 @@
 // shape functions, element matrices that come again, and the multiplier of the step before, as a
 // function on the contact boundary, from which the next one starts.
 #include <hpvi/backends/reduced_backend.h>
+#include <hpvi/base/finite.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
-#include <hpvi/base/numerical_failure.h>
 #include <hpvi/body/curved_edges.h>
 #include <hpvi/body/folded_cell.h>
 #include <hpvi/contact/matching.h>
@@ -203,7 +203,8 @@ void ReducedBackend<dim>::solve()
 {
   const ElasticSystem<dim> &system = discretisation->system;
   const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
-  check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.));
+  check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.),
+               system.f.linfty_norm());
   {
     StageTimer timer(times.factor);
     factor();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
 #include <hpvi/balance/balance_solver.h>
-#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/finite.h>
 #include <hpvi/discretisation/reduced_problem.h>
 #include <hpvi/quadratic/active_set.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -17,27 +16,12 @@ using namespace dealii;
 
 namespace
 {
-/** Of a program with numbers that are none: units are the cause where the others are far from 1. */
-std::string no_number(const LAPACKFullMatrix<double> &S, const Vector<double> &d,
-                      const std::string &entry)
+std::string no_number(const std::string &entry, const Vector<double> &d)
 {
-  double largest_of_S = 0, largest_of_d = 0;
-  const auto take = [](double &largest, const double value)
-  { largest = std::isnan(value) ? largest : std::max(largest, std::abs(value)); };
-  for (unsigned int i = 0; i < d.size(); ++i)
-  {
-    take(largest_of_d, d[i]);
-    for (unsigned int j = 0; j < d.size(); ++j)
-      take(largest_of_S, S(i, j));
-  }
-  constexpr double far = 1e60; // squares of their quotients reach the end of double precision
-  const auto is_far = [](const double value)
-  { return value > far || (value > 0 && value < 1 / far); };
-  if (is_far(largest_of_S) || is_far(largest_of_d))
-    return "holds numbers that overflow; choose units in which " + entry +
-           " and loads are moderate";
-  return "holds a number that is none, though all others are moderate: look in hpvi --picture for "
-         "contact edges without length, or report the scene";
+  if (overflows(d.linfty_norm()))
+    return "numbers that overflow; choose units in which " + entry + " and loads are moderate";
+  return "what is no number, as 0 divided by 0; look for cells without area and edges without "
+         "length";
 }
 
 std::string not_converged(const CoulombReport &report, const ConeProgram &program,
@@ -46,7 +30,7 @@ std::string not_converged(const CoulombReport &report, const ConeProgram &progra
   std::ostringstream line;
   line << "Coulomb friction (" << program.d.size() << " unknowns) ";
   if (std::isnan(report.residual))
-    return line.str() + no_number(program.S, program.d, "Friction coefficient");
+    return line.str() + "holds " + no_number("Friction coefficient", program.d);
   line << "has not converged after " << report.newton_steps << " steps of Newton's method and "
        << report.fixed_point_steps << " problems of Tresca: relative residual " << report.residual
        << ", tolerance " << solver.qp_tolerance;
@@ -62,13 +46,12 @@ std::string not_converged(const CoulombReport &report, const ConeProgram &progra
   return line.str();
 }
 
-std::string not_converged(const QpReport &report, const LAPACKFullMatrix<double> &S,
-                          const Vector<double> &d, const double tolerance)
+std::string not_converged(const QpReport &report, const Vector<double> &d, const double tolerance)
 {
   std::ostringstream line;
   line << "the quadratic program for the multiplier (" << d.size() << " unknowns) ";
   if (std::isnan(report.projected_gradient))
-    line << no_number(S, d, "Friction bound");
+    line << "holds " << no_number("Friction bound", d);
   else
     line << "has not converged after " << report.multiplications
          << " products with S: relative projected gradient " << report.projected_gradient
@@ -153,8 +136,7 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   schur_complement.S().vmult(product, result.z);
   result.moments -= product;
   if (!result.qp.converged)
-    throw NumericalFailure(
-        not_converged(result.qp, schur_complement.S(), d, settings.qp_tolerance));
+    throw NumericalFailure(not_converged(result.qp, d, settings.qp_tolerance));
   if (settings.condition_number)
   {
     result.condition_raw = condition_number(schur_complement.S());
