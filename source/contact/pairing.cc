@@ -3,6 +3,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/contact/pairing.h>
+#include <hpvi/scene/opposite_edges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +18,12 @@ namespace
 constexpr double
     shortest =
         1e-9, ///< of an edge: a segment below is round-off of ends that lie opposite to each other
-    parallel = 1e-9, ///< of unit vectors
-    hole = 1e-6;     ///< of an edge: more without anybody opposite is no round-off
+    parallel = 1e-9; ///< of unit vectors
+
+double chord(const DrawnFace &face)
+{
+  return face.path.ends[0].distance(face.path.ends[1]);
+}
 } // namespace
 
 double DrawnFace::on_path(const double s) const
@@ -29,9 +34,9 @@ double DrawnFace::on_path(const double s) const
 double FacingFaces::opposite(const double s, const double near) const
 {
   const double here = slave.on_path(s);
-  const auto place = place_opposite(master.path, slave.path.point(here), slave.path.normal(here),
-                                    master.on_path(near));
-  return place ? master.on_path(place->s) : near; // round-off at an end
+  const Point<2> x = slave.path.point(here);
+  const auto place = place_opposite(master.path, x, slave.path.normal(here), master.on_path(near));
+  return master.on_path(place ? place->s : master.path.nearest(x)); // round-off at an end
 }
 
 /** The vertices of a boundary face are points of its curve. */
@@ -109,6 +114,10 @@ bool Pairing<dim>::is_master(const types::boundary_id boundary) const
                      [&](const Masters &pair) { return pair.master == boundary; });
 }
 
+/**
+ * Neighbours take what is left out between them, and the ends of the side. A segment that is short is no reason to end another one: vertices of
+ * two drawings of a curve lie beside each other by whatever their digits leave.
+ */
 template <int dim>
 std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
                                                         const unsigned int face_no) const
@@ -118,13 +127,24 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
                                  { return one.slave == cell->face(face_no)->boundary_id(); });
   if (pair == pairs.end())
     return {};
-  std::vector<ContactSegment<dim>> result = pair->along.norm() > 0
-                                                ? on_line(*pair, cell, face_no)
-                                                : on_curve(*pair, drawn(cell, face_no));
+  const DrawnFace slave = drawn(cell, face_no);
+  std::vector<ContactSegment<dim>> result =
+      pair->along.norm() > 0 ? on_line(*pair, cell, face_no) : on_curve(*pair, slave);
+  double covered = 0, length = 0;
+  for (const ContactSegment<dim> &segment : result)
+    covered += segment.end - segment.begin;
+  for (const Face &face : pair->faces)
+    length += chord(face.drawn);
+  if (result.empty() || (1 - covered) * chord(slave) > same_end * length)
+    throw NumericalFailure("an edge of a body at " + to_string(slave.path.point(0.5)) +
+                           " lies opposite to no edge of the other one along a part of its length; "
+                           "give both bodies more edges there");
   std::sort(result.begin(), result.end(),
             [](const auto &a, const auto &b) { return a.begin < b.begin; });
-  for (unsigned int k = 0; k + 1 < result.size(); ++k) // round-off leaves no hole
+  for (unsigned int k = 0; k + 1 < result.size(); ++k)
     result[k].end = result[k + 1].begin;
+  result.front().begin = 0;
+  result.back().end = 1;
   return result;
 }
 
@@ -188,23 +208,12 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, con
     for (unsigned int b = 0; b < result.size(); ++b)
       if (a != b && distances[b] < distances[a] &&
           std::min(result[a].end, result[b].end) - std::max(result[a].begin, result[b].begin) >
-              hole)
+              shortest)
       {
         result.erase(result.begin() + a);
         distances.erase(distances.begin() + a);
         break;
       }
-  double covered = 0;
-  for (ContactSegment<dim> &segment : result)
-  {
-    covered += segment.end - segment.begin;
-    segment.begin = segment.begin < hole ? 0. : segment.begin;
-    segment.end = segment.end > 1 - hole ? 1. : segment.end;
-  }
-  if (covered < 1 - hole)
-    throw NumericalFailure("an edge of a body at " + to_string(slave.path.point(0.5)) +
-                           " lies opposite to no edge of the other one along a part of its length; "
-                           "give both bodies more edges there");
   return result;
 }
 

@@ -10,6 +10,9 @@
 
 namespace hpvi
 {
+/** Of an edge: what hangs over the end of the other side by no more ends there, for drawings have so many digits. */
+constexpr double same_end = 1e-6;
+
 /** Of two sides, curved or at an angle to each other, the edges that make a pair. */
 struct OppositeEdges
 {

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Pairs as drawings have them: vertices beside each other by what digits leave, edges that hang over, parts of sides.
+#include "discretisation.h"
+
+#include <hpvi/scene/boundary_parts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace
+{
+using namespace verification;
+
+constexpr double degree = numbers::PI / 180;
+
+/** Of an entry that is said twice the last value. */
+Overrides joined(const std::vector<Overrides> &parts)
+{
+  Overrides result;
+  for (const Overrides &part : parts)
+    for (const auto &entry : part)
+    {
+      result.erase(std::remove_if(result.begin(), result.end(),
+                                  [&](const auto &one) { return one.first == entry.first; }),
+                   result.end());
+      result.push_back(entry);
+    }
+  return result;
+}
+
+/** A mesh file of one layer of cells between two chains of points, with names of the edges along the first one. */
+std::string strip(const std::string &name, const std::vector<Point<2>> &a,
+                  const std::vector<Point<2>> &b, const std::vector<std::string> &names = {"inner"},
+                  const bool is_reversed = false)
+{
+  const unsigned int n = a.size() - 1;
+  std::ostringstream out, elements;
+  unsigned int n_elements = 0;
+  const auto line = [&](const unsigned int group, const unsigned int one, const unsigned int two)
+  {
+    elements << ++n_elements << " 1 2 " << group << " " << group << " " << one << " " << two
+             << "\n";
+  };
+  std::vector<std::string> groups{"outer", "start", "end"};
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const std::string &own = names[std::min<std::size_t>(k, names.size() - 1)];
+    auto group = std::find(groups.begin(), groups.end(), own);
+    if (group == groups.end())
+      group = groups.insert(groups.end(), own);
+    line(1 + (group - groups.begin()), k + 1, k + 2);
+    line(1, n + k + 2, n + k + 3);
+  }
+  line(2, 1, n + 2);
+  line(3, n + 1, 2 * n + 2);
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const unsigned int k = is_reversed ? n - 1 - i : i;
+    elements << ++n_elements << " 3 2 9 9 " << k + 1 << " " << n + k + 2 << " " << n + k + 3 << " "
+             << k + 2 << "\n";
+  }
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << groups.size() + 1 << "\n";
+  for (unsigned int g = 0; g < groups.size(); ++g)
+    out << "1 " << g + 1 << " \"" << groups[g] << "\"\n";
+  out << "2 9 \"all\"\n$EndPhysicalNames\n$Nodes\n" << 2 * (n + 1) << "\n";
+  unsigned int node = 0;
+  for (const std::vector<Point<2>> &chain : {a, b})
+    for (const Point<2> &x : chain)
+      out << ++node << " " << text(x[0]) << " " << text(x[1]) << " 0\n";
+  out << "$EndNodes\n$Elements\n" << n_elements << "\n" << elements.str() << "$EndElements\n";
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-" + name + "-" + std::to_string(getpid()) + ".msh");
+  std::ofstream(file) << out.str();
+  return file.string();
+}
+
+std::vector<Point<2>> arc(const Point<2> &centre, const double radius,
+                          const std::vector<double> &angles)
+{
+  std::vector<Point<2>> result;
+  for (const double angle : angles)
+    result.push_back(Circle(centre, radius).point(angle * degree));
+  return result;
+}
+
+/** A quarter of a ring with @p n cells, of which the vertices inside are moved by some of an edge to and fro. */
+std::vector<double> angles(const unsigned int n, const std::function<double()> &moved)
+{
+  std::vector<double> result;
+  for (unsigned int k = 0; k <= n; ++k)
+    result.push_back((k + (k % n == 0 ? 0 : moved())) * 90. / n);
+  return result;
+}
+
+/** The largest deviation of pressures from @p p, and of shears from zero, in the only step of a scene. */
+double deviation(const Overrides &entries, const double p)
+{
+  double result = 0;
+  AdaptiveSolver<2>(scene_of(entries))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            for (const ContactPoint<2> &point : step.contact.at(0).points)
+              result = std::max({result, std::abs(point.normal_traction + p),
+                                 std::abs(point.tangential_traction)});
+          });
+  return result;
+}
+
+// ---------------------------------------------------------------- two drawings of one curve
+
+/** A pin from 1 to 2 under the pressure 1 in a sheet from 2 to 3, of one material: u_r = A r + B/r. */
+constexpr double fit = (9. / 4 - 1) / (9 - 1);
+
+Overrides ring_shape(const std::string &body, const double inner, const unsigned int n)
+{
+  return {{"Body " + body + "/Shape", "ring sector"},
+          {"Body " + body + "/Radii", text(inner) + ", " + text(inner + 1)},
+          {"Body " + body + "/Angles", "0, 90"},
+          {"Body " + body + "/Subdivisions", "1, " + std::to_string(n)}};
+}
+
+Overrides ring_file(const std::string &body, const double inner, const std::vector<double> &at,
+                    const std::string &curve = "circle", const bool is_reversed = false)
+{
+  return {{"Body " + body + "/Shape", "file"},
+          {"Body " + body + "/File",
+           strip(body, arc({0, 0}, inner, at), arc({0, 0}, inner + 1, at), {"inner"}, is_reversed)},
+          {"Boundary " + body + ".inner/Curve", curve},
+          {"Boundary " + body + ".outer/Curve", curve}};
+}
+
+Overrides fitted(const std::string &law, const std::string &slave, const unsigned int p)
+{
+  Overrides entries{{"Contact fit/Between", "pin.outer, sheet.inner"},
+                    {"Contact fit/Slave", slave},
+                    {"Material/Young's modulus", "10"},
+                    {"Material/Poisson's ratio", "0.3"},
+                    {"Boundary pin.inner/Pressure", "1"},
+                    {"Adaptivity/Method", "pu"},
+                    {"Adaptivity/Start degree", std::to_string(p)},
+                    {"Adaptivity/Maximum steps", "1"}};
+  if (law == "Coulomb")
+    entries.emplace_back("Contact fit/Friction coefficient", "0.3");
+  else
+    entries.emplace_back("Contact fit/Law", law);
+  for (const char *const side : {"pin.start", "pin.end", "sheet.start", "sheet.end"})
+    entries.emplace_back("Boundary " + std::string(side) + "/Symmetry", "true");
+  return entries;
+}
+
+/** Whatever lies between vertices of both drawings, from what Gmsh leaves to a segment that is one, the fit is that of two shapes. */
+TEST(DrawnPairs, FitWhereVerticesNearlyMeet)
+{
+  struct Row
+  {
+    std::string law, slave, curve;
+    bool pin_is_a_shape;
+    unsigned int n; ///< edges
+    double most;    ///< distance of vertices over the length of an edge
+  };
+  for (const Row &row : {Row{"unilateral", "automatic", "circle", false, 2, 1e-5},
+                         Row{"unilateral", "sheet.inner", "circle", true, 3, 1e-5},
+                         Row{"unilateral", "pin.outer", "circle", true, 3, 1e-5},
+                         Row{"Coulomb", "sheet.inner", "circle", false, 2, 1e-5},
+                         Row{"tied", "pin.outer", "circle", false, 3, 1e-5},
+                         Row{"bilateral", "automatic", "circle", true, 2, 1e-5},
+                         Row{"unilateral", "pin.outer", "spline", false, 8, 1e-8},
+                         Row{"tied", "sheet.inner", "spline", false, 8, 1e-8}})
+  {
+    const bool is_circle = row.curve == "circle";
+    const unsigned int p = is_circle ? 6 : 3;
+    const double of_shapes =
+        deviation(joined({fitted(row.law, row.slave, p), ring_shape("pin", 1, row.n),
+                          ring_shape("sheet", 2, row.n)}),
+                  fit);
+    for (const double apart : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12})
+      for (const bool is_reversed : {false, true})
+        if (apart <= row.most)
+        {
+          double sign = 1;
+          const Overrides scene =
+              joined({fitted(row.law, row.slave, p),
+                      row.pin_is_a_shape
+                          ? ring_shape("pin", 1, row.n)
+                          : ring_file("pin", 1, angles(row.n, [] { return 0.; }), row.curve),
+                      ring_file("sheet", 2, angles(row.n, [&] { return (sign = -sign) * apart; }),
+                                row.curve, is_reversed)});
+          EXPECT_LT(deviation(scene, fit), (is_circle ? 2 : 20) * of_shapes + 1e-12)
+              << row.law << " " << row.curve << " " << apart << " " << is_reversed;
+        }
+  }
+}
+
+/** Meshes of five sizes with the noise of Gmsh, each in each, either side the slave. */
+TEST(DrawnPairs, FitAsShapesDoAtAllSizes)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> digits(-9, -8);
+  const auto noise = [&] { return std::pow(10., digits(random)); };
+  for (unsigned int n : {2, 3, 4, 5, 6})
+    for (unsigned int m : {2, 3, 4, 5, 6})
+      for (const std::string slave : {"pin.outer", "sheet.inner"})
+      {
+        const Overrides entries = fitted("unilateral", slave, 4);
+        const double of_shapes =
+            deviation(joined({entries, ring_shape("pin", 1, n), ring_shape("sheet", 2, m)}), fit);
+        EXPECT_LT(deviation(joined({entries, ring_file("pin", 1, angles(n, noise)),
+                                    ring_file("sheet", 2, angles(m, noise))}),
+                            fit),
+                  2 * of_shapes)
+            << n << " in " << m << " " << slave;
+      }
+}
+
+/** A distance in the drawing, which a pressure closes, and an interference: as between shapes. */
+TEST(DrawnPairs, CloseADistanceWhereVerticesNearlyMeet)
+{
+  for (const auto &[distance, gap, slave] :
+       std::vector<std::tuple<double, std::string, std::string>>{{1e-3, "0", "pin.outer"},
+                                                                 {1e-3, "0", "sheet.inner"},
+                                                                 {0.01, "-0.005", "automatic"},
+                                                                 {0, "-0.01", "pin.outer"},
+                                                                 {0, "0.01", "sheet.inner"}})
+  {
+    Overrides entries = fitted("unilateral", slave, 8);
+    entries.emplace_back("Contact fit/Gap", gap);
+    const auto pressure = [&](const Overrides &bodies)
+    {
+      double mean = 0;
+      AdaptiveSolver<2>(scene_of(joined({entries, bodies})))
+          .run([&](const StepReport<2> &step)
+               { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
+      return mean;
+    };
+    const double of_shapes =
+        pressure(joined({ring_shape("pin", 1, 3), ring_shape("sheet", 2 + distance, 3)}));
+    EXPECT_GT(of_shapes, 0.01);
+    for (const double apart : {1e-6, 3e-8, 1e-9})
+      EXPECT_NEAR(
+          pressure(joined({ring_file("pin", 1, angles(3, [&] { return apart; })),
+                           ring_file("sheet", 2 + distance, angles(3, [] { return 0.; }))})) /
+              of_shapes,
+          1, 1e-8)
+          << distance << " " << apart;
+  }
+}
+} // namespace
