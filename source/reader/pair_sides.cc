@@ -148,7 +148,9 @@ void match_edges(const Parameters &parameters, const double size, const double c
   { return DrawnSide(singles[pair.sides[k].body].geometry, pair.sides[k].side); };
   const std::array<DrawnSide, 2> sides{{drawn(0), drawn(1)}};
   std::string problem;
-  const OppositeEdges edges = opposite_edges(sides, pair.slave, size, problem);
+  const double smaller = std::min(singles[pair.sides[0].body].geometry.diameter(),
+                                  singles[pair.sides[1].body].geometry.diameter());
+  const OppositeEdges edges = opposite_edges(sides, pair.slave, smaller, problem);
   if (edges.is_empty())
     parameters.reject(pair.section, pair.slave ? "Slave" : "Between",
                       std::string(pair.slave ? "is one of two sides that " : "names sides that ") +
@@ -162,12 +164,14 @@ void match_edges(const Parameters &parameters, const double size, const double c
   const bool touches = edges.largest <= within;
   if (closed > 0)
     pair.closed = closed_in_words(pair, closed, edges.least, edges.largest);
-  if (edges.left_out)
+  if (const auto &left_out = edges.left_out; left_out.number > 0)
   {
     const NamedSide &side = pair.sides[edges.slave.value_or(0)];
-    singles[side.body].remarks.push_back(pair.section + " leaves out edges of " + side.name +
-                                         ", of which a part alone lies opposite, " +
-                                         to_string(*edges.left_out) + " away or more");
+    singles[side.body].remarks.push_back(
+        pair.section + " leaves out " + std::to_string(left_out.number) +
+        (left_out.number > 1 ? " edges of " : " edge of ") + side.name +
+        ", of which a part alone lies opposite, " + to_string(left_out.distance) +
+        " away or more, the nearest at " + to_string(left_out.at));
   }
   pair.slave = edges.slave;
   for (const unsigned int k : {0, 1})

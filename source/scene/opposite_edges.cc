@@ -15,7 +15,8 @@ namespace
 {
 constexpr unsigned int n_samples = 32; ///< of an edge, and both of its ends
 constexpr double same_place = 1e-9,    ///< of the size of the bodies
-    near = 0.02,        ///< of the size: what hangs over at a larger distance touches nobody
+    near =
+        0.02, ///< of the size, or the radius: what hangs over at a larger distance touches nobody
     smooth = 1 - 1e-10; ///< cosine between edges that meet: a spline in pieces is smooth to less
 
 /** What the normals of one edge meet. */
@@ -25,6 +26,14 @@ struct Sight
   std::set<unsigned int> edges; ///< of the other side
   double least = std::numeric_limits<double>::max(),
          largest = std::numeric_limits<double>::lowest(); ///< distances
+  double length = 0;                                      ///< of what meets it
+  std::array<double, 2> turn{{1, -1}}; ///< least and largest angle between normals of both sides
+
+  /** Of the relative curvature, 1/R = 1/R_1 + 1/R_2, by which distances grow, x^2/2R: contact of half width 0.2 R reaches 0.02 R. */
+  double radius() const
+  {
+    return turn[1] > turn[0] ? length / (turn[1] - turn[0]) : std::numeric_limits<double>::max();
+  }
 
   bool is_whole() const
   {
@@ -36,8 +45,8 @@ struct Sight
 struct Candidate
 {
   std::vector<Sight> sights;
-  bool hangs_over = false;
-  std::optional<Point<2>> corner; ///< between two of its edges: no normal there
+  std::optional<Point<2>> hangs_over; ///< the middle of an edge that does, near to the other side
+  std::optional<Point<2>> corner;     ///< between two of its edges: no normal there
 
   bool is_whole(const unsigned int edge) const
   {
@@ -59,14 +68,22 @@ struct Candidate
 Sight sight_of(const EdgePath &path, const DrawnSide &other)
 {
   Sight result;
+  Point<2> before;
   for (unsigned int k = 0; k <= n_samples; ++k)
   {
-    const double s = double(k) / n_samples;
-    const auto there = other.opposite(path.point(s), path.normal(s));
+    const double s = std::clamp(double(k) / n_samples, same_end, 1 - same_end);
+    const Point<2> x = path.point(s);
+    const Tensor<1, 2> n = path.normal(s);
+    const auto there = other.opposite(x, n);
     if (!there)
       continue;
-    ++result.n_met;
-    if (there->place.s > 1e-6 && there->place.s < 1 - 1e-6) // a vertex belongs to two edges
+    const Tensor<1, 2> opposite = other.edges()[there->edge].normal(there->place.s);
+    const double angle = std::asin(n[1] * opposite[0] - n[0] * opposite[1]);
+    result.turn = {{std::min(result.turn[0], angle), std::max(result.turn[1], angle)}};
+    if (result.n_met++ > 0)
+      result.length += x.distance(before);
+    before = x;
+    if (there->place.s > same_end && there->place.s < 1 - same_end) // a vertex belongs to two edges
       result.edges.insert(there->edge);
     result.least = std::min(result.least, there->place.distance);
     result.largest = std::max(result.largest, there->place.distance);
@@ -82,8 +99,9 @@ Candidate candidate(const DrawnSide &own, const DrawnSide &other, const double s
   {
     result.sights.push_back(sight_of(path, other));
     const Sight &sight = result.sights.back();
-    result.hangs_over =
-        result.hangs_over || (sight.n_met > 1 && !sight.is_whole() && sight.least <= near * size);
+    if (sight.n_met > 1 && !sight.is_whole() &&
+        sight.least <= near * std::min(size, sight.radius()))
+      result.hangs_over = path.point(0.5);
   }
   for (unsigned int a = 0; a < edges.size(); ++a)
     for (unsigned int b = 0; b < edges.size(); ++b)
@@ -106,14 +124,18 @@ bool meets_its_like(const Candidate &one, const Candidate &other)
                      });
 }
 
-std::string why_not(const Candidate &one, const bool is_asked)
+std::string why_not(const Candidate &one, const Candidate &other, const bool is_asked)
 {
   if (one.corner)
     return "have a corner at " + to_string(*one.corner) +
            " where they should be smooth, for it has no normal";
+  if (one.hangs_over && is_asked)
+    return "have an edge of the slave, at " + to_string(*one.hangs_over) +
+           ", that hangs over the end of the other side";
   if (one.hangs_over)
-    return is_asked ? "have an edge of the slave that hangs over the end of the other side"
-                    : "have edges of both sides that hang over the end of the other";
+    return "have edges of both sides that hang over the end of the other, at " +
+           to_string(*one.hangs_over) +
+           (other.hangs_over ? " and " + to_string(*other.hangs_over) : "");
   return "do not face each other: on neither is there an edge whose normals all meet the other "
          "side at 60 degrees or less to its own";
 }
@@ -136,7 +158,8 @@ OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
   if (!chosen.is_fit())
   {
     const bool first_says_more = !asked && !candidates[0].is_empty();
-    problem = why_not(candidates[first_says_more ? 0 : slave], asked.has_value());
+    const unsigned int teller = first_says_more ? 0 : slave;
+    problem = why_not(candidates[teller], candidates[1 - teller], asked.has_value());
     return result;
   }
   const bool is_either = candidates[0].is_fit() && candidates[1].is_fit() &&
@@ -158,7 +181,11 @@ OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
       result.largest = std::max(result.largest, chosen.sights[e].largest);
     }
     else if (const Sight &sight = chosen.sights[e]; sight.n_met > 1)
-      result.left_out = std::min(sight.least, result.left_out.value_or(sight.least));
+    {
+      if (result.left_out.number++ == 0 || sight.least < result.left_out.distance)
+        result.left_out.distance = sight.least,
+        result.left_out.at = sides[slave].edges()[e].point(0.5);
+    }
   return result;
 }
 } // namespace hpvi

@@ -246,4 +246,197 @@ TEST(DrawnPairs, CloseADistanceWhereVerticesNearlyMeet)
           << distance << " " << apart;
   }
 }
+
+// ---------------------------------------------------------------- what is near
+
+/** By Hertz, of a force P per thickness on a radius R of the relative curvature. */
+double hertz_pressure(const double P, const double R)
+{
+  const double E = 210000, nu = 0.3;
+  return std::sqrt(P * E / (2 * (1 - nu * nu)) / (numbers::PI * R));
+}
+
+Overrides half_disc(const std::string &body, const std::string &centre, const double radius,
+                    const double angle)
+{
+  return {{"Body " + body + "/Shape", "half disc"},
+          {"Body " + body + "/Centre", centre},
+          {"Body " + body + "/Radius", text(radius)},
+          {"Body " + body + "/Angle", text(angle)}};
+}
+
+Overrides bar(const double half_length)
+{
+  return {{"Body bar/Lower corner", text(-half_length) + ", -10"},
+          {"Body bar/Upper corner", text(half_length) + ", 0"},
+          {"Body bar/Subdivisions", "12, 1"},
+          {"Boundary bar.bottom/Displacement", "0; 0"}};
+}
+
+/** A flank of an involute of the base circle of radius 50 cos 20 degrees about (0, 0), with a layer of cells inside; turned by 180 degrees about (50, 0). */
+Overrides flank(const std::string &body, const bool is_turned)
+{
+  const double base = 50 * std::cos(20 * degree), at_pitch = std::tan(20 * degree);
+  std::vector<Point<2>> edge, inside;
+  for (unsigned int k = 0; k <= 20; ++k)
+  {
+    const double roll = 0.1 + k * 0.032, turn = roll - at_pitch + 20 * degree;
+    const Point<2> x(base * (std::cos(turn) + roll * std::sin(turn)),
+                     -base * (std::sin(turn) - roll * std::cos(turn)));
+    const Tensor<1, 2> n({std::sin(turn), std::cos(turn)}); // out of the tooth
+    for (const bool is_inside : {false, true})
+    {
+      const Point<2> place = is_inside ? x - 3 * n : x;
+      (is_inside ? inside : edge)
+          .push_back(is_turned ? Point<2>(100 - place[0], -place[1]) : place);
+    }
+  }
+  return {{"Body " + body + "/Shape", "file"},
+          {"Body " + body + "/File", strip(body, edge, inside, {"flank"})},
+          {"Boundary " + body + ".flank/Curve", "spline"}};
+}
+
+/** Edges that hang over where nobody presses are left out, however large the scene is, and peaks are Hertz's. */
+TEST(DrawnPairs, LeaveOutEdgesThatAreFarForTheirRadius)
+{
+  struct Row
+  {
+    std::string name, between;
+    Overrides bodies;
+    double R;
+    unsigned int slave; ///< of Between
+  };
+  const Overrides roller = joined(
+      {half_disc("roller", "0, 5", 5, 180), {{"Boundary roller.flat/Displacement", "0; -0.05"}}});
+  const std::vector<Row> rows{
+      {"a roller on a long bar", "roller.arc, bar.top", joined({roller, bar(120)}), 5, 0},
+      {"a bar under a roller", "bar.top, roller.arc", joined({roller, bar(120)}), 5, 1},
+      {"a small roller on a large one", "roller.arc, disc.arc",
+       joined({roller,
+               half_disc("disc", "0, -200", 200, 0),
+               {{"Body disc/Graded towards", "0, 0"},
+                {"Body disc/Grading levels", "5"},
+                {"Boundary disc.flat/Displacement", "0; 0"}}}),
+       1 / (1 / 5. + 1 / 200.), 0},
+      {"a roller on a slope", "roller.arc, slope.top",
+       joined({half_disc("roller", "-2.5, 4.3301270189221936", 5, 210),
+               {{"Boundary roller.flat/Displacement", "0.025; -0.0433"},
+                {"Body slope/Shape", "quadrilateral"},
+                {"Body slope/Corners",
+                 "-98.9230484541326, -68.6602540378444; 108.9230484541326, 51.3397459621556; "
+                 "103.9230484541326, 60; "
+                 "-103.9230484541326, -60"},
+                {"Body slope/Subdivisions", "12, 1"},
+                {"Boundary slope.bottom/Displacement", "0; 0"}}}),
+       5, 0},
+      {"a tube in a massive arch",
+       "tube.outer, arch.inner",
+       {{"Body tube/Shape", "ring sector"},
+        {"Body tube/Centre", "0, 5"},
+        {"Body tube/Radii", "2, 5"},
+        {"Body tube/Angles", "-90, 270"},
+        {"Body tube/Subdivisions", "1, 8"},
+        {"Boundary tube.inner/Displacement", "0; -0.05"},
+        {"Body arch/Shape", "ring sector"},
+        {"Body arch/Centre", "0, 8"},
+        {"Body arch/Radii", "8, 120"},
+        {"Body arch/Angles", "190, 350"},
+        {"Body arch/Subdivisions", "4, 6"},
+        {"Boundary arch.outer/Displacement", "0; 0"}},
+       1 / (1 / 5. - 1 / 8.),
+       0},
+      {"flanks of gears", "driver.flank, driven.flank",
+       joined({flank("driver", false),
+               flank("driven", true),
+               {{"Boundary driver.outer/Displacement", "0; 0.02"},
+                {"Boundary driven.outer/Displacement", "0; 0"}}}),
+       50 * std::sin(20 * degree) / 2, 0}};
+  for (const Row &row : rows)
+  {
+    const Scene<2> scene = scene_of(joined({row.bodies,
+                                            {{"Contact line/Between", row.between},
+                                             {"Material/Young's modulus", "210000"},
+                                             {"Material/Poisson's ratio", "0.3"},
+                                             {"Adaptivity/Method", "hpa3"},
+                                             {"Adaptivity/Maximum steps", "9"},
+                                             {"Adaptivity/Maximum unknowns", "3500"}}}));
+    EXPECT_EQ(scene.pairs[0].slave, row.slave) << row.name;
+    const auto remark = std::find_if(scene.remarks.begin(), scene.remarks.end(),
+                                     [](const std::string &one)
+                                     { return one.find("leaves out") != std::string::npos; });
+    EXPECT_NE(remark, scene.remarks.end()) << row.name;
+    double highest = 0, force = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          highest = step.contact.at(0).highest_pressure;
+          force = -step.contact[0].normal_resultant;
+          EXPECT_LT(step.equilibrium.force_imbalance, 1e-8) << row.name;
+        });
+    ASSERT_GT(force, 1) << row.name;
+    EXPECT_NEAR(highest / hertz_pressure(force, row.R), 1, 0.02) << row.name << " " << force;
+  }
+}
+
+/** A punch with fillets of radius 1 beside its flat foot, of which each has a pair with one bar; and on a rigid floor, where the gap says what is round. */
+TEST(DrawnPairs, PressAFilletBesideAFlatFoot)
+{
+  std::vector<Point<2>> foot = arc({-4, 1}, 1, {180, 202.5, 225, 247.5, 270}), top;
+  for (const double x : {-2., 0., 2.})
+    foot.emplace_back(x, 0);
+  for (const Point<2> &x : arc({4, 1}, 1, {270, 292.5, 315, 337.5, 360}))
+    foot.push_back(x);
+  for (unsigned int k = 0; k < foot.size(); ++k)
+    top.emplace_back(-4 + k * 2. / 3, 4);
+  const std::string round = "fillet", flat = "bottom";
+  const std::string file =
+      strip("punch", foot, top,
+            {round, round, round, round, flat, flat, flat, flat, round, round, round, round});
+  const auto force = [](const Overrides &entries)
+  {
+    const Scene<2> scene = scene_of(joined({entries,
+                                            {{"Material/Young's modulus", "210000"},
+                                             {"Material/Poisson's ratio", "0.3"},
+                                             {"Adaptivity/Method", "hpa3"},
+                                             {"Adaptivity/Maximum steps", "8"},
+                                             {"Adaptivity/Maximum unknowns", "3000"}}}));
+    double sum = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          sum = 0;
+          for (const ContactState<2> &contact : step.contact)
+            sum -= contact.normal_resultant;
+        });
+    return sum;
+  };
+  const Overrides of_fillet{{"Contact round/Between", "punch.fillet, bar.top"}},
+      of_bottom{{"Contact flat/Between", "punch.bottom, bar.top"}};
+  const auto on_a_bar = [&](const Overrides &first, const Overrides &second)
+  {
+    return joined({{{"Body punch/Shape", "file"},
+                    {"Body punch/File", file},
+                    {"Boundary punch.fillet/Curve", "circle"},
+                    {"Boundary punch.outer/Displacement", "0; -0.02"},
+                    {"Body bar/Material", "rigid"},
+                    {"Material rigid/Young's modulus", "2.1e11"},
+                    {"Material rigid/Poisson's ratio", "0.3"}},
+                   bar(120),
+                   first,
+                   second});
+  };
+  const double one = force(on_a_bar(of_fillet, of_bottom)),
+               other = force(on_a_bar(of_bottom, of_fillet)),
+               rigid = force({{"Geometry/Shape", "file"},
+                              {"Geometry/File", file},
+                              {"Boundary fillet/Curve", "circle"},
+                              {"Boundary outer/Displacement", "0; -0.02"},
+                              {"Boundary bottom/Contact", "unilateral"},
+                              {"Boundary fillet/Contact", "unilateral"},
+                              {"Boundary fillet/Contact direction", "0; -1"},
+                              {"Boundary fillet/Gap", "1 - sqrt(max(0, 1 - (abs(x) - 4)^2))"}});
+  EXPECT_GT(rigid, 1000);
+  EXPECT_NEAR(one / rigid, 1, 0.01);
+  EXPECT_NEAR(one / other, 1, 1e-6);
+}
 } // namespace

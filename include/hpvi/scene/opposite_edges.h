@@ -19,14 +19,21 @@ struct OppositeEdges
   std::array<std::vector<bool>, 2> in_pair; ///< by edge of either side
   std::optional<unsigned int> slave;        ///< which has to be it; nothing: either may
   double least = 0, largest = 0; ///< distance along the normal of the first slave [length]
-  /** The least distance of an edge of that slave that is left out, for a part of it alone lies opposite; nothing: there is none. */
-  std::optional<double> left_out;
+  /** Edges of that slave of which a part alone lies opposite, and too far away for anybody to press there. */
+  struct
+  {
+    unsigned int number = 0;
+    double distance = 0;      ///< the least [length]
+    dealii::Point<2> at = {}; ///< the middle of that edge
+  } left_out;
 
   bool is_empty() const;
 };
 
 /**
- * An edge of the slave has every one of its points opposite to the other side; edges of the master may hang over. @p asked: the
+ * An edge of the slave has every one of its points opposite to the other side; edges of the master may hang over. One of which
+ * some points are opposite and others are not is left out unless it comes nearer than 2 % of @p size, that of the smaller body, or of the radius R of
+ * the relative curvature there: beside a contact of half width a the distance is a^2/2R, and small strains want a/R below 0.2. @p asked: the
  * side that shall be slave. Where both may be and lie opposite to the same edges from either side, either is. Throws nothing: where
  * there is no pair @p problem says why in words that go on after "the sides", and none is in it.
  */
