@@ -14,6 +14,7 @@
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <map>
@@ -60,8 +61,9 @@ std::vector<Entry> pair_entries(const std::string &name)
   const std::string section = section_of_pair(name);
   return {
       {section, "Between", "", text, "two sides BODY.side, BODY.side",
-       "The two sides of bodies that touch. Normal, tangent and tractions in tables are those of "
-       "the first."},
+       "The two sides of bodies that touch, or parts of sides: of several pairs on one side each "
+       "may have its own, a Boundary with On and Where. Normal, tangent and tractions in tables "
+       "are those of the first."},
       {section, "Law", "unilateral",
        std::make_shared<Patterns::Selection>("unilateral|bilateral|tied|tangential"),
        "unilateral, bilateral, tied or tangential",
@@ -140,13 +142,16 @@ void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> 
   for (const std::string &name : names.bodies)
     singles.push_back(single_body(parameters, name));
   cut_bodies(parameters, names, singles);
+  const std::vector<NamedSide> sides = named_sides(parameters, names, singles);
   std::vector<PairSides> pairs;
   for (const std::string &name : names.pairs)
+    pairs.push_back(read_pair_sides(parameters, section_of_pair(name), name, sides, singles));
+  for (PairSides &pair : pairs)
   {
-    pairs.push_back(
-        read_pair_sides(parameters, section_of_pair(name), name, names.bodies, singles));
-    if (!pairs.back().closed.empty())
-      scene.remarks.push_back(pairs.back().closed);
+    if (!pair.line)
+      match_edges(parameters, singles, pair);
+    if (!pair.closed.empty())
+      scene.remarks.push_back(pair.closed);
   }
   check_overlap(parameters, pairs);
   std::vector<SingleBody> bodies;
@@ -162,20 +167,63 @@ void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> 
     add_parts(pair, scene);
 }
 
+namespace
+{
+/** What `Between` calls the side, or part of a side, of which @p part of a pair takes its edges. */
+std::string taken_from(const Parameters &parameters, const Scene<2> &scene,
+                       const BoundaryCondition<2> &part)
+{
+  const unsigned int k = scene.pairs[*part.pair].parts[0] == part.id ? 0 : 1;
+  return Utilities::split_string_list(parameters.text(section_of_pair(part.pair_name), "Between"),
+                                      ',')[k];
+}
+} // namespace
+
+Expression<2> rest_of_part(const Parameters &parameters, const Scene<2> &scene,
+                           const BoundaryCondition<2> &part)
+{
+  std::vector<Expression<2>> taken;
+  for (const BoundaryCondition<2> &other : scene.boundaries)
+    if (other.pair && taken_from(parameters, scene, other) == part.name)
+      taken.push_back(other.where);
+  if (taken.empty())
+    return part.where;
+  const Expression<2> rest = expression<2>(
+      [where = part.where, taken](const Point<2> &x)
+      {
+        return std::any_of(taken.begin(), taken.end(),
+                           [&](const Expression<2> &one) { return one->value(x) > 0; })
+                   ? -1.
+                   : where->value(x);
+      });
+  const std::vector<CoarseFace<2>> faces = coarse_faces(scene.geometry, part.side);
+  const bool has_any =
+      std::any_of(faces.begin(), faces.end(),
+                  [&](const CoarseFace<2> &face) { return rest->value(middle_of(face)) > 0; });
+  return has_any ? rest : nullptr;
+}
+
 void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
 {
   const std::vector<Side<2>> sides = sides_of(scene);
   for (const BoundaryCondition<2> &part : scene.boundaries)
-    if (part.pair && sides[part.side].pieces.empty())
-      for (const char *const entry :
-           {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Force",
-            "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
-            "Friction coefficient"})
-        if (const std::string section = "Boundary " + scene.boundaries[part.side].name;
-            says_something(parameters, section, entry))
-          parameters.reject(section, entry,
-                            "acts nowhere, for " + section_of_pair(part.pair_name) +
-                                " has all of this side; remove it");
+  {
+    if (!part.pair)
+      continue;
+    const std::string name = taken_from(parameters, scene, part), section = "Boundary " + name;
+    if (std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                    [&](const BoundaryCondition<2> &rest)
+                    { return !rest.pair && rest.name == name && !sides[rest.id].pieces.empty(); }))
+      continue;
+    for (const char *const entry :
+         {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Force",
+          "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
+          "Friction coefficient"})
+      if (says_something(parameters, section, entry))
+        parameters.reject(section, entry,
+                          "acts nowhere, for " + section_of_pair(part.pair_name) +
+                              " has all of this side; remove it");
+  }
 }
 
 std::vector<std::optional<types::material_id>> materials_of_bodies(const Parameters &parameters,

@@ -174,7 +174,10 @@ void read_part(const Parameters &parameters, const std::string &name, Scene<dim>
   part.side = side - sides.begin();
   part.where = read_where(parameters, section, sides_of(scene.geometry)[part.side].sample());
   cut_side(scene, part.side, part.where, section + "/Where");
-  scene.boundaries.push_back(part);
+  if constexpr (dim == 2)
+    part.where = rest_of_part(parameters, scene, part);
+  if (part.where)
+    scene.boundaries.push_back(part);
 }
 } // namespace
 

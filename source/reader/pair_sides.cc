@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/input/parameters.h>
+#include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/scene/boundary_parts.h>
@@ -21,19 +22,15 @@ namespace
 constexpr double same_place = 1e-9; ///< of the size of the bodies
 
 NamedSide side_called(const Parameters &parameters, const std::string &section,
-                      const std::string &name, const std::vector<std::string> &bodies,
-                      const std::vector<Scene<2>> &singles)
+                      const std::string &name, const std::vector<NamedSide> &sides,
+                      const std::vector<std::string> &bodies, const std::vector<Scene<2>> &singles)
 {
   std::vector<std::string> all;
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-  {
-    const std::vector<std::string> sides = singles[b].geometry.boundary_names();
-    for (unsigned int s = 0; s < sides.size(); ++s)
-      if (bodies[b] + "." + sides[s] == name)
-        return {name, b, s};
-      else if (!sides[s].empty())
-        all.push_back(bodies[b] + "." + sides[s]);
-  }
+  for (const NamedSide &side : sides)
+    if (side.name == name)
+      return side;
+    else
+      all.push_back(side.name);
   for (unsigned int b = 0; b < bodies.size(); ++b)
     if (singles[b].geometry.mesh)
       for (const std::string &curve : singles[b].geometry.mesh->interfaces)
@@ -45,6 +42,23 @@ NamedSide side_called(const Parameters &parameters, const std::string &section,
   parameters.reject(section, "Between",
                     "names " + printable(name) +
                         ", which is no side; this scene has: " + listed(all, "and"));
+}
+
+/** Edge by edge, if it is a part. */
+Side<2> side_of(const NamedSide &named, const Geometry<2> &geometry)
+{
+  Side<2> result = sides_of(geometry)[named.side];
+  if (!named.where)
+    return result;
+  result.pieces.clear();
+  result.curves.clear();
+  for (const CoarseFace<2> &face : coarse_faces(geometry, named.side))
+    if (named.has(face))
+    {
+      result.pieces.push_back(face.corners);
+      result.curves.push_back(face.curve);
+    }
+  return result;
 }
 
 void reject_overlap(const Parameters &parameters, const std::string &section, const double depth)
@@ -83,9 +97,11 @@ std::string closed_in_words(const PairSides &pair, const double closed, const do
                                                               : "count as none up to it");
 }
 
-Expression<2> inside_of(const FacingSides &facing)
+/** What is positive where @p facing is, in the part. */
+Expression<2> inside_of(const FacingSides &facing, const Expression<2> &part = nullptr)
 {
-  return expression<2>([facing](const Point<2> &x) { return facing.inside(x); });
+  return expression<2>([facing, part](const Point<2> &x)
+                       { return part && part->value(x) <= 0 ? -1. : facing.inside(x); });
 }
 
 // Straight sides that are parallel have the ends of both along one line.
@@ -100,6 +116,8 @@ void cut_at_ends(const Parameters &parameters, const FacingSides &facing, PairSi
     cut_side<2>(body, pair.sides[k].side, inside_of(facing), pair.section + "/Between");
     for (const CoarseFace<2> &face : coarse_faces(body.geometry, pair.sides[k].side))
     {
+      if (!pair.sides[k].has(face))
+        continue;
       const double one = facing.along * face.corners[0], two = facing.along * face.corners[1],
                    begin = std::min(one, two), end = std::max(one, two),
                    hair = 1e-9 * (end - begin);
@@ -110,7 +128,7 @@ void cut_at_ends(const Parameters &parameters, const FacingSides &facing, PairSi
       own.begin = std::min(own.begin, begin);
       own.end = std::max(own.end, end);
     }
-    pair.where[k] = inside_of(own);
+    pair.where[k] = inside_of(own, pair.sides[k].where);
     pair.distance[k] = facing.distance > 0 ? expression<2>(facing.distance) : nullptr;
   }
   if (hangs_over[0] && hangs_over[1])
@@ -139,26 +157,112 @@ Expression<2> beyond(const double closed, const Expression<2> &distance)
         return std::abs(value) <= closed ? 0. : value;
       }));
 }
+} // namespace
 
-/** Edge by edge, where sides are curved or at an angle to each other. */
-void match_edges(const Parameters &parameters, const double size, const double closed,
-                 PairSides &pair, std::vector<Scene<2>> &singles)
+bool NamedSide::has(const CoarseFace<2> &face) const
+{
+  return !where || where->value(middle_of(face)) > 0;
+}
+
+std::vector<NamedSide> named_sides(const Parameters &parameters, const FreeNames &names,
+                                   const std::vector<Scene<2>> &singles)
+{
+  std::vector<NamedSide> result;
+  for (unsigned int b = 0; b < singles.size(); ++b)
+  {
+    const std::vector<std::string> sides = singles[b].geometry.boundary_names();
+    for (unsigned int s = 0; s < sides.size(); ++s)
+      if (!sides[s].empty())
+        result.push_back({names.bodies[b] + "." + sides[s], b, s});
+  }
+  const std::vector<NamedSide> whole = result;
+  for (const std::string &name : names.parts)
+  {
+    const std::string section = "Boundary " + name, on = parameters.text(section, "On");
+    const auto side = std::find_if(whole.begin(), whole.end(),
+                                   [&](const NamedSide &one) { return one.name == on; });
+    if (side == whole.end())
+      continue; // read_body() says so
+    const Geometry<2> &geometry = singles[side->body].geometry;
+    const NamedSide part{name, side->body, side->side,
+                         read_where(parameters, section, sides_of(geometry)[side->side].sample())};
+    if (side_of(part, geometry).pieces.empty())
+      parameters.reject(section, "Where",
+                        "is positive nowhere on " + on +
+                            "; give a function that is positive on the part");
+    result.push_back(part);
+  }
+  return result;
+}
+
+PairSides read_pair_sides(const Parameters &parameters, const std::string &section,
+                          const std::string &name, const std::vector<NamedSide> &all,
+                          std::vector<Scene<2>> &singles)
+{
+  const std::vector<std::string> sides =
+      Utilities::split_string_list(parameters.text(section, "Between"), ',');
+  if (sides.size() != 2)
+    parameters.reject(section, "Between", "names no two sides; give BODY.side, BODY.side");
+  PairSides pair{name, section, {}, {}, {}, {}};
+  for (const unsigned int k : {0, 1})
+    pair.sides[k] = side_called(parameters, section, sides[k], all);
+  if (pair.sides[0].body == pair.sides[1].body)
+    parameters.reject(section, "Between",
+                      "names sides of one body; a body does not touch itself, name sides of two");
+  if (const std::string slave = parameters.text(section, "Slave"); slave != "automatic")
+  {
+    const auto found = std::find(sides.begin(), sides.end(), slave);
+    if (found == sides.end())
+      parameters.reject(section, "Slave",
+                        "is none of the two sides; give automatic or one of Between");
+    pair.slave = found - sides.begin();
+  }
+  const auto side = [&](const unsigned int k)
+  { return side_of(pair.sides[k], singles[pair.sides[k].body].geometry); };
+  const double size = std::max(singles[pair.sides[0].body].geometry.diameter(),
+                               singles[pair.sides[1].body].geometry.diameter());
+  std::string problem;
+  std::optional<FacingSides> facing = facing_sides(side(0), side(1), size, problem);
+  if (!problem.empty())
+    parameters.reject(section, "Between",
+                      "names sides that " + problem + "; name two that lie opposite");
+  const double closed = read_closed(parameters, section, size);
+  if (facing && closed > 0)
+  {
+    pair.closed = closed_in_words(pair, closed, facing->distance, facing->distance);
+    if (std::abs(facing->distance) <= closed)
+      facing->distance = 0;
+  }
+  if (facing && facing->distance < 0)
+    reject_overlap(parameters, section, -facing->distance);
+  if (facing)
+    cut_at_ends(parameters, *facing, pair, singles);
+  return pair;
+}
+
+void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, PairSides &pair)
 {
   const auto drawn = [&](const unsigned int k)
-  { return DrawnSide(singles[pair.sides[k].body].geometry, pair.sides[k].side); };
+  {
+    const NamedSide &side = pair.sides[k];
+    return DrawnSide(singles[side.body].geometry, side.side, side.where);
+  };
   const std::array<DrawnSide, 2> sides{{drawn(0), drawn(1)}};
+  const auto diameter = [&](const unsigned int k)
+  { return singles[pair.sides[k].body].geometry.diameter(); };
+  const double smaller = std::min(diameter(0), diameter(1)),
+               size = std::max(diameter(0), diameter(1));
   std::string problem;
-  const double smaller = std::min(singles[pair.sides[0].body].geometry.diameter(),
-                                  singles[pair.sides[1].body].geometry.diameter());
   const OppositeEdges edges = opposite_edges(sides, pair.slave, smaller, problem);
   if (edges.is_empty())
     parameters.reject(pair.section, pair.slave ? "Slave" : "Between",
                       std::string(pair.slave ? "is one of two sides that " : "names sides that ") +
                           problem +
                           (pair.slave ? "; name the other one or set automatic"
-                                      : "; name two that lie opposite, or give them vertices "
-                                        "where they do"));
-  const double within = std::max(closed, same_place * size);
+                                      : "; name two that lie opposite, or parts of them, or give "
+                                        "them vertices where they do"));
+  const double closed = read_closed(parameters, pair.section, size),
+               within = std::max(closed, same_place * size);
   if (edges.least < -within)
     reject_overlap(parameters, pair.section, -edges.least);
   const bool touches = edges.largest <= within;
@@ -178,57 +282,10 @@ void match_edges(const Parameters &parameters, const double size, const double c
   {
     pair.distance[k] =
         touches ? nullptr : beyond(closed, distance_along_normal(sides[k], sides[1 - k]));
-    pair.where[k] = expression<2>([side = sides[k], own = edges.in_pair[k]](const Point<2> &x)
-                                  { return own[side.nearest_edge(x)] ? 1. : -1.; });
+    pair.where[k] = expression<2>(
+        [side = sides[k], part = pair.sides[k].where, own = edges.in_pair[k]](const Point<2> &x)
+        { return (!part || part->value(x) > 0) && own[side.nearest_edge(x)] ? 1. : -1.; });
   }
-}
-} // namespace
-
-PairSides read_pair_sides(const Parameters &parameters, const std::string &section,
-                          const std::string &name, const std::vector<std::string> &bodies,
-                          std::vector<Scene<2>> &singles)
-{
-  const std::vector<std::string> sides =
-      Utilities::split_string_list(parameters.text(section, "Between"), ',');
-  if (sides.size() != 2)
-    parameters.reject(section, "Between", "names no two sides; give BODY.side, BODY.side");
-  PairSides pair{name, section, {}, {}, {}, {}};
-  for (const unsigned int k : {0, 1})
-    pair.sides[k] = side_called(parameters, section, sides[k], bodies, singles);
-  if (pair.sides[0].body == pair.sides[1].body)
-    parameters.reject(section, "Between",
-                      "names sides of one body; a body does not touch itself, name sides of two");
-  if (const std::string slave = parameters.text(section, "Slave"); slave != "automatic")
-  {
-    const auto found = std::find(sides.begin(), sides.end(), slave);
-    if (found == sides.end())
-      parameters.reject(section, "Slave",
-                        "is none of the two sides; give automatic or one of Between");
-    pair.slave = found - sides.begin();
-  }
-  const auto side_of = [&](const unsigned int k)
-  { return sides_of(singles[pair.sides[k].body].geometry)[pair.sides[k].side]; };
-  const double size = std::max(singles[pair.sides[0].body].geometry.diameter(),
-                               singles[pair.sides[1].body].geometry.diameter());
-  std::string problem;
-  std::optional<FacingSides> facing = facing_sides(side_of(0), side_of(1), size, problem);
-  if (!problem.empty())
-    parameters.reject(section, "Between",
-                      "names sides that " + problem + "; name two that lie opposite");
-  const double closed = read_closed(parameters, section, size);
-  if (facing && closed > 0)
-  {
-    pair.closed = closed_in_words(pair, closed, facing->distance, facing->distance);
-    if (std::abs(facing->distance) <= closed)
-      facing->distance = 0;
-  }
-  if (!facing)
-    match_edges(parameters, size, closed, pair, singles);
-  else if (facing->distance < 0)
-    reject_overlap(parameters, section, -facing->distance);
-  else
-    cut_at_ends(parameters, *facing, pair, singles);
-  return pair;
 }
 
 void check_overlap(const Parameters &parameters, const std::vector<PairSides> &pairs)
@@ -238,7 +295,8 @@ void check_overlap(const Parameters &parameters, const std::vector<PairSides> &p
       for (const NamedSide &side : one.sides)
         for (const NamedSide &same : other.sides)
         {
-          if (&one <= &other || side.name != same.name || !one.line || !other.line)
+          if (&one <= &other || side.body != same.body || side.side != same.side || !one.line ||
+              !other.line)
             continue; // of others check_parts() finds it
           // Along one line, whose direction may be either.
           const double sign = one.line->along * other.line->along > 0 ? 1 : -1;
@@ -254,14 +312,16 @@ void check_overlap(const Parameters &parameters, const std::vector<PairSides> &p
 
 namespace
 {
-/** Of the side where all of it is in the pair; else it needs one of its own, for the rest of the side has that. */
+/** Of the side, or part, where all of it is in the pair; else it needs one of its own, for the rest has that. */
 std::string name_of_part(const PairSides &read, const unsigned int k, const unsigned int side,
                          const Scene<2> &scene)
 {
   const std::vector<CoarseFace<2>> faces = coarse_faces(scene.geometry, side);
-  const bool is_whole = std::all_of(faces.begin(), faces.end(),
-                                    [&](const CoarseFace<2> &face)
-                                    { return read.where[k]->value(middle_of(face)) > 0; });
+  const bool is_whole =
+      std::all_of(faces.begin(), faces.end(),
+                  [&](const CoarseFace<2> &face) {
+                    return !read.sides[k].has(face) || read.where[k]->value(middle_of(face)) > 0;
+                  });
   return read.sides[k].name + (is_whole ? "" : " (" + read.name + ")");
 }
 } // namespace

@@ -12,11 +12,14 @@ using namespace dealii;
 
 namespace
 {
-std::vector<EdgePath> paths_of(const Geometry<2> &geometry, const unsigned int side)
+std::vector<EdgePath> paths_of(const Geometry<2> &geometry, const unsigned int side,
+                               const Expression<2> &where)
 {
   std::vector<EdgePath> result;
   for (const CoarseFace<2> &face : coarse_faces(geometry, side))
   {
+    if (where && where->value(middle_of(face)) <= 0)
+      continue;
     const EdgePath path{{{face.corners[0], face.corners[1]}}, face.curve};
     const bool runs_round = path.normal(0.5) * (path.point(0.5) - face.inside) > 0;
     result.push_back(runs_round ? path : path.reversed());
@@ -33,8 +36,9 @@ std::vector<BoundingBox<2>> boxes_around(const std::vector<EdgePath> &paths)
 }
 } // namespace
 
-DrawnSide::DrawnSide(const Geometry<2> &geometry, const unsigned int side)
-    : DrawnSide(paths_of(geometry, side))
+DrawnSide::DrawnSide(const Geometry<2> &geometry, const unsigned int side,
+                     const Expression<2> &where)
+    : DrawnSide(paths_of(geometry, side, where))
 {
 }
 

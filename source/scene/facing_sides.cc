@@ -22,7 +22,7 @@ struct Line
   double height, begin, end; ///< x . normal, and x . along between its ends
 };
 
-/** Nothing where it bends; @p along is the direction to measure in, or zero: that of the side. */
+/** Nothing where it bends or has holes; @p along is the direction to measure in, or zero: that of the side. */
 std::optional<Line> line_of(const Side<2> &side, Tensor<1, 2> &along, const double size)
 {
   if (side.pieces.empty())
@@ -32,18 +32,22 @@ std::optional<Line> line_of(const Side<2> &side, Tensor<1, 2> &along, const doub
     along = -cross_product_2d(normal);
   Line line{normal, normal * side.pieces[0][0], std::numeric_limits<double>::max(),
             std::numeric_limits<double>::lowest()};
+  double length = 0;
   for (unsigned int k = 0; k < side.pieces.size(); ++k)
   {
     if ((!side.curves.empty() && side.curves[k]) ||
         (side.normal(k, 0.5) - normal).norm() > parallel ||
         std::abs(normal * side.pieces[k][0] - line.height) > same_place * size)
       return std::nullopt;
+    length += side.pieces[k][0].distance(side.pieces[k][1]);
     for (const Point<2> &corner : side.pieces[k])
     {
       line.begin = std::min(line.begin, along * corner);
       line.end = std::max(line.end, along * corner);
     }
   }
+  if (line.end - line.begin > length + same_place * size) // it is in pieces
+    return std::nullopt;
   return line;
 }
 } // namespace

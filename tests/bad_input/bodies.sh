@@ -113,8 +113,18 @@ invalid "Contact joint/Slave = lower.top" "hangs over the end" -- "Body lower/Sh
   "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Contact joint/Slave=lower.top"
 rings=("Body arch/Shape=ring sector" "Body arch/Radii=1, 2" "Body arch/Centre=1.5, 6" "Body arch/Angles=200, 300" "Body arch/Subdivisions=1, 2" "Boundary arch.outer/Displacement=0; 0"
   "Body tube/Shape=ring sector" "Body tube/Radii=0.5, 1" "Body tube/Centre=1.5, 6" "Body tube/Angles=220, 330" "Body tube/Subdivisions=1, 3" "Boundary tube.inner/Displacement=0; 0")
-invalid "Contact lid/Between" "hang over the end of the other, at (" "vertices where" -- "${rings[@]}" "Contact lid/Between=tube.outer, arch.inner"
+invalid "Contact lid/Between" "hang over the end of the other, at (" "parts of them" -- "${rings[@]}" "Contact lid/Between=tube.outer, arch.inner"
 invalid "Contact lid/Slave = tube.outer" "edge of the slave, at (" "hangs over" -- "${rings[@]}" "Contact lid/Between=tube.outer, arch.inner" "Contact lid/Slave=tube.outer"
+
+# --- parts of sides
+seat=("Boundary seat/On=lower.top" "Boundary seat/Where=0.5 - abs(x - 1.5)")
+invalid "Contact joint/Between" "names seet, which is no side" "upper.top and seat" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seet"
+invalid "Boundary seat/Pressure = 1" "acts nowhere" "Contact joint" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Boundary seat/Pressure=1"
+invalid "Boundary seat/Where" "is positive nowhere on lower.top" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Boundary seat/Where=x - 5"
+invalid "Contact joint/Between" "one ends before the other begins" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Boundary seat/Where=0.5 - x"
+invalid "Contact joint/Between" "sides of one body" -- "${seat[@]}" "Contact joint/Between=seat, lower.left"
+invalid "Contact again/Between" "edges of" "Contact joint has, too" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Contact again/Between=seat, upper.bottom"
+invalid "Contact joint/Slave = lower.top" "is none of the two sides" -- "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Contact joint/Slave=lower.top"
 invalid "Solver/Normal contact = nodes" "several bodies is not offered" "set multiplier" -- "Solver/Normal contact=nodes"
 invalid "Contact joint/Slave = lower.bottom" "is none of the two sides" "automatic" -- "Contact joint/Slave=lower.bottom"
 invalid "Contact joint/Slave = lower" "is none of the two sides" -- "Contact joint/Slave=lower"
@@ -187,6 +197,8 @@ valid "a disc on a block" "${lid[@]}"
 valid "a disc on a wider block" "${lid[@]}" "Body disc/Radius=0.4" "Body disc/Centre=1.5, 2.4" "Contact lid/Slave=disc.arc"
 valid "bodies of revolution" "Material/Plane=axisymmetric" "Boundary lower.bottom/Displacement=free; 0" "Boundary upper.top/Displacement=free; -0.02"
 valid "--set opens a section" "Boundary lower.left/Traction=1; 0"
+valid "a part of a side" "${seat[@]}" "Contact joint/Between=seat, upper.bottom" "Contact joint/Slave=seat"
+valid "a part that says more than the pair takes" "${seat[@]}" "Contact joint/Between=upper.bottom, seat" "Boundary seat/Where=1.2 - abs(x - 1.5)" "Boundary seat/Pressure=1"
 valid "a covered side that says nothing" "Boundary upper.bottom/Symmetry=false" "Boundary upper.bottom/Contact=none"
 valid "friction of two kinds" "Contact joint/Friction coefficient=0.3 + x/10"
 valid "a disc that lies with its flat side on a block" "Body disc/Shape=half disc" "Body disc/Centre=1.5, 2" "Body disc/Radius=0.5" "Body disc/Angle=0" \

@@ -439,4 +439,144 @@ TEST(DrawnPairs, PressAFilletBesideAFlatFoot)
   EXPECT_NEAR(one / rigid, 1, 0.01);
   EXPECT_NEAR(one / other, 1, 1e-6);
 }
+
+// ---------------------------------------------------------------- parts of sides
+
+/** The elastic energy of one step on the coarse mesh, and what the sides of its pairs are called. */
+struct Told
+{
+  double energy = 0;
+  std::vector<std::string> names;
+};
+
+Told told(const Overrides &entries)
+{
+  const Scene<2> scene =
+      scene_of(joined({entries,
+                       {{"Adaptivity/Method", "pu"},
+                        {"Adaptivity/Start degree", "4"},
+                        {"Adaptivity/Maximum steps", "1"},
+                        {"Error/Bound", "false"}, // which matches meshes where they touch
+                        {"Material/Young's modulus", "10"},
+                        {"Material/Poisson's ratio", "0.3"}}}));
+  Told result;
+  for (const ContactPair &pair : scene.pairs)
+    for (const unsigned int part : pair.parts)
+      result.names.push_back(scene.boundaries[part].name);
+  AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
+                               { result.energy = step.energies.energy; });
+  return result;
+}
+
+/** Pairs of parts are those of whole sides where these say the same: all of it, or a gap that never closes on the rest. */
+TEST(DrawnPairs, TakePartsOfSides)
+{
+  const Overrides blocks{{"Body lower/Upper corner", "3, 1"},
+                         {"Body lower/Subdivisions", "6, 2"},
+                         {"Body upper/Lower corner", "1, 1"},
+                         {"Body upper/Upper corner", "2, 2"},
+                         {"Body upper/Subdivisions", "4, 2"},
+                         {"Boundary lower.bottom/Displacement", "0; 0"},
+                         {"Boundary upper.top/Displacement", "0.01; -0.05"},
+                         {"Contact joint/Friction bound", "0.1"}};
+  const Overrides two{{"Body other/Lower corner", "0, 1"},
+                      {"Body other/Upper corner", "0.75, 2"},
+                      {"Body other/Subdivisions", "2, 2"},
+                      {"Boundary other.top/Displacement", "0; -0.1"}};
+  const Overrides rings = joined({fitted("unilateral", "pin.outer", 4),
+                                  ring_file("pin", 1, angles(2, [] { return 0.; })),
+                                  ring_file("sheet", 2, angles(3, [] { return 0.; }))});
+  const Overrides whole{{"Contact joint/Between", "upper.bottom, lower.top"}};
+  const auto part = [](const std::string &name, const std::string &on, const std::string &where) {
+    return Overrides{{"Boundary " + name + "/On", on}, {"Boundary " + name + "/Where", where}};
+  };
+  struct Row
+  {
+    std::string name;
+    Overrides parts, sides;
+    std::vector<std::string> names;
+  };
+  for (const Row &row : std::vector<Row>{
+           {"a part as long as what faces it",
+            joined({blocks,
+                    part("seat", "lower.top", "0.5 - abs(x - 1.5)"),
+                    {{"Contact joint/Between", "upper.bottom, seat"}}}),
+            joined({blocks, whole}),
+            {"upper.bottom", "seat"}},
+           {"one that is longer, and loaded beside it",
+            joined({blocks,
+                    part("deck", "lower.top", "1"),
+                    {{"Contact joint/Between", "deck, upper.bottom"},
+                     {"Boundary deck/Pressure", "0.1"}}}),
+            joined({blocks, whole, {{"Boundary lower.top/Pressure", "0.1"}}}),
+            {"deck (joint)", "upper.bottom"}},
+           {"half of the master",
+            joined({blocks,
+                    part("half", "lower.top", "1.5 - x"),
+                    {{"Contact joint/Between", "upper.bottom, half"}}}),
+            joined({blocks,
+                    whole,
+                    {{"Contact joint/Gap", "x < 1.5 ? 0 : 1"},
+                     {"Contact joint/Friction bound", "x < 1.5 ? 0.1 : 0"}}}),
+            {"upper.bottom (joint)", "half (joint)"}},
+           {"half of the slave",
+            joined(
+                {blocks,
+                 part("half", "upper.bottom", "x - 1.5"),
+                 {{"Contact joint/Between", "half, lower.top"}, {"Contact joint/Slave", "half"}}}),
+            joined({blocks,
+                    whole,
+                    {{"Contact joint/Gap", "x > 1.5 ? 0 : 1"},
+                     {"Contact joint/Friction bound", "x > 1.5 ? 0.1 : 0"},
+                     {"Contact joint/Slave", "upper.bottom"}}}),
+            {"half", "lower.top (joint)"}},
+           {"two pieces of it",
+            joined({blocks,
+                    part("feet", "upper.bottom", "abs(x - 1.5) - 0.25"),
+                    {{"Contact joint/Between", "feet, lower.top"}}}),
+            joined({blocks,
+                    whole,
+                    {{"Contact joint/Gap", "abs(x - 1.5) > 0.25 ? 0 : 1"},
+                     {"Contact joint/Friction bound", "abs(x - 1.5) > 0.25 ? 0.1 : 0"},
+                     {"Contact joint/Slave", "upper.bottom"}}}),
+            {"feet", "lower.top (joint)"}},
+           {"two pairs on one side",
+            joined({blocks,
+                    two,
+                    part("mine", "lower.top", "x - 0.8"),
+                    part("yours", "lower.top", "0.8 - x"),
+                    {{"Contact joint/Between", "upper.bottom, mine"},
+                     {"Contact again/Between", "yours, other.bottom"}}}),
+            joined({blocks,
+                    two,
+                    whole,
+                    {{"Body lower/Subdivisions", "6, 2"},
+                     {"Boundary cut/On", "lower.top"},
+                     {"Boundary cut/Where", "0.025 - abs(x - 0.775)"},
+                     {"Contact again/Between", "lower.top, other.bottom"}}}),
+            {"upper.bottom", "mine (joint)", "yours (again)", "other.bottom"}},
+           {"two arcs of a roller",
+            joined({half_disc("roller", "0, 5", 5, 180),
+                    bar(20),
+                    part("foot", "roller.arc", "3.53 - abs(x)"),
+                    {{"Boundary roller.flat/Displacement", "0; -0.1"},
+                     {"Contact line/Between", "foot, bar.top"}}}),
+            joined({half_disc("roller", "0, 5", 5, 180),
+                    bar(20),
+                    {{"Boundary roller.flat/Displacement", "0; -0.1"},
+                     {"Contact line/Between", "roller.arc, bar.top"}}}),
+            {"foot", "bar.top (line)"}},
+           {"an arc of a drawn pin",
+            joined({rings,
+                    part("low", "pin.outer", "x - y"),
+                    {{"Contact fit/Between", "low, sheet.inner"}, {"Contact fit/Slave", "low"}}}),
+            joined({rings, {{"Contact fit/Gap", "y < x ? 0 : 1"}}}),
+            {"low", "sheet.inner (fit)"}}})
+  {
+    const Told parts = told(row.parts), sides = told(row.sides);
+    EXPECT_GT(sides.energy, 1e-5) << row.name;
+    EXPECT_NEAR(parts.energy / sides.energy, 1, 1e-9) << row.name;
+    EXPECT_EQ(parts.names, row.names) << row.name;
+  }
+}
 } // namespace

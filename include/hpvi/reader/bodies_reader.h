@@ -23,7 +23,11 @@ std::vector<Entry> pair_entries(const std::string &name);
  */
 void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> &scene);
 
-/** Rejects what is said of a side of which other bodies take all. */
+/** Where @p part of a side is, without what pairs that name it take; null: they take it all. */
+Expression<2> rest_of_part(const Parameters &parameters, const Scene<2> &scene,
+                           const BoundaryCondition<2> &part);
+
+/** Rejects what is said of a side, or a part of one, of which other bodies take all. */
 void check_covered_sides(const Parameters &parameters, const Scene<2> &scene);
 
 /** Of each body the material that it names, by surface of the mesh. */

@@ -2,6 +2,8 @@
 #ifndef hpvi_pair_sides_h
 #define hpvi_pair_sides_h
 
+#include <hpvi/reader/free_names.h>
+#include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/facing_sides.h>
 #include <hpvi/scene/scene.h>
 
@@ -14,12 +16,19 @@ namespace hpvi
 {
 class Parameters;
 
-/** The body and its side that `BODY.side` names. */
+/** A side of a body, `BODY.side`, or a part of one, `Boundary NAME` with `On` and `Where`. */
 struct NamedSide
 {
   std::string name;
   unsigned int body, side;
+  Expression<2> where = nullptr; ///< positive on the part; null: all of the side
+
+  bool has(const CoarseFace<2> &face) const;
 };
+
+/** Of all bodies, and behind them the parts in @p names. */
+std::vector<NamedSide> named_sides(const Parameters &parameters, const FreeNames &names,
+                                   const std::vector<Scene<2>> &singles);
 
 /** The two sides of a pair before the bodies are one geometry. */
 struct PairSides
@@ -36,12 +45,16 @@ struct PairSides
 };
 
 /**
- * `Between`, `Closed within` and `Slave` of @p section. Boxes of @p singles get grid lines where the other side ends opposite to an edge. An edge of
- * another shape may hang over that end; its side is the master then, for a multiplier there would press where nobody is.
+ * `Between`, `Closed within` and `Slave` of @p section, and where straight sides that are parallel face each other. Boxes of @p singles get grid
+ * lines where the other side ends opposite to an edge. An edge of another shape may hang over that end; its side is the master then, for a
+ * multiplier there would press where nobody is.
  */
 PairSides read_pair_sides(const Parameters &parameters, const std::string &section,
-                          const std::string &name, const std::vector<std::string> &bodies,
+                          const std::string &name, const std::vector<NamedSide> &sides,
                           std::vector<Scene<2>> &singles);
+
+/** Where the others do, edge by edge; after the grid lines of all pairs. */
+void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, PairSides &pair);
 
 /** Each edge belongs to one pair. */
 void check_overlap(const Parameters &parameters, const std::vector<PairSides> &pairs);

@@ -16,8 +16,8 @@ namespace hpvi
 class DrawnSide
 {
 public:
-  /** The edges of the coarse mesh along the side number @p side. */
-  DrawnSide(const Geometry<2> &geometry, unsigned int side);
+  /** The edges of the coarse mesh along the side number @p side, where @p where is positive in their middle; null: all. */
+  DrawnSide(const Geometry<2> &geometry, unsigned int side, const Expression<2> &where = nullptr);
 
   explicit DrawnSide(const std::vector<EdgePath> &edges);
 
