@@ -23,7 +23,7 @@ constexpr double same_place = 1e-9; ///< of the size of the bodies
 
 NamedSide side_called(const Parameters &parameters, const std::string &section,
                       const std::string &name, const std::vector<NamedSide> &sides,
-                      const std::vector<std::string> &bodies, const std::vector<Scene<2>> &singles)
+                      const std::vector<Scene<2>> &singles)
 {
   std::vector<std::string> all;
   for (const NamedSide &side : sides)
@@ -31,14 +31,17 @@ NamedSide side_called(const Parameters &parameters, const std::string &section,
       return side;
     else
       all.push_back(side.name);
-  for (unsigned int b = 0; b < bodies.size(); ++b)
-    if (singles[b].geometry.mesh)
-      for (const std::string &curve : singles[b].geometry.mesh->interfaces)
-        if (bodies[b] + "." + curve == name)
+  for (const NamedSide &side : sides)
+    if (const auto &mesh = singles[side.body].geometry.mesh; mesh && !side.where)
+    {
+      const std::string body = side.name.substr(0, side.name.find('.'));
+      for (const std::string &curve : mesh->interfaces)
+        if (body + "." + curve == name)
           parameters.reject(section, "Between",
-                            "names " + printable(name) + ", a curve inside of body " + bodies[b] +
+                            "names " + printable(name) + ", a curve inside of body " + body +
                                 "; let each side of it be a Body NAME, by its Surfaces, and name "
                                 "the boundaries of these");
+    }
   parameters.reject(section, "Between",
                     "names " + printable(name) +
                         ", which is no side; this scene has: " + listed(all, "and"));
@@ -205,7 +208,7 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
     parameters.reject(section, "Between", "names no two sides; give BODY.side, BODY.side");
   PairSides pair{name, section, {}, {}, {}, {}};
   for (const unsigned int k : {0, 1})
-    pair.sides[k] = side_called(parameters, section, sides[k], all);
+    pair.sides[k] = side_called(parameters, section, sides[k], all, singles);
   if (pair.sides[0].body == pair.sides[1].body)
     parameters.reject(section, "Between",
                       "names sides of one body; a body does not touch itself, name sides of two");
