@@ -130,6 +130,9 @@ invalid "Contact joint/Slave = lower.bottom" "is none of the two sides" "automat
 invalid "Contact joint/Slave = lower" "is none of the two sides" -- "Contact joint/Slave=lower"
 invalid "Contact again/Between" "names no two sides" -- "Contact again/Law=tied"
 
+invalid "Boundary foot/Where" "changes its sign inside a face of the coarse mesh, at (" "the mesh has a vertex" -- "${disc[@]}" "Boundary foot/On=disc.flat" \
+  "Boundary foot/Where=x - 1.23" "Boundary foot/Pressure=1"
+
 # --- their laws
 invalid "Contact joint/Law = glued" "unilateral, bilateral, tied or tangential" -- "Contact joint/Law=glued"
 for law in bilateral tied tangential; do
@@ -139,6 +142,15 @@ for law in bilateral tied; do
   invalid "Contact joint/Law = $law" "lie apart" "move them together" -- "Contact joint/Law=$law" \
     "Body upper/Lower corner=1, 1.1"
 done
+for law in bilateral tied; do
+  invalid "Contact joint/Law = $law" "lie apart" "set Closed within" -- "Contact joint/Law=$law" "Body upper/Lower corner=1, 1.01" "Contact joint/Closed within=0.009"
+done
+invalid "Contact joint/Closed within = 0.04" "more than 1 % of the size" "give less" -- "Contact joint/Closed within=0.04"
+for value in -0.001 1e400 "0.001*x" "0.001, 0.001"; do
+  invalid "Contact joint/Closed within = $value" "a number of 0 or more" -- "Contact joint/Closed within=$value"
+done
+invalid "Boundary upper.bottom/Closed within" "unknown entry" -- "Boundary upper.bottom/Closed within=0.001"
+invalid "Contact joint/Between" "inside each other" "0.025" "Closed within" -- "Body upper/Lower corner=1, 0.975" "Contact joint/Closed within=0.02"
 invalid "Contact joint/Friction bound = 0.1" "where bodies are tied" "remove it" -- "Contact joint/Law=tied" "Contact joint/Friction bound=0.1"
 invalid "Contact joint/Friction coefficient = 0.1" "where bodies are tied" -- "Contact joint/Law=tied" "Contact joint/Friction coefficient=0.1"
 invalid "Contact joint/Friction bound" "g >= 0" -- "Contact joint/Friction bound=-1"
@@ -185,6 +197,9 @@ valid() { # NAME ENTRY=VALUE...
 valid "the scene"
 valid "a gap in the drawing" "Body upper/Lower corner=1, 1.25"
 valid "interference" "Contact joint/Gap=-0.01"
+valid "a small gap that counts as none" "Body upper/Lower corner=1, 1.01" "Contact joint/Closed within=0.01" "Contact joint/Law=tied"
+valid "an overlap that counts as none" "Body upper/Lower corner=1, 0.98" "Contact joint/Closed within=0.03"
+valid "parts and materials inside edges" "Body upper/Material=" "Material soft/Where=x < 1.234" "Boundary foot/On=upper.right" "Boundary foot/Where=y - 1.3" "Boundary foot/Pressure=1"
 valid "a gap that varies" "Contact joint/Gap=0.1*(x - 1.5)^2"
 valid "a third body" "${third[@]}" "Contact lid/Between=third.bottom, upper.top" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0"
 valid "a body that contact alone holds" "Boundary upper.top/Displacement=" "Boundary upper.top/Traction=0; -1"

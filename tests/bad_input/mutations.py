@@ -33,7 +33,7 @@ NAMED = [f"{section}/{entry}" for section, entries in (
     ("Boundary foot", ("On", "Where", "Displacement", "Traction", "Pressure", "Shear", "Rigid", "Force", "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound")),
     ("Body upper", ("Shape", "Lower corner", "Upper corner", "Corners", "Centre", "Radius", "Radii", "Angle", "Angles", "Subdivisions", "Graded towards", "Grading levels",
                     "Material")),
-    ("Contact joint", ("Between", "Law", "Gap", "Friction bound", "Friction coefficient", "Slave")),
+    ("Contact joint", ("Between", "Law", "Gap", "Closed within", "Friction bound", "Friction coefficient", "Slave")),
     ("Probe tip", ("At", "Size", "On", "From", "To", "Points")))
     for entry in entries]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 11, 12, 13, 27, 32, 34, 35, 40, 41, 44, 45, 46, 48, 57, 59, 61, 92, 101, 127,

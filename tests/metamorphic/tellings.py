@@ -31,7 +31,7 @@ UNITS = {
     "Lower corner": "point", "Upper corner": "point", "Corners": "point", "Centre": "point", "Graded towards": "point", "At": "point",
     "From": "point", "To": "point", "Radii": (0, 1), "Radius": (0, 1), "Size": (0, 1), "Young's modulus": (1, 0), "Young's moduli": (1, 0),
     "Shear moduli": (1, 0), "Density": (1, -1), "Body force/Expression": (1, -1), "Displacement": (0, 1), "Traction": (1, 0), "Pressure": (1, 0),
-    "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Friction bound": (1, 0),
+    "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Closed within": (0, 1), "Friction bound": (1, 0),
     "Exact solution/Transition": "x", "Exact solution/Length": (0, 1), "Exact solution/Stick length": (0, 1)}
 WITHOUT = """Title Dimension Units/Length Units/Stress Shape Angles Angle Part File Subdivisions Grading=levels Where Poisson's=ratio Poisson's=ratios
 Initial=strain Thermal=expansion Plane Thickness Elasticity Gravity Temperature/Expression Exact=solution/Solution Symmetry Rigid Rotation Contact

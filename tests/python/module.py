@@ -118,6 +118,27 @@ class Numbers(Case):
                 with self.assertRaisesRegex(ValueError, f"coordinates, {dim} of them"):
                     result.u([1., 2., 3., 4.])
 
+    def test_points_at_a_joint_know_their_body(self):
+        slab = {"Body low": {"Upper corner": (2, 1), "Subdivisions": (3, 1)}, "Body up": {"Lower corner": (0, 1), "Upper corner": (2, 2)},
+                "Material/Plane": "stress", "Material/Young's modulus": 10, "Material/Poisson's ratio": 0.25,
+                "Boundary low.bottom/Displacement": "free; 0", "Boundary low.left/Displacement": "0; free",
+                "Boundary up.left/Displacement": "0.1; free", "Boundary up.right/Displacement": "0.7; free",
+                "Boundary up.top/Pressure": 1, "Contact joint/Between": "up.bottom, low.top", STEPS: 1}
+        result = hpvi.Scene(slab).solve()
+        x = np.array([[0, 1], [0.3, 1], [1, 1], [2, 1.]])
+        low = np.array([0.025, -0.1]) * x  # uniaxial; the upper one is strained by 0.3 along, and slides
+        np.testing.assert_allclose(result.u(x, body="low"), low, atol=1e-9)
+        np.testing.assert_allclose(result.u(x, body="up"), np.column_stack([0.1 + 0.3 * x[:, 0], low[:, 1]]), atol=1e-9)
+        np.testing.assert_allclose(result.stress(x, body="low")[:, 0, 0], 0, atol=1e-8)
+        np.testing.assert_allclose(result.stress(x, body="up")[:, 0, 0], 10 * 0.3 - 0.25, atol=1e-8)
+        for body, other in (("low", [1, 1.5]), ("up", [1, 0.5])):
+            self.assertTrue(np.isnan(result.u(other, body=body)).all() and np.isnan(result.stress(other, body=body)).all())
+            self.assertFalse(np.isnan(result.u(other)).any())
+        with self.assertRaisesRegex(ValueError, "none called middle; give low or up"):
+            result.u(x, body="middle")
+        with self.assertRaisesRegex(ValueError, "one body without a name"):
+            hpvi.Scene(BAR).solve().stress(x, body="low")
+
     def test_points_of_curved_cells_agree_with_probes(self):
         result = hpvi.Scene(ROOT / "prm/press-ring.prm", {STEPS: 2}).solve()
         inside = result.grid(3)["x"][:, 1, 1]  # the middle of each cell

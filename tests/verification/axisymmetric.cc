@@ -302,6 +302,62 @@ TEST(Axisymmetric, ScaledAndMirrored)
   }
 }
 
+/** A cylinder of radius 1 and height 2 by a mesh file, of which @p axis has x of the lowest node and of the middle one there. */
+std::string cylinder_file(const std::array<double, 2> &axis)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / "hpvi-cylinder.msh";
+  std::ofstream(file)
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"left\"\n1 2 "
+         "\"bottom\"\n1 3 \"right\"\n2 4 \"body\"\n$EndPhysicalNames\n$Nodes\n6\n1 "
+      << text(axis[0]) << " 0 0\n2 1 0 0\n3 1 1 0\n4 " << text(axis[1]) << " 1 0\n5 1 2 0\n6 "
+      << text(axis[0])
+      << " 2 0\n$EndNodes\n$Elements\n7\n1 1 2 1 1 1 4\n2 1 2 1 1 4 6\n3 1 2 2 2 1 2\n"
+         "4 1 2 3 3 2 3\n5 1 2 3 3 3 5\n6 3 2 4 4 1 2 3 4\n7 3 2 4 4 4 3 5 6\n$EndElements\n";
+  return file.string();
+}
+
+/** A drawing has its axis at x = 0 to round-off: what is nearer than 1e-10 of the size is there, and u_x = 0. */
+TEST(Axisymmetric, AxisOfADrawing)
+{
+  const auto file = [](const double one, const double other)
+  {
+    return Overrides{{"Geometry/Shape", "file"},
+                     {"Geometry/File", cylinder_file({{one, other}})},
+                     {"Geometry/Subdivisions", "1, 1"}};
+  };
+  const auto quadrilateral = [](const std::string &one, const std::string &other)
+  {
+    return Overrides{{"Geometry/Shape", "quadrilateral"},
+                     {"Geometry/Corners", one + ", 0; 1, 0; 1, 2; " + other + ", 2"}};
+  };
+  const std::vector<Overrides> rows{
+      file(0, 0),
+      file(-1.8e-15, 0),
+      file(6e-16, 6e-16),
+      file(1e-10, -1e-10),
+      file(-2e-10, 1e-16),
+      quadrilateral("-1.8e-15", "6e-16"),
+      quadrilateral("1e-11", "0"),
+      {{"Geometry/Lower corner", "-1e-12, 0"}, {"Geometry/Upper corner", "1, 2"}}};
+  // Under the pressure 1 around it u = (-(1 - nu) x, 2 nu y)/E.
+  const double J = -(1 - poisson) / young * 2 * pi;
+  for (const Overrides &row : rows)
+  {
+    const Overrides entries =
+        turned + row +
+        Overrides{{"Boundary bottom/Symmetry", "true"}, {"Boundary right/Pressure", "1"}};
+    const Scene<2> scene = scene_of(entries);
+    EXPECT_TRUE(std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                            [](const BoundaryCondition<2> &side)
+                            { return side.name == "left" && side.symmetry; }))
+        << row[1].second;
+    EXPECT_NEAR(steps_of(entries, 2, 1)[0].J, J, 1e-12) << row[1].second;
+  }
+  for (const Overrides &row : {file(-1e-9, 0), quadrilateral("-1e-9", "0")})
+    EXPECT_THROW(scene_of(turned + row + Overrides{{"Boundary bottom/Symmetry", "true"}}),
+                 InputError);
+}
+
 /** Heat in all directions: free it strains without stress, held it presses everywhere alike. */
 TEST(Axisymmetric, Heat)
 {

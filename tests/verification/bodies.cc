@@ -6,9 +6,12 @@
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/closed_forms/hertz.h>
 #include <hpvi/evaluation/contact_residuals.h>
+#include <hpvi/peaks/stress_peak.h>
 #include <hpvi/scene/bodies.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace
 {
@@ -850,6 +853,415 @@ TEST(Bodies, ShareAMeshFile)
   EXPECT_NEAR(meshes.energy, boxes.energy, 1e-12);
   EXPECT_NEAR(meshes.normal, boxes.normal, 1e-10);
   EXPECT_NEAR(meshes.friction, boxes.friction, 1e-10);
+}
+
+// ---------------------------------------------------------------- bodies of a mesh file
+
+/** A block of a mesh file, with a grid of cells; its sides are called "NAME left" and so on, or "NAME" all round. */
+struct DrawnBlock
+{
+  std::string name;
+  Point<2> lower, upper;
+  std::array<unsigned int, 2> n;
+  bool is_clockwise = false, shares_nodes = false, has_one_side = false;
+  unsigned int first_cell = 0; ///< of those in a row, by which the file begins
+};
+
+/** In format 2.2; each block has nodes of its own, or those that others have at its places. */
+std::string file_of(const std::vector<DrawnBlock> &blocks)
+{
+  std::ostringstream nodes, elements, names;
+  std::map<std::array<double, 2>, unsigned int> known;
+  unsigned int n_nodes = 0, n_elements = 0, n_names = 0;
+  const auto group = [&](const unsigned int dim, const std::string &name)
+  {
+    names << dim << " " << ++n_names << " \"" << name << "\"\n";
+    return n_names;
+  };
+  for (const DrawnBlock &block : blocks)
+  {
+    const auto [nx, ny] = block.n;
+    std::vector<unsigned int> own;
+    for (unsigned int j = 0; j <= ny; ++j)
+      for (unsigned int i = 0; i <= nx; ++i)
+      {
+        const std::array<double, 2> x{
+            {block.lower[0] + (block.upper[0] - block.lower[0]) * i / nx,
+             block.lower[1] + (block.upper[1] - block.lower[1]) * j / ny}};
+        const auto other = known.find(x);
+        own.push_back(block.shares_nodes && other != known.end() ? other->second : ++n_nodes);
+        if (own.back() == n_nodes)
+          nodes << n_nodes << " " << text(x[0]) << " " << text(x[1]) << " 0\n";
+        known.emplace(x, own.back());
+      }
+    const auto node = [&, nx = nx](const unsigned int i, const unsigned int j)
+    { return own[j * (nx + 1) + i]; };
+    const auto element = [&](const unsigned int type, const unsigned int tag,
+                             const std::vector<unsigned int> &corners)
+    {
+      elements << ++n_elements << " " << type << " 2 " << tag << " " << tag;
+      for (const unsigned int corner : corners)
+        elements << " " << corner;
+      elements << "\n";
+    };
+    const unsigned int surface = group(2, block.name);
+    for (unsigned int k = 0; k < nx * ny; ++k)
+    {
+      const unsigned int cell = (block.first_cell + k) % (nx * ny), i = cell % nx, j = cell / nx;
+      if (block.is_clockwise)
+        element(3, surface, {node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)});
+      else
+        element(3, surface, {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+    unsigned int side = block.has_one_side ? group(1, block.name) : 0;
+    const auto next_side = [&](const std::string &name)
+    { side = block.has_one_side ? side : group(1, block.name + " " + name); };
+    next_side("left");
+    for (unsigned int j = 0; j < ny; ++j)
+      element(1, side, {node(0, j), node(0, j + 1)});
+    next_side("right");
+    for (unsigned int j = 0; j < ny; ++j)
+      element(1, side, {node(nx, j), node(nx, j + 1)});
+    next_side("bottom");
+    for (unsigned int i = 0; i < nx; ++i)
+      element(1, side, {node(i, 0), node(i + 1, 0)});
+    next_side("top");
+    for (unsigned int i = 0; i < nx; ++i)
+      element(1, side, {node(i, ny), node(i + 1, ny)});
+  }
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(n_names) + "\n" +
+         names.str() + "$EndPhysicalNames\n$Nodes\n" + std::to_string(n_nodes) + "\n" +
+         nodes.str() + "$EndNodes\n$Elements\n" + std::to_string(n_elements) + "\n" +
+         elements.str() + "$EndElements\n";
+}
+
+std::string written(const std::string &name, const std::vector<DrawnBlock> &blocks)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / name;
+  std::ofstream(file) << file_of(blocks);
+  return file.string();
+}
+
+/** Where bodies of one file touch they may have nodes at one place, or none that match: the file has no other surfaces for them. */
+TEST(Bodies, OfOneFileHaveNodesOfTheirOwn)
+{
+  const DrawnBlock lower{"lower", {0, 0}, {3, 1}, {{3, 1}}},
+      upper{"upper", {1, 1}, {2, 2}, {{1, 1}}}, upper_of_four{"upper", {1, 1}, {2, 2}, {{4, 2}}},
+      clockwise{"upper", {1, 1}, {2, 2}, {{2, 1}}, true},
+      all_over{"third", {0, 0}, {3, 2}, {{2, 2}}},
+      corner{"third", {3, 1}, {4, 2}, {{1, 1}}, false, true},
+      inside{"third", {0.25, 0.25}, {0.75, 0.75}, {{1, 1}}};
+  const std::vector<std::pair<std::string, std::vector<DrawnBlock>>> rows{
+      {"an edge on an edge", {lower, upper}},
+      {"four edges on one", {lower, upper_of_four}},
+      {"the upper one first", {upper, lower}},
+      {"a cell that is clockwise", {lower, clockwise}},
+      {"a surface all over them", {all_over, lower, upper_of_four}},
+      {"a surface that shares a corner", {lower, upper, corner}},
+      {"a surface inside", {inside, lower, upper}}};
+  for (const auto &[name, blocks] : rows)
+  {
+    const std::string file = written("hpvi-blocks.msh", blocks);
+    const Overrides both{{"Contact joint/Friction bound", "0.02"},
+                         {"Material/Young's modulus", "10"},
+                         {"Adaptivity/Maximum steps", "3"}};
+    Overrides drawn{{"Contact joint/Between", "upper.upper bottom, lower.lower top"},
+                    {"Boundary lower.lower bottom/Displacement", "0; 0"},
+                    {"Boundary upper.upper top/Displacement", "0.01; -0.02"}},
+        boxes{{"Contact joint/Between", "upper.bottom, lower.top"},
+              {"Boundary lower.bottom/Displacement", "0; 0"},
+              {"Boundary upper.top/Displacement", "0.01; -0.02"}};
+    for (const DrawnBlock &block : blocks)
+      if (block.name != "third")
+      {
+        const auto comma = [](const double x, const double y) { return text(x) + ", " + text(y); };
+        const std::string body = "Body " + block.name;
+        drawn = joined({drawn,
+                        {{body + "/Shape", "file"},
+                         {body + "/File", file},
+                         {body + "/Surfaces", block.name}}});
+        boxes = joined({boxes,
+                        {{body + "/Lower corner", comma(block.lower[0], block.lower[1])},
+                         {body + "/Upper corner", comma(block.upper[0], block.upper[1])},
+                         {body + "/Subdivisions", comma(block.n[0], block.n[1])}}});
+      }
+    const Result meshes = solved(scene_of(joined({both, drawn}))),
+                 grids = solved(scene_of(joined({both, boxes})));
+    EXPECT_LT(grids.normal, -0.1);
+    EXPECT_NEAR(meshes.energy, grids.energy, 1e-12) << name;
+    EXPECT_NEAR(meshes.normal, grids.normal, 1e-10) << name;
+    EXPECT_NEAR(meshes.friction, grids.friction, 1e-10) << name;
+  }
+  // One body of both surfaces wants nodes that they share, and says what else there is.
+  try
+  {
+    scene_of({{"Geometry/Shape", "file"},
+              {"Geometry/File", written("hpvi-blocks.msh", {lower, upper})}});
+    FAIL() << "taken for one body";
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("with its Surfaces"), std::string::npos)
+        << error.what();
+  }
+}
+
+/** Wherever a mesh begins the loop of its edges, contact along a part of it is told from one end to the other. */
+TEST(Bodies, TellContactFromAnEnd)
+{
+  struct Row
+  {
+    std::string where;
+    std::vector<std::array<double, 2>> chains; ///< by x of their ends
+  };
+  for (const Row &row : {Row{"0.1 - y", {{{0, 6}}}}, Row{"0.1 - y - 10*max(0, x - 5)", {{{0, 5}}}},
+                         Row{"min(0.1 - y, x - 2)", {{{2, 6}}}},
+                         Row{"min(0.1 - y, abs(x - 3) - 1)", {{{0, 2}}, {{4, 6}}}}})
+    for (unsigned int first = 0; first < 6; ++first)
+    {
+      DrawnBlock block{"block", {0, 0}, {6, 1}, {{6, 1}}};
+      block.has_one_side = true;
+      block.first_cell = first;
+      const Scene<2> scene = scene_of({{"Geometry/Shape", "file"},
+                                       {"Geometry/File", written("hpvi-loop.msh", {block})},
+                                       {"Boundary foot/On", "block"},
+                                       {"Boundary foot/Where", row.where},
+                                       {"Boundary foot/Contact", "bilateral"},
+                                       {"Boundary foot/Friction bound", "0.01"},
+                                       {"Boundary lid/On", "block"},
+                                       {"Boundary lid/Where", "y - 0.9"},
+                                       {"Boundary lid/Displacement", "0.1; -0.1"},
+                                       {"Adaptivity/Maximum steps", "2"}});
+      AdaptiveSolver<2>(scene).run(
+          [&](const StepReport<2> &step)
+          {
+            const ContactState<2> &state = step.contact.at(0);
+            ASSERT_EQ(state.chains.size(), row.chains.size()) << row.where << first;
+            for (unsigned int k = 0; k < state.chains.size(); ++k)
+            {
+              EXPECT_NEAR(state.chains[k].begin[0], row.chains[k][0], 1e-12) << row.where << first;
+              EXPECT_NEAR(state.chains[k].end[0], row.chains[k][1], 1e-12) << row.where << first;
+            }
+            for (unsigned int k = 0; k + 1 < state.points.size(); ++k)
+              EXPECT_LT(state.points[k].x[0], state.points[k + 1].x[0]) << row.where << first;
+            EXPECT_EQ(state.zones.size(), row.chains.size()) << row.where << first;
+          });
+    }
+}
+
+// ---------------------------------------------------------------- what the drawing leaves between bodies
+
+/** Blocks of 2 x 1 on each other under the pressure 1: distances and overlaps that count as none change nothing. */
+TEST(Bodies, CloseSmallGapsOfTheDrawing)
+{
+  struct Row
+  {
+    std::string law, corners, closed;
+    double tolerance; ///< of the pressure 1
+    std::string words;
+  };
+  const std::string apart = "0, 1.001; 2, 1.001; 2, 2.001; 0, 2.001",
+                    inside = "0, 0.998; 2, 0.998; 2, 1.998; 0, 1.998",
+                    askew = "0, 1.001; 2, 1.002; 2, 2; 0, 2", touching = "0, 1; 2, 1; 2, 2; 0, 2",
+                    through = "0, 0.999; 2, 1.001; 2, 2; 0, 2";
+  for (const Row &row : {Row{"unilateral", apart, "0.001", 1e-9, "lie 0.001 apart"},
+                         Row{"bilateral", apart, "0.002", 1e-9, "lie 0.001 apart"},
+                         Row{"tied", apart, "0.01", 1e-9, "lie 0.001 apart"},
+                         Row{"unilateral", inside, "0.002", 1e-9, "lie 0.002 inside each other"},
+                         Row{"tied", inside, "0.003", 1e-9, "lie 0.002 inside each other"},
+                         Row{"tied", askew, "0.003", 2e-3, "from 0.001 to 0.002, count as none"},
+                         Row{"unilateral", through, "0.0015", 2e-3, "count as none"},
+                         Row{"tied", touching, "0.001", 1e-9, "lie 0 apart"}})
+  {
+    const Scene<2> scene = scene_of({{"Body lower/Upper corner", "2, 1"},
+                                     {"Body lower/Subdivisions", "3, 1"},
+                                     {"Body upper/Shape", "quadrilateral"},
+                                     {"Body upper/Corners", row.corners},
+                                     {"Body upper/Subdivisions", "2, 1"},
+                                     {"Material/Young's modulus", "10"},
+                                     {"Material/Plane", "stress"},
+                                     {"Contact joint/Between", "upper.bottom, lower.top"},
+                                     {"Contact joint/Law", row.law},
+                                     {"Contact joint/Closed within", row.closed},
+                                     {"Boundary lower.bottom/Symmetry", "true"},
+                                     {"Boundary lower.left/Symmetry", "true"},
+                                     {"Boundary upper.left/Symmetry", "true"},
+                                     {"Boundary upper.top/Pressure", "1"},
+                                     {"Adaptivity/Maximum steps", "1"}});
+    EXPECT_TRUE(std::any_of(scene.remarks.begin(), scene.remarks.end(),
+                            [&](const std::string &remark)
+                            { return remark.find(row.words) != std::string::npos; }))
+        << row.words << ": " << scene.remarks.at(0);
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_NEAR(step.energies.energy, -0.2, 0.2 * row.tolerance) << row.law << row.corners;
+          for (const ContactPoint<2> &point : step.contact.at(0).points)
+            EXPECT_NEAR(point.normal_traction, -1, row.tolerance) << row.law << row.corners;
+        });
+  }
+  // Beyond it the drawing is meant.
+  EXPECT_NEAR(solved(scene_of({{"Body lower/Upper corner", "2, 1"},
+                               {"Body upper/Lower corner", "0, 1.01"},
+                               {"Body upper/Upper corner", "2, 2"},
+                               {"Contact joint/Between", "upper.bottom, lower.top"},
+                               {"Contact joint/Closed within", "0.005"},
+                               {"Boundary lower.bottom/Symmetry", "true"},
+                               {"Boundary upper.top/Displacement", "0; -0.005"},
+                               {"Boundary lower.left/Symmetry", "true"},
+                               {"Adaptivity/Maximum steps", "1"}}))
+                  .normal,
+              0, 1e-12);
+}
+
+/**
+ * A temperature that jumps along edges is the same as materials that expand by different amounts: what an expression says of the edges
+ * themselves is that of one side, and no more than the other's.
+ */
+TEST(Bodies, MeetAtOtherTemperatures)
+{
+  struct Row
+  {
+    std::string name;
+    Overrides entries;
+    std::pair<std::string, std::string> other; ///< the place of the material that expands
+    std::string jump, level;                   ///< temperatures
+    double tolerance;
+  };
+  const Overrides shaft{
+      {"Body a/Lower corner", "15, 0"},          {"Body a/Upper corner", "30, 60"},
+      {"Body a/Subdivisions", "2, 6"},           {"Body b/Lower corner", "30, 0"},
+      {"Body b/Upper corner", "60, 60"},         {"Body b/Subdivisions", "3, 6"},
+      {"Material/Plane", "axisymmetric"},        {"Boundary a.bottom/Symmetry", "true"},
+      {"Boundary b.bottom/Symmetry", "true"},    {"Boundary a.top/Symmetry", "true"},
+      {"Contact fit/Between", "b.left, a.right"}},
+      stack{{"Body a/Upper corner", "3, 1"},
+            {"Body a/Subdivisions", "3, 1"},
+            {"Body b/Lower corner", "1, 1"},
+            {"Body b/Upper corner", "2, 2"},
+            {"Body b/Subdivisions", "2, 2"},
+            {"Boundary a.bottom/Displacement", "0; 0"},
+            {"Boundary b.top/Displacement", "0; -0.001"},
+            {"Contact fit/Friction bound", "0.001"},
+            {"Contact fit/Between", "b.bottom, a.top"}},
+      askew{{"Body a/Shape", "quadrilateral"},
+            {"Body a/Corners", "0, 0; 2, 0; 2, 1.2; 0, 0.7"},
+            {"Body a/Subdivisions", "2, 1"},
+            {"Body b/Shape", "quadrilateral"},
+            {"Body b/Corners", "0, 0.7; 2, 1.2; 2, 2; 0, 2"},
+            {"Body b/Subdivisions", "3, 1"},
+            {"Boundary a.bottom/Displacement", "0; 0"},
+            {"Contact fit/Law", "tied"},
+            {"Contact fit/Between", "b.bottom, a.top"}},
+      rings{{"Body a/Shape", "ring sector"},
+            {"Body a/Radii", "1, 1.5"},
+            {"Body a/Angles", "0, 90"},
+            {"Body a/Subdivisions", "1, 4"},
+            {"Body b/Shape", "ring sector"},
+            {"Body b/Radii", "1.5, 2"},
+            {"Body b/Angles", "0, 90"},
+            {"Body b/Subdivisions", "1, 5"},
+            {"Boundary a.start/Symmetry", "true"},
+            {"Boundary b.start/Symmetry", "true"},
+            {"Boundary a.end/Symmetry", "true"},
+            {"Boundary b.end/Symmetry", "true"},
+            {"Contact fit/Between", "b.inner, a.outer"}},
+      alone{{"Geometry/Upper corner", "2, 1"}, {"Boundary left/Displacement", "0; 0"}};
+  const std::pair<std::string, std::string> in_b{"Body b/Material", "other"},
+      in_a{"Body a/Material", "other"}, right{"Material other/Where", "x > 0.7"};
+  for (const Row &row :
+       {Row{"a cold hub on a shaft", shaft, in_b, "x > 30 ? -1 : 0", "-1", 1e-9},
+        Row{"the joint belongs to the hub", shaft, in_b, "x >= 30 ? -1 : 0", "-1", 1e-9},
+        Row{"a hot shaft", shaft, in_a, "x < 30 ? 1 : 0", "1", 1e-9},
+        Row{"a stack", stack, in_b, "y > 1 ? 1 : 0", "1", 1e-9},
+        Row{"the joint belongs to the block", stack, in_b, "y >= 1 ? 1 : 0", "1", 1e-9},
+        Row{"a slanted joint", askew, in_b, "y > 0.7 + 0.25*x + 1e-12 ? 1 : 0", "1", 1e-9},
+        Row{"rings", rings, in_b, "x*x + y*y > 2.25 ? -1 : 0", "-1", 1e-6},
+        Row{"materials of one body", alone, right, "x > 0.7 ? 1 : 0", "1", 1e-9},
+        Row{"the line between them is hot", alone, right, "x >= 0.7 ? 1 : 0", "1", 1e-9}})
+  {
+    const auto steps = [&](const std::string &temperature, const std::string &alpha)
+    {
+      const Scene<2> scene = scene_of(joined({row.entries,
+                                              {{"Material/Young's modulus", "10"},
+                                               {"Material/Thermal expansion", alpha},
+                                               {"Material other/Young's modulus", "20"},
+                                               {"Material other/Thermal expansion", "0.001"},
+                                               {"Temperature/Expression", temperature},
+                                               {"Adaptivity/Indicator", "residual"},
+                                               {"Adaptivity/Maximum steps", "3"},
+                                               row.other}}));
+      std::vector<std::array<double, 3>> result;
+      AdaptiveSolver<2>(scene).run(
+          [&](const StepReport<2> &step)
+          {
+            double peak = 0;
+            for (const StressSample<2> &sample : stress_samples(step.field))
+              peak = std::max(peak, sample.value);
+            result.push_back({{step.energies.energy, step.norms.total, peak}});
+          });
+      return result;
+    };
+    const auto jumps = steps(row.jump, "0.001"), known = steps(row.level, "0");
+    ASSERT_EQ(jumps.size(), known.size()) << row.name;
+    for (unsigned int k = 0; k < known.size(); ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+        EXPECT_NEAR(jumps[k][i], known[k][i],
+                    row.tolerance * std::max(std::abs(known[k][i]), std::abs(known[0][i])))
+            << row.name << k << i;
+  }
+}
+
+// ---------------------------------------------------------------- what one body can
+
+/** Parts and materials end where a box gets a grid line, be it `Geometry` or a `Body`. */
+TEST(Bodies, AreCutAsOneBodyIs)
+{
+  const std::vector<Overrides> rows{
+      {{"Boundary load/On", "top"}, {"Boundary load/Where", "0.3 - abs(x - 0.5)"}},
+      {{"Boundary load/On", "right"}, {"Boundary load/Where", "y - 0.3"}},
+      {{"Boundary load/On", "top"}, {"Boundary load/Where", "abs(x - 0.5) - 0.1"}},
+      {{"Boundary load/On", "top"}, {"Boundary load/Where", "x < 0.123"}},
+      {{"Boundary load/On", "top"},
+       {"Boundary load/Where", "1"},
+       {"Material hard/Where", "y > 0.3"}},
+      {{"Boundary load/On", "top"},
+       {"Boundary load/Where", "1"},
+       {"Material hard/Where", "0.2 - abs(x - 1)"}},
+      {{"Boundary load/On", "left"},
+       {"Boundary load/Where", "0.6 - y"},
+       {"Material hard/Where", "min(x - 0.7, 0.4 - y)"}}};
+  for (const Overrides &row : rows)
+  {
+    const auto scene = [&](const std::string &body, const std::string &side)
+    {
+      Overrides entries{
+          {body + "/Upper corner", "2, 1"},   {body + "/Subdivisions", "2, 1"},
+          {"Boundary load/Pressure", "1"},    {"Boundary " + side + "bottom/Displacement", "0; 0"},
+          {"Material/Young's modulus", "10"}, {"Adaptivity/Maximum steps", "2"}};
+      for (const auto &[path, value] : row)
+        entries.emplace_back(path, path == "Boundary load/On" ? side + value : value);
+      if (std::any_of(row.begin(), row.end(),
+                      [](const auto &entry) { return entry.first == "Material hard/Where"; }))
+        entries.emplace_back("Material hard/Young's modulus", "40");
+      return scene_of(entries);
+    };
+    const auto energy = [](const Scene<2> &scene)
+    {
+      double result = 0;
+      AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
+                                   { result = step.energies.energy; });
+      return result;
+    };
+    const Scene<2> one = scene("Geometry", ""), body = scene("Body a", "a.");
+    EXPECT_EQ(one.geometry.n_cells(), body.geometry.n_cells());
+    const double wanted = energy(one);
+    EXPECT_NEAR(energy(body), wanted, 1e-12 * std::abs(wanted)) << row[1].second;
+    if (row[1].second == "1")
+      continue;
+    ASSERT_FALSE(one.remarks.empty());
+    EXPECT_EQ(body.remarks.front(), "Body a: " + one.remarks.front());
+  }
 }
 
 // ---------------------------------------------------------------- histories

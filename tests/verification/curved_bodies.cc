@@ -277,6 +277,24 @@ TEST(CurvedBodies, CountTheGapOfAPolygon)
               1e-9);
 }
 
+/** A polygon in a circle, glued: `Closed within` takes the sagitta of its edges for none. */
+TEST(CurvedBodies, AreTiedToAPolygon)
+{
+  const auto file = std::filesystem::path(::testing::TempDir()) / "hpvi-rings-of-8.msh";
+  std::ofstream(file) << file_of_rings(8);
+  const Overrides entries = with(rings_of_files(file.string(), file.string(), "", "circle", "tied"),
+                                 {{"Adaptivity/Start degree", "4"}});
+  EXPECT_THROW(scene_of(entries), InputError);
+  const double sagitta = 1.5 * (1 - std::cos(numbers::PI / 32)); // 0.0072
+  EXPECT_THROW(scene_of(with(entries, {{"Contact fit/Closed within", text(0.9 * sagitta)}})),
+               InputError);
+  double mean = 0;
+  solved(with(entries, {{"Contact fit/Closed within", text(1.01 * sagitta)}}),
+         [&](const StepReport<2> &step)
+         { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
+  EXPECT_NEAR(mean / fit_pressure(1, 0), 1, 0.02);
+}
+
 /** What one step has found starts the next, on another mesh and with the other side as slave. */
 TEST(CurvedBodies, HandTractionsOn)
 {

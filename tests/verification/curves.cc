@@ -5,8 +5,10 @@
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/body/cell_map.h>
 #include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/gmsh/quadratic_edge.h>
 #include <hpvi/shapes/curve_fit.h>
 #include <hpvi/shapes/half_disc.h>
+#include <hpvi/shapes/mesh_from_file.h>
 #include <hpvi/shapes/plate_with_hole.h>
 #include <hpvi/shapes/ring_sector.h>
 
@@ -304,6 +306,64 @@ TEST(Curves, FitTheVerticesOfMeshes)
     // Eight edges on a quarter: a not-a-knot spline misses by 4e-5, a natural one by 2e-3.
     EXPECT_LT(farthest, is_spline ? 6e-5 : 1e-14);
     EXPECT_FALSE(polygon_for_circle(mesh, {hole[0], hole[1]}));
+  }
+}
+
+/** What edges of a file look like a circle that was meant: chords, and edges of second order whose nodes are on it. */
+TEST(Curves, LookLikeACircleThatWasMeant)
+{
+  enum class Kind
+  {
+    straight,
+    second_order,
+    bent
+  };
+  struct Row
+  {
+    std::string name;
+    unsigned int n_edges;
+    double angle, flattened; ///< degrees from the first to the last; y over that of a circle
+    Kind kind;
+    bool is_circle;
+  };
+  for (const Row &row :
+       {Row{"quarter by two of second order", 2, 90, 1, Kind::second_order, true},
+        Row{"whole by four of second order", 4, 360, 1, Kind::second_order, true},
+        Row{"one of second order", 1, 45, 1, Kind::second_order, false}, // a parabola
+        Row{"an ellipse of second order", 8, 180, 0.9, Kind::second_order, false},
+        Row{"a polygon", 8, 180, 1, Kind::straight, true},
+        Row{"a hexagon", 6, 360, 1, Kind::straight, false},
+        Row{"an elliptic polygon", 16, 180, 0.9, Kind::straight, false},
+        Row{"a circle by Curve", 8, 180, 1, Kind::bent, false}})
+  {
+    CoarseMesh mesh;
+    mesh.boundaries = {"rim"};
+    const auto point = [&](const double k)
+    {
+      const double t = k / row.n_edges * row.angle * numbers::PI / 180;
+      return Point<2>(3 * std::cos(t), 3 * row.flattened * std::sin(t));
+    };
+    const auto circle = std::make_shared<const Circle>(Point<2>(), 3);
+    for (unsigned int k = 0; k <= row.n_edges; ++k)
+      mesh.vertices.push_back(point(k));
+    for (unsigned int k = 0; k < row.n_edges; ++k)
+    {
+      CoarseMesh::Edge edge{{{k, row.angle == 360 ? (k + 1) % row.n_edges : k + 1}}, 0};
+      if (row.kind == Kind::second_order)
+        edge.curve = {std::make_shared<const QuadraticEdge>(point(k), point(k + 0.5), point(k + 1)),
+                      0, 1};
+      else if (row.kind == Kind::bent)
+        edge.curve = {circle, k * numbers::PI / row.n_edges, (k + 1) * numbers::PI / row.n_edges};
+      mesh.edges.push_back(edge);
+    }
+    const std::vector<std::string> remarks = remarks_on_polygons(mesh);
+    ASSERT_EQ(remarks.size(), row.is_circle ? 1U : 0U) << row.name;
+    if (!row.is_circle)
+      continue;
+    EXPECT_NE(remarks[0].find("on a circle of radius 3 around"), std::string::npos) << remarks[0];
+    EXPECT_NE(remarks[0].find("Boundary rim/Curve = circle"), std::string::npos) << remarks[0];
+    EXPECT_EQ(remarks[0].find("second order") != std::string::npos, row.kind == Kind::second_order)
+        << remarks[0];
   }
 }
 

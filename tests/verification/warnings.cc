@@ -8,6 +8,7 @@
 #include <hpvi/evaluation/probe_value.h>
 #include <hpvi/evaluation/solution_field.h>
 #include <hpvi/stresses/mean_gradients.h>
+#include <hpvi/scene/bare_joints.h>
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
@@ -443,6 +444,86 @@ TEST(Warnings, TransitionOnAVertex)
                line.find("to +-1 mm only") != std::string::npos;
     EXPECT_EQ(found, 1U) << x;
   }
+}
+
+/** Bodies that the drawing has on each other and no pair keeps apart. */
+TEST(Warnings, BodiesThatLieOnEachOther)
+{
+  const auto box = [](const std::string &name, const std::string &lower, const std::string &upper)
+  {
+    return Overrides{{"Body " + name + "/Lower corner", lower},
+                     {"Body " + name + "/Upper corner", upper},
+                     {"Body " + name + "/Subdivisions", "2, 1"}};
+  };
+  const auto ring = [](const std::string &name, const std::string &radii)
+  {
+    return Overrides{{"Body " + name + "/Shape", "ring sector"},
+                     {"Body " + name + "/Radii", radii},
+                     {"Body " + name + "/Angles", "0, 90"},
+                     {"Body " + name + "/Subdivisions", "1, 3"}};
+  };
+  const Overrides low =
+                      with(box("a", "0, 0", "1, 1"), {{"Boundary a.bottom/Displacement", "0; 0"}}),
+                  held = {{"Boundary b.top/Displacement", "0; -0.05"}},
+                  pair = {{"Contact joint/Between", "a.top, b.bottom"}};
+  struct Row
+  {
+    std::string name;
+    Overrides entries;
+    std::vector<std::string> joints;
+  };
+  const std::vector<Row> rows{
+      {"a stack", with(with(low, box("b", "0, 1", "1, 2")), held), {"a.top b.bottom"}},
+      {"with a pair", with(with(with(low, box("b", "0, 1", "1, 2")), held), pair), {}},
+      {"a hair apart", with(with(low, box("b", "0, 1.0001", "1, 2")), held), {}},
+      {"a small one on it",
+       with(with(low, box("b", "0.7, 1", "0.72, 1.1")), held),
+       {"a.top b.bottom"}},
+      {"one that hangs over",
+       with(with(low, box("b", "0.9, 1", "5, 2")), held),
+       {"a.top b.bottom"}},
+      {"at a corner", with(with(low, box("b", "1, 1", "2, 2")), held), {}},
+      {"beside each other", with(with(low, box("b", "1, 0", "2, 1")), held), {"a.right b.left"}},
+      {"both held",
+       with(with(with(low, box("b", "0, 1", "1, 2")), held),
+            {{"Boundary a.top/Displacement", "0; 0"}, {"Boundary b.bottom/Symmetry", "true"}}),
+       {}},
+      {"one of them held",
+       with(with(with(low, box("b", "0, 1", "1, 2")), held),
+            {{"Boundary a.top/Displacement", "0; 0"}}),
+       {"a.top b.bottom"}},
+      {"a third one",
+       with(with(with(with(low, box("b", "0, 1", "1, 2")), held), pair),
+            box("c", "0, 2", "0.5, 3")),
+       {"b.top c.bottom"}},
+      {"rings",
+       with(with(ring("a", "1, 1.5"), ring("b", "1.5, 2")),
+            {{"Boundary a.inner/Displacement", "0; 0"}}),
+       {"a.outer b.inner"}},
+      {"a ring in a wider one", with(ring("a", "1, 1.5"), ring("b", "1.51, 2")), {}}};
+  for (const Row &row : rows)
+  {
+    Overrides entries = row.entries;
+    for (const std::string body : {"a", "b", "c"}) // whatever else may hold them
+      if (std::any_of(entries.begin(), entries.end(),
+                      [&](const auto &entry)
+                      { return entry.first.rfind("Body " + body + "/", 0) == 0; }))
+      {
+        const bool is_ring = row.name.find("ring") != std::string::npos;
+        entries.emplace_back("Boundary " + body + (is_ring ? ".start" : ".left") + "/Spring",
+                             "1; 1");
+      }
+    const Scene<2> scene = scene_of(entries);
+    std::vector<std::string> joints;
+    for (const BareJoint &joint : bare_joints(scene))
+      joints.push_back(joint.sides[0] + " " + joint.sides[1]);
+    EXPECT_EQ(joints, row.joints) << row.name;
+  }
+  const Overrides one_step{{"Adaptivity/Maximum steps", "1"}};
+  const std::string words =
+      "a.top and b.bottom lie on each other at (0.125 1) and no Contact names them";
+  EXPECT_TRUE(warns(scene_of(with(rows[0].entries, one_step)), words));
+  EXPECT_FALSE(warns(scene_of(with(rows[1].entries, one_step)), "lie on each other"));
 }
 
 /** A block that is squeezed slips outwards on both sides of its middle. */
