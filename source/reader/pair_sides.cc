@@ -72,7 +72,7 @@ void reject_overlap(const Parameters &parameters, const std::string &section, co
                         "negative Gap, or set Closed within if none is meant");
 }
 
-/** The number of `Closed within`. */
+/** The number of `Closed within`, and a hair for round-off of distances. */
 double read_closed(const Parameters &parameters, const std::string &section, const double size)
 {
   constexpr double most = 0.01;
@@ -81,7 +81,7 @@ double read_closed(const Parameters &parameters, const std::string &section, con
     parameters.reject(section, "Closed within",
                       "is more than 1 % of the size of the bodies, " + to_string(size) +
                           "; give less, or move them together in the drawing");
-  return closed;
+  return closed > 0 ? closed + same_place * size : 0.;
 }
 
 /** What counts as none of distances from @p least to @p largest, negative where sides lie inside each other. */
@@ -89,7 +89,7 @@ std::string closed_in_words(const PairSides &pair, const double closed, const do
                             const double largest)
 {
   const std::string sides = pair.sides[0].name + " and " + pair.sides[1].name,
-                    entry = pair.section + "/Closed within = " + to_string(closed);
+                    entry = pair.section + "/Closed within";
   if (largest - least <= 1e-6 * closed && std::abs(least) <= closed)
     return entry + ": " + sides + " lie " + to_string(std::abs(least)) +
            (least < 0 ? " inside each other" : " apart") + " in the drawing, which counts as none";

@@ -212,9 +212,13 @@ std::optional<CircleFit> polygon_for_circle(const CoarseMesh &mesh,
     bool is_smooth = true;
     for (unsigned int k = 1; k < chain.edges.size(); ++k)
       is_smooth = is_smooth && (mesh.edges[chain.edges[k]].curve || turn_at(mesh, chain, k) < 45);
-    const auto fit = fit_circle(points);
-    if (is_smooth && fit && fit->deviation <= 1e-10)
-      return fit;
+    auto fit = fit_circle(points);
+    if (!is_smooth || !fit || !(fit->deviation <= 1e-10))
+      continue;
+    for (unsigned int d = 0; d < 2; ++d)
+      if (std::abs(fit->centre[d]) <= 1e-12 * fit->radius) // round-off, for words
+        fit->centre[d] = 0;
+    return fit;
   }
   return std::nullopt;
 }
