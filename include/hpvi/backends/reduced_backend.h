@@ -77,8 +77,6 @@ public:
   bool resolves_data() override;
   double missed(const std::optional<ErrorBound> &bound) const override
   {
-    if (!unresolved.empty() || !missed_displacements.empty())
-      return std::numeric_limits<double>::infinity();
     return bound ? bound->oscillation : 0.;
   }
 
