@@ -22,8 +22,7 @@ double room_on(const Solution<2> &solution, const ContactFace<2> &face)
   const EdgePolynomial u_n =
       edge_trace(face, normal, solution.displacement_space, solution.tables, solution.u);
   // Where there is a bound, a gap that varies is a polynomial of degree p + 12, see DataError.
-  const unsigned int m =
-      4 * (face.degree + (coarse_cuts::varies(face.condition->gap) ? 13 : 1));
+  const unsigned int m = 4 * (face.degree + (coarse_cuts::varies(face.condition->gap) ? 13 : 1));
   double least = std::numeric_limits<double>::max(), largest = -least;
   for (unsigned int k = 0; k < m; ++k)
   {

@@ -11,7 +11,6 @@
 #include <hpvi/intervals/resultant_intervals.h>
 
 #include <array>
-#include <limits>
 
 namespace hpvi
 {

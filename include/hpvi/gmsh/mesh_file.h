@@ -28,8 +28,7 @@ namespace hpvi
  * through edges; nodes outside the plane, twice at one place (to 1e-12 of the size) or hanging; edges in two groups,
  * or in one and of no cell; a group that lies on the boundary and inside; names that a scene cannot write.
  */
-CoarseMesh read_mesh_file(const std::string &path,
-                          const std::vector<std::string> &surfaces = {});
+CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string> &surfaces = {});
 } // namespace hpvi
 
 #endif
