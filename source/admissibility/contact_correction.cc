@@ -21,6 +21,7 @@ ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
   uncorrected = best.gaps;
   best = search.best(std::move(best));
   depth = best.penetration;
+  jump = best.opening;
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   cell_energies = search.energies(w);
@@ -48,6 +49,12 @@ template <int dim>
 double ContactCorrection<dim>::penetration() const
 {
   return depth;
+}
+
+template <int dim>
+double ContactCorrection<dim>::opening() const
+{
+  return jump;
 }
 
 template <int dim>

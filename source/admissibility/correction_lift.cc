@@ -64,16 +64,17 @@ double largest_value(const EdgePolynomial &polynomial, const double round_off)
 template <int dim>
 Vector<double> CorrectionSearch<dim>::fixed_displacement() const
 {
-  NodalDisplacement<dim> all(solution, discretisation.unknowns, freedom);
+  NodalDisplacement<dim> all(solution, freedom);
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (slips[k].mode == Slip::nowhere)
-      all.set(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
-  all.release(); // a tangent of one side may be the normal of another, which matters more
+      all.wish(faces[k], faces[k].frame(0.5).tangent, EdgePolynomial(traces[k].u));
+  all.move(); // a tangent of one side may be the normal of another, which matters more
+  for (const Joint &joint : joints)
+    all.wish(faces[joint.face], joint.direction, EdgePolynomial(joint.trace.u));
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k] && openings[k]->mode == Opening::closed)
-      all.set(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
-  for (const Joint &joint : joints)
-    all.set(faces[joint.face], joint.direction, EdgePolynomial(joint.trace.u));
+      all.wish(faces[k], faces[k].frame(0.5).normal, EdgePolynomial(openings[k]->penetration.u));
+  all.move();
   Vector<double> result = discretisation.unknowns.coordinates(all.u);
   result.grow_or_shrink(A.n());
   return result;
@@ -89,24 +90,53 @@ double CorrectionSearch<dim>::open_joints(const Vector<double> &w) const
   return result <= 1e-12 * solution.u.linfty_norm() ? 0. : result;
 }
 
-/** Is the normal displacement at an end of a face prescribed, so that w_n vanishes there? */
+/** Is the normal displacement at an end of a face prescribed, by supports or by joints that meet there, so that w_n vanishes? */
 template <int dim>
-std::array<bool, 2> CorrectionSearch<dim>::held_ends(const unsigned int face) const
+std::vector<std::array<bool, 2>> CorrectionSearch<dim>::held_ends() const
 {
-  const unsigned int n = faces[face].degree + 1;
-  const Tensor<1, dim> normal = faces[face].frame(0.5).normal;
-  const FaceDofs<dim> dofs(faces[face], solution.displacement_space, solution.tables);
-  const auto is_held = [&](const auto &of_body, const unsigned int end)
+  NodalDisplacement<dim> still(solution, freedom);
+  for (const Joint &joint : joints)
+    still.wish(faces[joint.face], joint.direction, [](const double) { return 0.; });
+  return still.held_ends(faces);
+}
+
+/** The ends of faces by the first displacement unknown of one of all vertices that lie opposite to each other there. */
+template <int dim>
+std::vector<std::array<types::global_dof_index, 2>> CorrectionSearch<dim>::meeting_places() const
+{
+  std::map<types::global_dof_index, types::global_dof_index> next; // to the one that stands for all
+  const auto last = [&](types::global_dof_index vertex)
   {
-    typename NodeFreedom<dim>::Node node;
-    for (unsigned int c = 0; c < dim; ++c)
-      node[c] = of_body[c * n + end * (n - 1)];
-    return freedom.is_held(node, normal);
+    while (next.emplace(vertex, vertex).first->second != vertex)
+      vertex = next[vertex];
+    return vertex;
   };
-  std::array<bool, 2> result{};
-  for (unsigned int end = 0; end < 2; ++end)
-    result[end] = is_held(dofs.own, end) && (dofs.opposite.empty() || is_held(dofs.opposite, end));
+  std::vector<std::array<types::global_dof_index, 2>> result;
+  for (const ContactFace<dim> &face : faces)
+  {
+    const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
+    for (const unsigned int node : {0U, face.degree})
+      if (!dofs.opposite.empty())
+        next[last(dofs.opposite[node])] = last(dofs.own[node]);
+    result.push_back({{dofs.own[0], dofs.own[face.degree]}});
+  }
+  for (auto &ends : result)
+    for (types::global_dof_index &vertex : ends)
+      vertex = last(vertex);
   return result;
+}
+
+/** Of the sides that meet at a place each direction has its own; what is on one side, or along one normal, moves together. */
+template <int dim>
+double &CorrectionSearch<dim>::Heights::at(const types::global_dof_index place,
+                                           const ContactFace<dim> &face)
+{
+  const Tensor<1, dim> normal = face.frame(0.5).normal;
+  for (AtVertex &known : at_vertices[place])
+    if (known.side == face.condition->id || std::abs(std::abs(known.normal * normal) - 1.) < 1e-12)
+      return known.height;
+  at_vertices[place].push_back({face.condition->id, normal, 0.});
+  return at_vertices[place].back().height;
 }
 
 /** The largest of u_Nn - w_n - u_0, and the heights that take it away: each vertex has the largest of its faces on either side. */
@@ -122,7 +152,7 @@ double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heig
       result = std::max(result, depth);
       if (depth == 0.)
         continue;
-      const std::array<bool, 2> held = held_ends(k);
+      const std::array<bool, 2> &held = are_held[k];
       const double height =
           held[0] || held[1] ? height_over(rest, held, tolerance, solution.tables) : depth;
       if (held[0] && held[1])
@@ -130,8 +160,7 @@ double CorrectionSearch<dim>::penetration(const Vector<double> &w, Heights &heig
       for (unsigned int end = 0; end < 2; ++end)
         if (!held[end])
         {
-          double &at_vertex = heights.at_vertices[{
-              faces[k].condition->id, faces[k].cell->face(faces[k].face_no)->vertex_index(end)}];
+          double &at_vertex = heights.at(places[k][end], faces[k]);
           at_vertex = std::max(at_vertex, height);
         }
     }
@@ -148,21 +177,21 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
   Heights heights;
   if (penetration(w, heights) <= tolerance)
     return 0.;
-  NodalDisplacement<dim> lifting(solution, discretisation.unknowns, freedom);
+  NodalDisplacement<dim> lifting(solution, freedom);
+  for (const Joint &joint : joints) // stay as they are
+    lifting.wish(faces[joint.face], joint.direction, [](const double) { return 0.; });
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (openings[k])
     {
-      const auto face = faces[k].cell->face(faces[k].face_no);
-      const auto height = [&](const unsigned int end) {
-        return heights.at_vertices[{faces[k].condition->id, face->vertex_index(end)}];
-      };
-      const double first = height(0), last = height(1), inside = heights.on_faces[k];
+      const double first = heights.at(places[k][0], faces[k]),
+                   last = heights.at(places[k][1], faces[k]), inside = heights.on_faces[k];
       if (first > 0. || last > 0. || inside > 0.)
-        lifting.set(faces[k], faces[k].frame(0.5).normal,
-                    [&](const double s) {
-                      return (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
-                    });
+        lifting.wish(faces[k], faces[k].frame(0.5).normal,
+                     [first, last, inside](const double s) {
+                       return (1. + 1e-10) * (first + s * (last - first) + s * (1. - s) * inside);
+                     });
     }
+  lifting.move();
   const Vector<double> lifted = discretisation.unknowns.coordinates(lifting.u);
   for (unsigned int i = 0; i < lifted.size(); ++i)
     w[i] += lifted[i];
@@ -172,5 +201,8 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
 
 template Vector<double> CorrectionSearch<2>::fixed_displacement() const;
 template double CorrectionSearch<2>::open_joints(const Vector<double> &) const;
+template std::vector<std::array<bool, 2>> CorrectionSearch<2>::held_ends() const;
+template std::vector<std::array<types::global_dof_index, 2>>
+CorrectionSearch<2>::meeting_places() const;
 template double CorrectionSearch<2>::lift(Vector<double> &) const;
 } // namespace hpvi

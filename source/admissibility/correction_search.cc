@@ -3,6 +3,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/discretisation/springs.h>
 #include <hpvi/quadratic/inequality_program.h>
 #include <hpvi/stresses/legendre.h>
 
@@ -69,6 +70,11 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
     openings[k] = opening_of(k, solution, discretisation.unknowns, pressure, tables);
     tolerance = std::max(tolerance, 1e-14 * EdgePolynomial(openings[k]->penetration.u).largest());
   }
+  if (solution.scene.has_unilateral_contact())
+  {
+    places = meeting_places();
+    are_held = held_ends();
+  }
   for (unsigned int k = 0; k < faces.size(); ++k)
     is_near_pressure.push_back(find_near_pressure(k));
   if (!bubbles)
@@ -100,10 +106,12 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::nothing() const
 template <int dim>
 typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::of(const Vector<double> &w) const
 {
-  Candidate result{w, {}, 0., 0.};
-  result.penetration = std::max(lift(result.w), open_joints(result.w));
-  result.total =
-      result.penetration > 0. ? std::numeric_limits<double>::infinity() : A.energy(result.w);
+  Candidate result{w, {}, 0., 0., 0.};
+  result.penetration = lift(result.w); // which moves w
+  result.opening = open_joints(result.w);
+  result.total = result.penetration > 0. || result.opening > 0.
+                     ? std::numeric_limits<double>::infinity()
+                     : A.energy(result.w);
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     const EdgePolynomial rest = traces[k].rest(result.w);
@@ -299,6 +307,11 @@ std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) con
       if (!values.all_zero())
         result[cell] = element->condensed.matrix_norm_square(values);
     }
+  const Vector<double> moved = discretisation.unknowns.expand(w); // bubbles are zero at springs
+  Vector<double> forces(moved.size());
+  for (const SpringFace &face :
+       spring_faces(solution.scene, solution.displacement_space, solution.tables))
+    result[face.cell] += add_spring_forces({face}, moved, forces);
   for (unsigned int i = 0; i < cell_of_bubble.size(); ++i)
     result[cell_of_bubble[i]] += A.energy(A.A.n() + i, w);
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/admissibility/node_freedom.h>
 #include <hpvi/body/supports.h>
+#include <hpvi/discretisation/springs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,17 @@ template <int dim>
 NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
     : unknowns(unknowns)
 {
+  for (const SpringFace &face :
+       spring_faces(solution.scene, solution.displacement_space, solution.tables))
+  {
+    const unsigned int n = face.dofs.size() / dim;
+    double sum = 0; // of all entries: int k_n + k_t, for functions sum to 1
+    for (unsigned int i = 0; i < face.dofs.size(); ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        sum += face.matrix(i, i / n * n + j);
+    for (const unsigned int end : {0U, n - 1})
+      springs[face.dofs[end]] += sum / (3. * dim); // a function that falls to zero along the edge
+  }
   if (!solution.scene.has_plates())
     return;
   for (const SupportedNode<dim> &node :
@@ -54,6 +66,13 @@ template <int dim>
 bool NodeFreedom<dim>::is_on_plate(const Node &node) const
 {
   return on_plates.count(node[0]) > 0;
+}
+
+template <int dim>
+double NodeFreedom<dim>::stiffness_of_springs(const Node &node) const
+{
+  const auto found = springs.find(node[0]);
+  return found == springs.end() ? 0. : found->second;
 }
 
 template <int dim>

@@ -157,12 +157,17 @@ void BoundaryTractions::set(const unsigned int index)
   }
 }
 
+Tensor<1, 2> BoundaryTractions::load(const unsigned int index, const double s) const
+{
+  const StressEdge &edge = patches.edges()[index];
+  return solution.scene.boundaries[edge.boundary].spring ? load_on(edge, s) + spring_on(edge, s)
+                                                         : load_on(edge, s);
+}
+
 Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) const
 {
   const StressEdge &edge = patches.edges()[index];
-  Tensor<1, 2> result = load_on(edge, s);
-  if (solution.scene.boundaries[edge.boundary].spring)
-    result += spring_on(edge, s);
+  const Tensor<1, 2> result = load(index, s);
   if (edge.contact_face == numbers::invalid_unsigned_int)
     return result;
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];

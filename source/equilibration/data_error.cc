@@ -208,9 +208,20 @@ Missed missed_displacement(const Solution<2> &solution, const EquilibratedStress
   return result;
 }
 
-/** int s n . d over an edge. */
-double boundary_work(const EquilibratedStress &stress, const unsigned int index,
-                     const Missed &missed)
+/** At s in [0,1] of its edge. */
+Tensor<1, 2> value_at(const std::array<Vector<double>, 2> &coefficients, const double s)
+{
+  const std::vector<double> L = legendre::values(coefficients[0].size(), 2 * s - 1);
+  Tensor<1, 2> result;
+  for (unsigned int c = 0; c < 2; ++c)
+    for (unsigned int i = 0; i < L.size(); ++i)
+      result[c] += coefficients[c][i] * L[i];
+  return result;
+}
+
+/** int (s n - G + k u_N) . d over an edge. */
+double boundary_work(const Solution<2> &solution, const EquilibratedStress &stress,
+                     const unsigned int index, const Missed &missed)
 {
   const StressEdge &edge = stress.patches().edges()[index];
   double sum = 0;
@@ -218,11 +229,34 @@ double boundary_work(const EquilibratedStress &stress, const unsigned int index,
     for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int i = 0; i < stress.tractions()[index][k].size(); ++i)
         if (i < missed.value[c].size())
-          sum += edge.components[k].direction[c] * stress.tractions()[index][k][i] *
+          sum += 0.5 * edge.components[k].direction[c] * stress.tractions()[index][k][i] *
                  missed.value[c][i];
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  if (condition.has_traction() || condition.spring)
+    for (const auto &[s, weight] : stress.prescribed().points(index))
+      sum -= weight * (stress.prescribed().load(index, s) * value_at(missed.value, s));
   const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
-  return 0.5 * cell->face(edge.sides[0].face)->diameter() * (edge.sides[0].face % 2 ? 1. : -1.) *
-         sum;
+  return cell->face(edge.sides[0].face)->diameter() * (edge.sides[0].face % 2 ? 1. : -1.) * sum;
+}
+
+/** int k d . d of springs beside a prescribed displacement. */
+double spring_energy(const Solution<2> &solution, const StressEdge &edge, const CellMap<2> &map,
+                     const std::array<Vector<double>, 2> &d)
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  double sum = 0;
+  if (!condition.spring)
+    return sum;
+  const unsigned int face = edge.sides[0].face;
+  const QGauss<1> &gauss = solution.tables.gauss(d[0].size() + 6);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const Point<2> xi = point_on_face<2>(face, gauss.point(q));
+    const Tensor<1, 2> value = value_at(d, gauss.point(q)[0]);
+    sum += gauss.weight(q) * map.face_measure(face, xi) *
+           (value * (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * value));
+  }
+  return sum;
 }
 
 /** No less than int |s n| over an edge. */
@@ -280,11 +314,13 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       const Missed missed = missed_displacement(solution, stress, e);
       // two edges of a cell: the triangle inequality
       const auto &iterator = patches.cells()[cell].iterator;
+      const CellMap<2> map = map_of<2>(iterator);
       for (const auto &part : {missed.value, missed.oscillation()})
         lifts[cell] += std::sqrt(std::max(
-            0., lift_energy(map_of<2>(iterator), face, part,
-                            HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables)));
-      lift_work += boundary_work(stress, e, missed);
+            0., lift_energy(map, face, part, HookesLaw<2>(solution.scene.material_of(iterator)),
+                            solution.tables) +
+                    spring_energy(solution, edge, map, part)));
+      lift_work += boundary_work(solution, stress, e, missed);
       const double most = std::max(missed.unread[0], missed.unread[1]);
       unread_work += most * absolute_traction(stress, e);
       if (most > unread)

@@ -191,17 +191,28 @@ std::string flaw_of_balance(const Solution<2> &solution, const EquilibratedStres
          cause_of_imbalance(stress, is_moved, vertex, solution.scene.geometry.diameter());
 }
 
+/** Why U = u_N - w + d is not admissible. */
+std::string flaw_of_correction(const Solution<2> &solution, const ContactCorrection<2> &correction)
+{
+  const double largest = solution.u.linfty_norm();
+  if (correction.penetration() > 0.)
+    return "the displacement penetrates the foundation between nodes, by " +
+           text(correction.penetration() / largest, 2) +
+           " of the largest, and supports keep it there";
+  if (correction.opening() > 0.)
+    return "joints that must not open do so between their points, by " +
+           text(correction.opening() / largest, 2) +
+           " of the largest displacement, and what meets at their ends keeps them open";
+  return {};
+}
+
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
-                 const ContactCorrection<2> &correction, const DataError &data)
+                 const DataError &data)
 {
   const double largest = solution.u.linfty_norm();
   if (pressure.tension() > 0.)
     return "pressure is negative between the nodes of contact, by " + text(pressure.tension(), 2) +
            " of the largest, and cannot be made admissible";
-  if (correction.penetration() > 0.)
-    return "the displacement penetrates the foundation between nodes, by " +
-           text(correction.penetration() / largest, 2) +
-           " of the largest, and supports keep it there";
   if (has_distorted_cells(solution))
     if (const std::string cut = cut_inside_distorted_cell(solution); !cut.empty())
       return cut;
@@ -369,7 +380,10 @@ try
   result.tractions = edge_tractions(stress);
   set_energy(result, solution, discretisation, stress, is_moved ? *within_space : correction, data);
   result.imbalance = stress.defect;
-  result.flaw = flaw(solution, made->pressure, correction, data);
+  result.flaw = flaw(solution, made->pressure, data);
+  for (const auto *one : {&corrected, &within_space})
+    if (result.flaw.empty() && *one)
+      result.flaw = flaw_of_correction(solution, **one);
   if (result.flaw.empty())
     result.flaw = flaw_of_balance(solution, stress, bool(made->balanced));
   return result;

@@ -7,7 +7,9 @@
 #include <hpvi/contact/matching.h>
 #include <hpvi/equilibration/error_bound.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace
 {
@@ -364,6 +366,186 @@ TEST(JointBound, KeepsPairsApart)
                     {"Boundary upper.top/Displacement", "0.04; -0.03"},
                     {"Adaptivity/Maximum steps", "4"}}));
   EXPECT_EQ(steps.size(), 4U);
+}
+
+/** Unit squares, on each other in rows or side by side, glued to springs above, with joints of any law: at inner vertices four meet. */
+class Wall
+{
+public:
+  Wall(const unsigned int n_columns, const unsigned int n_rows, const unsigned int seed)
+      : n_columns(n_columns), n_rows(n_rows), random(seed)
+  {
+    for (unsigned int i = 0; i < n_columns; ++i)
+      for (unsigned int j = 0; j < n_rows; ++j)
+        add_body(i, j);
+    entries.emplace_back("Material/Young's modulus", "1");
+    entries.emplace_back("Material right/Where", "x - 1");
+    entries.emplace_back("Material right/Young's modulus", power(-1.5, 1.5));
+    for (unsigned int i = 0; i < n_columns; ++i)
+      for (unsigned int j = 0; j < n_rows; ++j)
+      {
+        if (i + 1 < n_columns)
+          add_joint(body(i, j) + ".right", body(i + 1, j) + ".left", /*holds=*/n_rows == 1);
+        if (j + 1 < n_rows)
+          add_joint(body(i, j) + ".top", body(i, j + 1) + ".bottom", false);
+      }
+  }
+
+  Overrides entries;
+
+private:
+  static std::string body(const unsigned int i, const unsigned int j)
+  {
+    return "b" + std::to_string(i) + std::to_string(j);
+  }
+
+  double number(const double least, const double largest)
+  {
+    return std::uniform_real_distribution<double>(least, largest)(random);
+  }
+
+  std::string power(const double least, const double largest)
+  {
+    return std::to_string(std::pow(10., number(least, largest)));
+  }
+
+  void add_body(const unsigned int i, const unsigned int j)
+  {
+    const std::string name = body(i, j), section = "Boundary " + name;
+    const auto corner = [&](const unsigned int end)
+    { return std::to_string(i + end) + ", " + std::to_string(j + end); };
+    entries.emplace_back("Body " + name + "/Lower corner", corner(0));
+    entries.emplace_back("Body " + name + "/Upper corner", corner(1));
+    const auto load = [&](const double largest)
+    {
+      return std::to_string(number(-largest, largest)) + "; " +
+             std::to_string(number(-largest, largest));
+    };
+    if (j == 0 && n_rows > 1)
+      entries.emplace_back(section + ".bottom/Displacement", "0; 0");
+    if (j + 1 == n_rows && (n_rows > 1 || i == 0))
+      entries.emplace_back(section + ".top/Spring", power(-1, 6) + "; " + power(-1, 6));
+    if (j + 1 == n_rows)
+      entries.emplace_back(section + ".top/Traction", load(0.01));
+    if (i + 1 == n_columns)
+      entries.emplace_back(section + ".right/Traction", load(0.03));
+  }
+
+  void add_joint(const std::string &one, const std::string &other, const bool holds)
+  {
+    const std::string section = "Contact c" + std::to_string(n_joints++);
+    const bool is_first = number(0, 1) < 0.5;
+    const double law = holds ? 0. : number(0, 3);
+    entries.emplace_back(section + "/Between", is_first ? one + ", " + other : other + ", " + one);
+    entries.emplace_back(section + "/Law", law < 1 ? "tied" : law < 2 ? "bilateral" : "unilateral");
+    entries.emplace_back(section + "/Slave", number(0, 1) < 0.5 ? one : other);
+    if (law >= 1 && number(0, 1) < 0.5)
+      entries.emplace_back(section + "/Friction bound", std::to_string(number(0.001, 0.01)));
+  }
+
+  const unsigned int n_columns, n_rows;
+  unsigned int n_joints = 0;
+  std::mt19937 random;
+};
+
+Scene<2> with_method(Overrides entries, const std::string &method, const unsigned int n_steps)
+{
+  entries.emplace_back("Adaptivity/Method", method);
+  entries.emplace_back("Adaptivity/Maximum steps", std::to_string(n_steps));
+  entries.emplace_back("Adaptivity/Maximum unknowns", "2500");
+  entries.emplace_back("Adaptivity/Tolerance", "0");
+  return scene_of(entries);
+}
+
+/** Two bodies, the first of them glued to springs, and four around a vertex, below springs; the second energy is that of two bodies. */
+TEST(JointBound, HoldsKnownEnergiesBesideSprings)
+{
+  const std::string top = "0.104107505532; 0.104107505532",
+                    load = "0.00943966479188; -0.00316025449529",
+                    right = "0.0291803670998; -0.0289871607475";
+  struct Known
+  {
+    Overrides entries;
+    std::string method;
+    unsigned int n_steps;
+    double J, accuracy;
+  };
+  for (const Known &known : {Known{{{"Body one/Upper corner", "1, 1"},
+                                    {"Body two/Lower corner", "1, 0"},
+                                    {"Body two/Upper corner", "2, 1"},
+                                    {"Boundary one.top/Spring", "100; 100"},
+                                    {"Boundary two.right/Shear", "0.01"},
+                                    {"Contact joint/Between", "one.right, two.left"},
+                                    {"Contact joint/Law", "tied"}},
+                                   "hpa3",
+                                   6,
+                                   -.00091824,
+                                   1e-8},
+                             Known{{{"Body l0/Upper corner", "1, 1"},
+                                    {"Body l1/Lower corner", "1, 0"},
+                                    {"Body l1/Upper corner", "2, 1"},
+                                    {"Body u0/Lower corner", "0, 1"},
+                                    {"Body u0/Upper corner", "1, 2"},
+                                    {"Body u1/Lower corner", "1, 1"},
+                                    {"Body u1/Upper corner", "2, 2"},
+                                    {"Material/Young's modulus", "1"},
+                                    {"Material m/Where", "x - 1"},
+                                    {"Material m/Young's modulus", "25.8884085624"},
+                                    {"Boundary l0.bottom/Displacement", "0; 0"},
+                                    {"Boundary l1.bottom/Displacement", "0; 0"},
+                                    {"Boundary u0.top/Spring", top},
+                                    {"Boundary u0.top/Traction", load},
+                                    {"Boundary u1.top/Spring", top},
+                                    {"Boundary u1.top/Traction", load},
+                                    {"Boundary l1.right/Traction", right},
+                                    {"Boundary u1.right/Traction", right},
+                                    {"Contact a/Between", "l0.right, l1.left"},
+                                    {"Contact a/Law", "tied"},
+                                    {"Contact b/Between", "u0.right, u1.left"},
+                                    {"Contact b/Law", "tied"},
+                                    {"Contact c/Between", "u0.bottom, l0.top"},
+                                    {"Contact d/Between", "u1.bottom, l1.top"}},
+                                   "hup2",
+                                   4,
+                                   -.0058556186048,
+                                   1e-10}})
+  {
+    const std::vector<Step> steps = run(with_method(known.entries, known.method, known.n_steps));
+    ASSERT_EQ(steps.size(), known.n_steps);
+    for (const Step &step : steps)
+    {
+      EXPECT_LE(step.low, known.J + known.accuracy);
+      EXPECT_GE(step.high, known.J - known.accuracy);
+    }
+  }
+}
+
+/** Intervals of all steps hold what a finer run knows of the energy, and claims of both agree. */
+TEST(JointBound, CountsSpringsWhereManyBodiesMeet)
+{
+  unsigned int n_steps = 0;
+  for (unsigned int seed = 1; seed <= 12; ++seed)
+  {
+    const unsigned int n_rows = seed % 4 == 0 ? 1 : 2, n_columns = 2 + (n_rows == 1) + seed % 3 / 2;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Wall wall(n_columns, n_rows, seed);
+    std::vector<Step> steps = run(with_method(wall.entries, "hpa3", 10));
+    ASSERT_FALSE(steps.empty());
+    const Step &finest = *std::min_element(steps.begin(), steps.end(),
+                                           [](const Step &one, const Step &other)
+                                           { return one.high - one.low < other.high - other.low; });
+    const double low = finest.low, high = finest.high;
+    const std::vector<Step> coarse = run(with_method(wall.entries, "hup2", 3));
+    n_steps += coarse.size();
+    steps.insert(steps.end(), coarse.begin(), coarse.end());
+    const double round_off = 1e-10 * std::abs(high);
+    for (const Step &step : steps)
+    {
+      EXPECT_LE(step.low, high + round_off);
+      EXPECT_GE(step.high, low - round_off);
+    }
+  }
+  EXPECT_EQ(n_steps, 36U);
 }
 
 /** Meshes that never will match say so, and where; without a bound nothing is bisected for it. */

@@ -261,4 +261,69 @@ TEST(ErrorBoundOfEnergy, PaysForWhatIsUnknownOfSupportsOutsideTheSpace)
   EXPECT_NEAR(bound.energy_above + bound.energy_below - bound.energy, 2 * unknown,
               1e-9 * bound.energy);
 }
+/** Springs along a displacement that is prescribed and no polynomial: d moves them. */
+Scene<2> square_on_springs(const std::string &k, const std::string &method,
+                           const unsigned int steps)
+{
+  return scene_of({{"Boundary bottom/Displacement", "0.01*sin(7*x); 0.002*exp(x)"},
+                   {"Boundary bottom/Spring", k + "; " + k},
+                   {"Boundary bottom/Traction", "0.1; -0.2"},
+                   {"Boundary top/Traction", "0.001; -0.002"},
+                   {"Adaptivity/Method", method},
+                   {"Adaptivity/Tolerance", "0"},
+                   {"Adaptivity/Maximum unknowns", "3000"},
+                   {"Adaptivity/Maximum steps", std::to_string(steps)}});
+}
+
+TEST(SpringBesideSupport, CountsInTheLift)
+{
+  const auto lift = [](const std::string &k)
+  {
+    double result = 0;
+    AdaptiveSolver<2>(square_on_springs(k, "hup2", 1))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              result = step.bound->data;
+            });
+    return result;
+  };
+  // One edge of degree 2: what the parabolas through its ends and its middle miss.
+  double square = 0;
+  const QGauss<1> gauss(40);
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const double s = gauss.point(q)[0];
+    const auto missed = [s](const auto &u)
+    {
+      return u(s) - u(0.) * (1 - s) * (1 - 2 * s) - u(0.5) * 4 * s * (1 - s) -
+             u(1.) * s * (2 * s - 1);
+    };
+    square += gauss.weight(q) *
+              (std::pow(missed([](const double x) { return 0.01 * std::sin(7 * x); }), 2) +
+               std::pow(missed([](const double x) { return 0.002 * std::exp(x); }), 2));
+  }
+  EXPECT_NEAR(std::pow(lift("500"), 2) - std::pow(lift("0"), 2), 500 * square, 1e-3 * 500 * square);
+}
+
+TEST(SpringBesideSupport, IsCountedInTheEnergy)
+{
+  for (const std::string k : {"0.5", "50", "5000", "20*(1 + x)"})
+  {
+    double low = -1e300, high = 1e300;
+    for (const std::string method : {"hpa3", "hup2", "hap4"})
+      AdaptiveSolver<2>(square_on_springs(k, method, method == "hpa3" ? 10 : 3))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                ASSERT_TRUE(step.bound) << step.no_bound;
+                const double J = step.energies.energy, round_off = 1e-10 * std::abs(J);
+                low = std::max(low, J - step.bound->energy_below);
+                high = std::min(high, J + step.bound->energy_above);
+                EXPECT_LE(low, high + round_off) << k << ", " << method << ", " << step.number;
+              });
+    EXPECT_LT(high - low, 1e-3 * std::abs(low)) << k;
+  }
+}
 } // namespace

@@ -43,7 +43,8 @@ public:
 
   const std::vector<double> &gap() const; ///< of u_N - w, by contact face [stress length^dim]
   const std::vector<double> &uncorrected_gap() const; ///< of u_N
-  const std::vector<double> &energy() const;          ///< |w|_a^2 by cell [stress length^dim]
+  const std::vector<double> &
+  energy() const; ///< |w|_a^2 by cell and its springs [stress length^dim]
 
   /** w, as Unknowns counts them; behind those the coefficients of edge bubbles. */
   const dealii::Vector<double> &unknowns() const;
@@ -51,12 +52,15 @@ public:
   /** How far u_N - w passes through the foundation because supports keep it there [length]; else 0. */
   double penetration() const;
 
+  /** How far joints that must not open do so in u_N - w, since what meets at one of their vertices contradicts [length]; else 0. */
+  double opening() const;
+
   double total() const; ///< `2 gap(u_N - w) + |w|_a^2`
 
 private:
   std::vector<double> face_gaps, uncorrected, cell_energies;
   dealii::Vector<double> w;
-  double depth = 0;
+  double depth = 0, jump = 0;
 };
 
 /**

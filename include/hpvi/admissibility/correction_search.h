@@ -38,8 +38,9 @@ public:
   {
     dealii::Vector<double> w;
     std::vector<double> gaps; ///< by face
-    double total = 0;         ///< `2 gap(u_N - w) + |w|_a^2`; infinite where u_N - w penetrates,
-    double penetration = 0;   ///< by so much [length]
+    double total = 0;         ///< `2 gap(u_N - w) + |w|_a^2`; infinite where u_N - w is not in K:
+    double penetration = 0;   ///< by so much it penetrates [length],
+    double opening = 0;       ///< and by so much joints that must not open do
   };
 
   CorrectionSearch(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
@@ -55,7 +56,8 @@ public:
   /** The best one, from one that is known. */
   Candidate best(Candidate result) const;
 
-  std::vector<double> energies(const dealii::Vector<double> &w) const; ///< |w|_a^2 by cell
+  /** |w|_a^2 by cell, each with the springs on its edges. */
+  std::vector<double> energies(const dealii::Vector<double> &w) const;
 
 private:
   /** A face of two bodies whose jump along @p direction is to vanish. */
@@ -94,11 +96,21 @@ private:
   /** How far a w_n is to go that is linear along each face: at vertices; and inside faces that are held at both ends. */
   struct Heights
   {
-    std::map<std::pair<dealii::types::boundary_id, unsigned int>, double> at_vertices; ///< of sides
+    struct AtVertex
+    {
+      dealii::types::boundary_id side;
+      dealii::Tensor<1, dim> normal;
+      double height;
+    };
+    std::map<dealii::types::global_dof_index, std::vector<AtVertex>> at_vertices; ///< by place
     std::map<unsigned int, double> on_faces;
+
+    double &at(dealii::types::global_dof_index place, const ContactFace<dim> &face);
   };
 
-  std::array<bool, 2> held_ends(unsigned int face) const;
+  std::vector<std::array<dealii::types::global_dof_index, 2>> meeting_places() const;
+
+  std::vector<std::array<bool, 2>> held_ends() const;
   double penetration(const dealii::Vector<double> &w, Heights &heights) const;
   double lift(dealii::Vector<double> &w) const;
   void add_friction(const RestrictedEnergy &strip, const std::vector<bool> &nearby,
@@ -131,10 +143,13 @@ private:
   std::vector<Trace> traces; ///< of u_t
   std::vector<std::optional<Opening>> openings;
   std::vector<Joint> joints;
-  std::vector<bool> is_near_pressure;       ///< by face
-  BorderedMatrix A;                         ///< bordered by edge bubbles
-  std::vector<unsigned int> cell_of_bubble; ///< by column of the border
-  double tolerance = 0;                     ///< of penetrations: round-off
+  std::vector<bool> is_near_pressure; ///< by face
+  std::vector<std::array<dealii::types::global_dof_index, 2>>
+      places;                                ///< of the ends of faces, where any may open
+  std::vector<std::array<bool, 2>> are_held; ///< likewise: the ends of faces, along the normal
+  BorderedMatrix A;                          ///< bordered by edge bubbles
+  std::vector<unsigned int> cell_of_bubble;  ///< by column of the border
+  double tolerance = 0;                      ///< of penetrations: round-off
 };
 } // namespace hpvi
 

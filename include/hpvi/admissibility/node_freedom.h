@@ -6,6 +6,7 @@
 #include <hpvi/discretisation/unknowns.h>
 
 #include <array>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -33,9 +34,13 @@ public:
   /** Is its displacement along @p direction prescribed, or all but that? */
   bool is_held(const Node &node, const dealii::Tensor<1, dim> &direction) const;
 
+  /** What it takes to move a vertex against the springs on its edges, beside the stiffness of its cells [stress]. */
+  double stiffness_of_springs(const Node &node) const;
+
 private:
   const Unknowns<dim> &unknowns;
-  std::set<dealii::types::global_dof_index> on_plates; ///< first components
+  std::map<dealii::types::global_dof_index, double> springs; ///< of vertices, by first component
+  std::set<dealii::types::global_dof_index> on_plates;       ///< first components
   std::vector<std::set<unsigned int>> of_plates;
 };
 } // namespace hpvi

@@ -28,6 +28,9 @@ public:
   /** The traction at s in [0,1] of an edge. */
   dealii::Tensor<1, 2> value(unsigned int edge, double s) const;
 
+  /** The part of it that loads and springs exert. */
+  dealii::Tensor<1, 2> load(unsigned int edge, double s) const;
+
   /** Points and weights on [0,1] for integrals with it. */
   std::vector<std::pair<double, double>> points(unsigned int edge) const;
 

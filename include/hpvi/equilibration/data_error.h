@@ -39,10 +39,10 @@ public:
   DataError(const Solution<2> &solution, const EquilibratedStress &stress);
 
   std::vector<double> oscillation; ///< of loads, by active cell index: to be added to |s - sigma|_K
-  std::vector<double> lifts;       ///< |d|_K of the energy, by active cell index
+  std::vector<double> lifts;       ///< |d|_K with the springs of its edges, by active cell index
   double unresolved; ///< what quadrature leaves open of all loads: to be added to the oscillation
   double lift = 0;   ///< |d|_a
-  double lift_work = 0;   ///< int s n . d over the boundary [stress length^dim]
+  double lift_work = 0;   ///< int (s n - G + k u_N) . d over the boundary [stress length^dim]
   double unread_work = 0; ///< what that may miss, because of
   double unread =
       0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
