@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/adaptivity/mean_intervals.h>
+#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/discretisation/initial_stress.h>
@@ -47,6 +48,31 @@ bool is_zero(const Scene<2> &dual)
                         return boundary.has_traction() ||
                                (boundary.plate && boundary.plate->force != std::array<double, 3>{});
                       });
+}
+
+/** |w|_a where u_N is not in V + u_D but for w, as it jumps along joints that must not open, which @p of_mean has as well; else 0. */
+double correction_at_joints(const Scene<2> &of_mean, const ErrorBound &bound)
+{
+  return of_mean.has_pairs() ? std::sqrt(std::max(0., sum(bound.moved))) : 0.;
+}
+
+/** Is w zero in all cells where the probe is? */
+bool is_away_from_corrections(const Probe<2> &probe, const StepReport<2> &step)
+{
+  for (const auto &cell : step.field.dof_handler.active_cell_iterators())
+  {
+    if (!(step.bound->moved[cell->active_cell_index()] > 0))
+      continue;
+    if (probe.kind == ProbeKind::disc &&
+        cell->bounding_box().point_inside(probe.at, probe.size / cell->minimum_vertex_distance()))
+      return false;
+    for (const unsigned int face : cell->face_indices())
+      if (probe.kind == ProbeKind::boundary && cell->at_boundary(face) &&
+          std::find(probe.on.begin(), probe.on.end(), cell->face(face)->boundary_id()) !=
+              probe.on.end())
+        return false;
+  }
+  return true;
 }
 
 /** Is d zero where the probe is? It lives in cells at prescribed displacements and gaps. */
@@ -113,7 +139,10 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
                 return;
               }
               result.z = std::make_shared<const Solution<2>>(step.solution());
-              result.norm = std::hypot(step.energies.norm, step.bound->total);
+              // z_N is orthogonal to its error where it is in V.
+              result.norm = result.scene->has_pairs()
+                                ? step.energies.norm + step.bound->total
+                                : std::hypot(step.energies.norm, step.bound->total);
               result.error = step.bound->total;
             },
             [](const Progress &) {});
@@ -150,7 +179,8 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
                half_way = bound.radius * norm +
                           bound.theta * (bound.stress * (dual.error + dual.remainder) +
                                          std::abs(work.value) + work.defect + missed_strain * norm);
-  return {mean.value, std::min(half_way, bound.total * norm) + bound.data * norm +
+  return {mean.value, std::min(half_way, bound.total * norm) +
+                          (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
                           1e-14 * std::abs(mean.value)};
 }
 
@@ -171,6 +201,8 @@ void MeanIntervals<2>::set(StepReport<2> &step)
         flaw = of_mean.why;
       else if (!is_away_from_lifts(probe, step))
         flaw = "prescribed displacements there are no polynomials of the mesh";
+      else if (of_mean.scene->has_pairs() && !is_away_from_corrections(probe, step))
+        flaw = "cells of joints have a part of it";
       else
         value.displacement[c].interval = interval(value.displacement[c], of_mean, step);
     }
