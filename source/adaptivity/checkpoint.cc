@@ -85,9 +85,19 @@ void write_peaks(std::ostream &out, const std::vector<StressSample<dim>> &peaks)
   out << '\n';
 }
 
+/** How many, the contradiction on a line of its own, then three lines of each. */
+void write_claims(std::ostream &out, const Claims &claims, const std::string &contradiction)
+{
+  out << "claims " << claims.size() << "\n." << contradiction << '\n';
+  for (const Claim &claim : claims)
+    out << claim.what << '\n'
+        << claim.where << '\n'
+        << text(claim.low) << ' ' << text(claim.high) << ' ' << text(claim.round_off) << '\n';
+}
+
 const FileFormat &run_state_format()
 {
-  static const FileFormat format("run state", 7,
+  static const FileFormat format("run state", 8,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -156,6 +166,18 @@ public:
       peak.length = number<double>();
     }
     return result;
+  }
+
+  void claims(Claims &claims, std::string &contradiction)
+  {
+    expect("claims");
+    claims.resize(number<unsigned int>());
+    contradiction = lines(1).front().substr(1);
+    for (Claim &claim : claims)
+    {
+      const std::vector<std::string> words = lines(2);
+      claim = {words[0], words[1], number<double>(), number<double>(), number<double>()};
+    }
   }
 
   MeshMarks marks()
@@ -249,6 +271,7 @@ void RunState<dim>::write(std::ostream &out) const
             << text(step.relative_bound) << ' ' << text(step.relative_half_width) << ' '
             << text(step.seconds) << ' ' << step.lacks_condition << ' ' << text(step.own_stress);
     write_peaks(content, step.peaks);
+    write_claims(content, step.claims, step.contradiction);
   }
   content << "refinements " << refinements.size() << '\n';
   for (const MeshMarks &marks : refinements)
@@ -284,6 +307,7 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
     step.lacks_condition = reader.number<unsigned int>() != 0;
     step.own_stress = reader.number<double>();
     step.peaks = reader.template peaks<dim>();
+    reader.claims(step.claims, step.contradiction);
   }
   reader.expect("refinements");
   for (unsigned int n = reader.number<unsigned int>(); n > 0; --n)

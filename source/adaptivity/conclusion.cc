@@ -20,7 +20,8 @@ void conclude(const Backend<dim> &backend, const History<dim> &history, StepRepo
   together(backend.communicator,
            [&]() { of_all = warnings(step.scene, step.contact, body, history); });
   step.warnings =
-      joined(of_all, backend.warnings(step.contact, step.equilibrium),
+      joined(contradiction_warnings(step.contradiction), of_all,
+             backend.warnings(step.contact, step.equilibrium),
              tolerance_warnings(limits, history.back().relative_half_width, no_half_width(step)),
              step.bound ? bound_warnings(step.relative_bound, step.bound->imbalance) : Warnings());
   for (Warning &warning : step.warnings)

@@ -2,6 +2,7 @@
 
 // The stages of a step, in the order in which the loop calls them. They see numbers of a step, and ask its backend for those.
 #include <hpvi/adaptivity/all_cells.h>
+#include <hpvi/adaptivity/claims.h>
 #include <hpvi/adaptivity/column_width.h>
 #include <hpvi/adaptivity/late_bound.h>
 #include <hpvi/adaptivity/limits.h>
@@ -95,8 +96,14 @@ bool StepStages<dim>::asks_for_bound(const StepReport<dim> &step) const
 template <int dim>
 void StepStages<dim>::close_bound()
 {
-  bound = backend->bound(has_late_bound() ? 0. : own_stress());
   is_bound_open = false;
+  if (const std::string known = first_contradiction(history, history.size() - 1); !known.empty())
+  {
+    bound = {};
+    bound.missing = no_guarantee(known);
+  }
+  else
+    bound = backend->bound(has_late_bound() ? 0. : own_stress());
 }
 
 template <int dim>
@@ -291,7 +298,28 @@ void StepStages<dim>::add_bound(StepReport<dim> &step)
   step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
   if (is_bounded)
     mean_intervals.set(step);
+  compare_claims(step);
   history.back().relative_half_width = relative_half_width(step);
+}
+
+// What steps guarantee of the exact solution has to agree: a proof, a program or a computer is wrong otherwise. The
+// comparison costs nothing, and cannot tell which of two steps is wrong.
+template <int dim>
+void StepStages<dim>::compare_claims(StepReport<dim> &step)
+{
+  PastStep<dim> &past = history.back();
+  past.claims = claims_of(step, backend->field().largest_displacement());
+  Claims earlier;
+  for (unsigned int k = 0; k + 1 < history.size(); ++k)
+    earlier.insert(earlier.end(), history[k].claims.begin(), history[k].claims.end());
+  past.contradiction = contradiction(earlier, past.claims);
+  step.contradiction = first_contradiction(history, history.size());
+  if (past.contradiction.empty())
+    return;
+  bound.bound.reset();
+  bound.missing = no_guarantee(past.contradiction);
+  withdraw_claims(step, bound.missing);
+  past.relative_bound = step.relative_bound;
 }
 
 /** Seconds and memory. */

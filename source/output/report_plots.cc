@@ -50,9 +50,10 @@ std::string convergence_plot(const RunFiles &files)
   chart.is_logarithmic = true;
   chart.x_label = is_history ? "step" : "free unknowns (logarithm of base 10)";
   chart.y_label = "relative to the solution";
+  const bool is_contradicted = member(files.summary, "contradiction");
   for (ChartLine line :
        {line_of(files.steps, over, "error_bound_relative",
-                {"guaranteed bound", blue, "", true, {}}),
+                {is_contradicted ? "bound, contradicted" : "guaranteed bound", blue, "", true, {}}),
         line_of(files.steps, over, "estimate_relative",
                 {"indicator (no bound)", orange, "6 3", !is_history, {}}),
         line_of(files.steps, over, "error_relative", {"true error", black, "2 2", true, {}})})

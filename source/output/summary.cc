@@ -114,6 +114,10 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   ++steps;
   if (step.bound || step.load.number != load_step)
     last_error_bound = bound_json(step);
+  if (contradiction.empty())
+    contradiction = step.contradiction;
+  if (!contradiction.empty())
+    last_error_bound = "null";
   load_step = step.load.number;
   last_row = row;
   times += step.times;
@@ -185,6 +189,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
+  if (!contradiction.empty())
+    entries.emplace_back("contradiction", json_string(contradiction));
   return json_file(entries);
 }
 

@@ -179,6 +179,8 @@ void Ending::hear(const StepReport<dim> &step)
   if (step.bound)
     last_bound = "that of step " + text(step.number) + " is " + text(step.relative_bound, 2) +
                  " of the solution";
+  if (!step.contradiction.empty())
+    last_bound.clear();
   if (!step.stopped_by.empty())
     words = contact_in_words(step.scene, step.contact, step.equilibrium, step.unbounded) +
             results_in_words(step) + balance_in_words(step) + upper_end_in_words(step) +

@@ -45,6 +45,21 @@ Warnings tolerance_warnings(const Adaptivity &adaptivity, const double relative_
                no_interval}};
 }
 
+std::string no_guarantee(const std::string &contradiction)
+{
+  return "guaranteed intervals do not meet: " + contradiction;
+}
+
+Warnings contradiction_warnings(const std::string &contradiction)
+{
+  if (contradiction.empty())
+    return {};
+  return {{WarningKind::contradiction, 0.,
+           no_guarantee(contradiction) +
+               "; one of them is wrong, by a mistake of the program, and nothing of this run is "
+               "guaranteed: please send scene.prm"}};
+}
+
 Warnings bound_warnings(const double relative, const double imbalance)
 {
   if (!(relative < 1e-9 && relative > 1e-12)) // below that a run ends as exact to round-off

@@ -189,6 +189,7 @@ std::vector<Step> run(const Scene<2> &scene, std::string *const no_bound = nullp
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
+        EXPECT_EQ(step.contradiction, "");
         if (no_bound)
           *no_bound = step.no_bound;
         if (!step.bound)

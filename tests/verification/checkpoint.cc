@@ -4,9 +4,11 @@
 #include "mesh_texts.h"
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/output/summary.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
 namespace
@@ -253,7 +255,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
     EXPECT_NE(
         damaged(text.substr(0, part * text.size() / 4)).find("state.dat: the run state is cut"),
         std::string::npos);
-  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 7\""),
+  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 8\""),
             std::string::npos);
   std::string altered = text;
   char &digit = altered[altered.find_last_of("12345678")];
@@ -286,5 +288,83 @@ TEST(RunState, WithoutSenseIsRefused)
   state = whole;
   state.refinements[0].n_cells = 3;
   EXPECT_NE(refusal_to_go_on(state, steps(3)).find("another coarse mesh"), std::string::npos);
+}
+/** Both sides of a pair, a probe and a support: all that a step may guarantee. */
+Scene<2> scene_with_claims(const unsigned int n)
+{
+  return scene_of({{"Body low/Upper corner", "1, 1"},
+                   {"Body up/Lower corner", "0, 1"},
+                   {"Body up/Upper corner", "1, 2"},
+                   {"Boundary low.bottom/Displacement", "0; 0"},
+                   {"Boundary up.top/Traction", "0.001; -0.01"},
+                   {"Boundary up.right/Displacement", "0; free"},
+                   {"Contact joint/Between", "up.bottom, low.top"},
+                   {"Contact joint/Law", "bilateral"},
+                   {"Contact joint/Friction bound", "0.002"},
+                   {"Probe tip/On", "up.top"},
+                   {"Adaptivity/Tolerance", "0"},
+                   {"Adaptivity/Maximum steps", std::to_string(n)}});
+}
+
+/** Numbers of steps before that contradict those of steps to come take all guarantees from these. */
+TEST(RunState, KeepsWhatIsGuaranteed)
+{
+  const RunState<2> whole = read_state(written_state(scene_with_claims(2)));
+  ASSERT_EQ(whole.history.size(), 2U);
+  const Claims &claims = whole.history[0].claims;
+  std::map<std::string, unsigned int> n_claims;
+  for (const Claim &claim : claims)
+    ++n_claims[claim.what];
+  EXPECT_EQ(n_claims["the least energy"], 1U);
+  EXPECT_EQ(n_claims["friction between up.bottom and low.top"], 2U);
+  EXPECT_EQ(n_claims["force y between up.bottom and low.top"], 2U);
+  EXPECT_EQ(n_claims["force y on low.bottom"], 1U);
+  EXPECT_EQ(n_claims["mean uy of the probe tip"], 1U);
+  const auto go_on = [](const RunState<2> &state, Summary &summary)
+  {
+    const Scene<2> scene = scene_with_claims(4);
+    unsigned int n_intervals = 0;
+    std::vector<std::string> contradictions;
+    AdaptiveSolver<2>(scene, state)
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              summary.add(step, {});
+              contradictions.push_back(step.contradiction);
+              EXPECT_EQ(bool(step.bound), step.contradiction.empty());
+              EXPECT_EQ(step.bound ? "" : no_guarantee(step.contradiction), step.no_bound);
+              for (const Resultant<2> &row : step.forces)
+                for (const Measured *const number :
+                     {&row.force[0], &row.force[1], &row.moment[0], &row.normal, &row.friction})
+                  n_intervals += bool(number->interval);
+              for (const ProbeValue<2> &probe : step.probes)
+                n_intervals += bool(probe.displacement[1].interval);
+            });
+    EXPECT_EQ(contradictions.size(), 2U);
+    EXPECT_EQ(n_intervals == 0, !contradictions[0].empty());
+    return std::pair(contradictions, summary.json(scene, {}));
+  };
+  Summary clean;
+  const auto [nothing, json] = go_on(whole, clean);
+  EXPECT_EQ(nothing, std::vector<std::string>(2));
+  EXPECT_NE(json.find("\"guaranteed\": true"), std::string::npos);
+  for (unsigned int k = 0; k < claims.size(); ++k)
+  {
+    RunState<2> state = whole;
+    Claim &claim = state.history[0].claims[k];
+    const double width = claim.high - claim.low;
+    claim.low += 3 * width + 1e-4;
+    claim.high += 3 * width + 1e-4;
+    std::ostringstream out;
+    state.write(out);
+    Summary summary;
+    const auto [contradictions, told] = go_on(read_state(out.str()), summary);
+    EXPECT_EQ(contradictions[0].rfind(claim.what + " is in [", 0), 0U) << contradictions[0];
+    EXPECT_NE(contradictions[0].find("in step 1"), std::string::npos) << contradictions[0];
+    EXPECT_EQ(contradictions[1], contradictions[0]); // the first one is kept
+    EXPECT_EQ(told.find("\"guaranteed\": true"), std::string::npos);
+    EXPECT_NE(told.find("please send scene.prm"), std::string::npos);
+    EXPECT_NE(told.find("\"contradiction\": "), std::string::npos);
+  }
 }
 } // namespace

@@ -549,4 +549,49 @@ TEST(Zones, AreNoTwoAlikeInARow)
         EXPECT_EQ(state.open_friction, 0.);
       });
 }
+/** Intervals of one number have a number in common; those of others need not. */
+TEST(Claims, OfOneNumberMeet)
+{
+  const std::string J = "the least energy", F = "force x between low.top and up.bottom";
+  const auto claim = [](const std::string &what, const double low, const double high,
+                        const std::string &where = "in step 2", const double round_off = 1e-9) {
+    return Claim{what, where, low, high, round_off};
+  };
+  struct Case
+  {
+    Claims earlier, now;
+    std::string words; ///< empty: no contradiction
+  };
+  for (const Case &one : std::vector<Case>{
+           {{}, {}, ""},
+           {{}, {claim(J, 1, 2)}, ""},
+           {{claim(J, 1, 2, "in step 1")}, {claim(J, 2, 3)}, ""},
+           {{claim(J, 1, 2, "in step 1")}, {claim(J, 1.2, 1.3)}, ""},
+           {{claim(J, 1, 2, "in step 1")}, {claim(F, 3, 4)}, ""},
+           {{claim(J, 1, 2, "in step 1")}, {claim(J, 2 + 1.9e-9, 3)}, ""}, // round-off of both
+           {{claim(J, 1, 2, "in step 1")}, {claim(J, 2 + 2.1e-9, 3)}, J},
+           {{claim(J, 1.9, 1.9, "in step 1", 0.)}, {claim(J, 1.9, 1.9, "in step 2", 0.)}, ""},
+           {{claim(J, 0.001531, 0.001908, "in step 1")},
+            {claim(J, -0.000373, -0.0002)},
+            "the least energy is in [0.001531, 0.001908] in step 1 and in [-0.000373, -0.0002] in "
+            "step 2"},
+           {{},
+            {claim(F, -0.0002715, -0.0002601, "in step 5 on up.bottom"),
+             claim(F, -0.0005358, -0.0005294, "in step 5 on low.top")},
+            F + " is in [-0.0002715, -0.0002601] in step 5 on up.bottom and in [-0.0005358, "
+                "-0.0005294] in step 5 on low.top"},
+           // Of several the two that are farthest apart, in round-offs.
+           {{claim(J, 1, 2, "in step 1"), claim(J, -2, -1, "in step 2")},
+            {claim(J, 3, 4, "in step 3")},
+            "the least energy is in [-2, -1] in step 2 and in [3, 4] in step 3"}})
+  {
+    const std::string words = contradiction(one.earlier, one.now);
+    EXPECT_EQ(words.empty(), one.words.empty()) << words;
+    EXPECT_EQ(words.rfind(one.words, 0), 0U) << words;
+  }
+  EXPECT_TRUE(contradiction_warnings("").empty());
+  const Warnings warnings = contradiction_warnings(J);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].text.find("please send scene.prm"), std::string::npos);
+}
 } // namespace

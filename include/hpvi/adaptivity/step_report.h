@@ -60,6 +60,8 @@ struct StepReport
   std::vector<ProbeValue<dim>> probes{};         ///< of each of Scene::probes but lines
   std::vector<ProbeLine<dim>> probe_lines{};     ///< of these
   std::string no_intervals{}; ///< why forces and probes have no intervals; empty: some have
+  /** Guaranteed intervals, of this step or of those before, that do not meet, in words: nothing is guaranteed; empty: all meet. */
+  std::string contradiction{};
   PlacedValue<dim> largest_displacement{}; ///< |u_N| [length], of the last step alone
 
   /** Of the reduced path, which alone has one. */

@@ -61,6 +61,7 @@ struct StepStages
   std::string end_of_run() const;
   void add_results(StepReport<dim> &step);
   void add_bound(StepReport<dim> &step);
+  void compare_claims(StepReport<dim> &step);
   void count(StepReport<dim> &step);
   void refine();
   void resume(const RunState<dim> &state);

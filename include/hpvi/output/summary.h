@@ -30,10 +30,10 @@ struct Summary
   double seconds_of_report = 0; ///< to make report.html, which cannot tell them
   std::vector<std::string> warnings;
   /** As JSON, of the last step of this load step that has one, whatever ends the run. */
-  std::string last_error_bound = "null";
-  unsigned int load_step = 0;   ///< that of the last step
-  LoadStep load;                ///< the last one that is done, of a history
-  std::optional<LoadSum> loads; ///< of the last step, in the plane
+  std::string last_error_bound = "null", contradiction; ///< StepReport::contradiction
+  unsigned int load_step = 0;                           ///< that of the last step
+  LoadStep load;                                        ///< the last one that is done, of a history
+  std::optional<LoadSum> loads;                         ///< of the last step, in the plane
 
   /** As JSON, of the last step, where stopped_by names what ended the run: */
   struct Ending

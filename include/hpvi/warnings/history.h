@@ -3,8 +3,10 @@
 #define hpvi_history_h
 
 #include <hpvi/peaks/stress_peak.h>
+#include <hpvi/warnings/claim.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -23,11 +25,24 @@ struct PastStep
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
   double own_stress = 0;        ///< ErrorBound::own_stress
   std::vector<StressSample<dim>> peaks = {}; ///< stress_peaks(): which ones grow without bound
+  Claims claims = {};                        ///< what it guarantees
+  /** Of these and those of steps before, contradiction(); then nothing is guaranteed from this step on. */
+  std::string contradiction = {};
 };
 
 /** All finished steps of a run, the first one first. */
 template <int dim>
 using History = std::vector<PastStep<dim>>;
+
+/** The first contradiction of its first @p n steps; empty: there is none. */
+template <int dim>
+std::string first_contradiction(const History<dim> &history, const std::size_t n)
+{
+  for (std::size_t k = 0; k < n; ++k)
+    if (!history[k].contradiction.empty())
+      return history[k].contradiction;
+  return {};
+}
 } // namespace hpvi
 
 #endif

@@ -16,6 +16,7 @@ namespace hpvi
 /** What a warning is about, in the order in which they are said. */
 enum class WarningKind
 {
+  contradiction,     ///< of guaranteed intervals
   tension,           ///< bilateral contact pulls
   overshoot,         ///< |lambda_N| above 1 between Gauss points
   pulling_pressure,  ///< unilateral contact pulls between the points of its multiplier
@@ -127,6 +128,12 @@ Warnings unseen_warnings(const Solution<dim> &solution);
 /** That Adaptivity::tolerance_column has no half-width, NaN, because of @p no_interval; none: it has. */
 Warnings tolerance_warnings(const Adaptivity &adaptivity, double relative_half_width,
                             const std::string &no_interval);
+
+/** That guaranteed intervals do not meet, contradiction() in words; or none. */
+Warnings contradiction_warnings(const std::string &contradiction);
+
+/** Likewise, as the reason why a step has no bound. */
+std::string no_guarantee(const std::string &contradiction);
 
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; or none. */
 Warnings bound_warnings(double relative, double imbalance);
