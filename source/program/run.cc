@@ -114,7 +114,7 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
 {
   const Adaptivity &limits = step.scene.adaptivity;
   const bool is_in_its_place = limits.tolerance > 0 && limits.tolerance_on == Indicator::bound &&
-                               limits.tolerance_column.empty(),
+                               limits.tolerance_column.empty() && step.stopped_by != "round-off",
              is_wanted = step.scene.error_bound && !step.primal;
   if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
