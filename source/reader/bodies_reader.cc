@@ -117,6 +117,12 @@ void cut_bodies(const Parameters &parameters, const FreeNames &names,
   for (unsigned int b = 0; b < singles.size(); ++b)
   {
     Scene<2> &body = singles[b];
+    if (parameters.text(section_of_body(names.bodies[b]), "Material").empty())
+      for (const std::string &material : names.materials)
+        if (const std::string section = section_of_material(material);
+            !parameters.text(section, "Where").empty())
+          cut_body(body, read_where(parameters, section, sample_body(body.geometry)),
+                   section + "/Where");
     for (const std::string &part : names.parts)
       for (unsigned int side = 0; side < body.geometry.boundary_names().size(); ++side)
         if (const std::string section = "Boundary " + part;
@@ -125,13 +131,6 @@ void cut_bodies(const Parameters &parameters, const FreeNames &names,
           cut_side(body, side,
                    read_where(parameters, section, sides_of(body.geometry)[side].sample()),
                    section + "/Where");
-    if (!parameters.text(section_of_body(names.bodies[b]), "Material").empty())
-      continue;
-    for (const std::string &material : names.materials)
-      if (const std::string section = section_of_material(material);
-          !parameters.text(section, "Where").empty())
-        cut_body(body, read_where(parameters, section, sample_body(body.geometry)),
-                 section + "/Where");
   }
 }
 } // namespace

@@ -1260,7 +1260,9 @@ TEST(Bodies, AreCutAsOneBodyIs)
     if (row[1].second == "1")
       continue;
     ASSERT_FALSE(one.remarks.empty());
-    EXPECT_EQ(body.remarks.front(), "Body a: " + one.remarks.front());
+    ASSERT_EQ(body.remarks.size(), one.remarks.size());
+    for (unsigned int k = 0; k < one.remarks.size(); ++k)
+      EXPECT_EQ(body.remarks[k], "Body a: " + one.remarks[k]);
   }
 }
 
