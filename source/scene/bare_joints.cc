@@ -43,7 +43,10 @@ std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
   return result;
 }
 
-/** A place inside an edge of @p one from which the other side is no distance away along the normal, and a hair beside it, too. */
+/**
+ * A place in the middle of an edge of @p one, or near its ends, from which the other side is no distance away along the normal, and
+ * beside it, too. Where edges have a part in common there is an end of one of them.
+ */
 std::optional<Point<2>> common_place(const DrawnSide &one, const DrawnSide &other,
                                      const double size)
 {
@@ -53,8 +56,8 @@ std::optional<Point<2>> common_place(const DrawnSide &one, const DrawnSide &othe
     return there && std::abs(there->place.distance) <= same_place * size;
   };
   for (const EdgePath &edge : one.edges())
-    for (const double s : {0.25, 0.5, 0.75})
-      if (touches(edge, s) && touches(edge, s + 0.01))
+    for (const double s : {0.5, 0.001, 0.999})
+      if (touches(edge, s) && touches(edge, s < 0.5 ? s + 0.01 : s - 0.01))
         return edge.point(s);
   return std::nullopt;
 }
@@ -72,7 +75,6 @@ std::vector<BareJoint> bare_joints(const Scene<2> &scene)
     {
       if (one.body >= other.body || (one.is_held && other.is_held))
         continue;
-      // The shorter edge of two lies on the longer.
       auto at = common_place(one.drawn, other.drawn, size);
       if (!at)
         at = common_place(other.drawn, one.drawn, size);

@@ -521,7 +521,7 @@ TEST(Warnings, BodiesThatLieOnEachOther)
   }
   const Overrides one_step{{"Adaptivity/Maximum steps", "1"}};
   const std::string words =
-      "a.top and b.bottom lie on each other at (0.875 1) and no Contact names them";
+      "a.top and b.bottom lie on each other at (0.75 1) and no Contact names them";
   EXPECT_TRUE(warns(scene_of(with(rows[0].entries, one_step)), words));
   EXPECT_FALSE(warns(scene_of(with(rows[1].entries, one_step)), "lie on each other"));
 }
