@@ -75,6 +75,13 @@ public:
     }
   }
 
+  /** Zero but in a strip across @p variable, of a place and width that no mesh knows. */
+  std::string strip(const std::string &variable, const double magnitude)
+  {
+    return "if(abs(" + variable + " - " + text(number(0, 1)) + ") < " + text(number(0.02, 0.2)) +
+           ", " + text(magnitude * number(0.1, 1)) + ", 0)";
+  }
+
 private:
   std::mt19937 &random;
 };

@@ -284,7 +284,11 @@ void choose_springs(RandomScene &scene, std::mt19937 random)
   for (Side &side : scene.sides)
     if (side.displacement[0].empty() && side.displacement[1].empty() && side.contact.empty() &&
         side.moment.empty() && side.where.empty() && dice.happens(0.1))
+    {
       side.spring = {{dice.positive(scene.young), dice.positive(0.3 * scene.young)}};
+      if (dice.happens(0.4))
+        side.spring[0] = dice.strip(side.on % 2 == 0 ? "X" : "Y", 10 * scene.young);
+    }
 }
 
 /** Friction that is both Coulomb's and Tresca's. */
@@ -314,6 +318,8 @@ void choose_initial_strain(RandomScene &scene, std::mt19937 random)
   {
     scene.expansion = 0.01;
     scene.temperature = dice.function(1.);
+    if (dice.happens(0.4))
+      scene.temperature += " + " + dice.strip(dice.chosen({"X", "Y"}), 1.);
   }
   else
     for (double &component : scene.initial_strain)
