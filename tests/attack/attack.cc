@@ -22,6 +22,7 @@
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -122,7 +123,10 @@ Step guaranteed(const StepReport<2> &step)
 Step exact(const StepReport<2> &step)
 {
   const auto numbers = numbers_of(step);
-  std::map<bool, double> largest; // of probes and of all else
+  const double displacement = step.largest_displacement.value;
+  std::map<bool, double> largest{// of probes and of all else, which round-off of a rigid motion has
+                                 {true, displacement},
+                                 {false, 1e-6 * step.scene.reference_coercivity() * displacement}};
   const auto is_probe = [](const std::string &name) { return name.rfind("probe", 0) == 0; };
   for (const auto &[name, number] : numbers)
     if (!std::isnan(number.value))
@@ -323,43 +327,46 @@ std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
   return result;
 }
 
-/** Ranges of any two steps meet. */
+/** Ranges of any two steps meet; of each of both runs the highest low end and the lowest high one tell. */
 void Attack::compare_ranges(const Run &run, const Run &reference, std::vector<std::string> &result)
 {
+  struct End
+  {
+    double value, round_off = 0;
+    std::string step{};
+  };
   struct Ends
   {
-    Range range{-infinity, infinity, 0};
-    std::string of_low, of_high;
+    End low{-infinity}, high{infinity};
   };
-  std::map<std::string, Ends> ends;
+  std::map<std::string, std::array<Ends, 2>> ends;
   for (const Run *const one : {&run, &reference})
     for (const Step &step : one->steps)
       for (const auto &[name, range] : step.ranges)
       {
         ++score.n_ranges;
-        Ends &known = ends[name];
-        const std::string of = step.name + (one == &run ? "" : " of the reference");
-        if (range.low > known.range.low)
-        {
-          known.range.low = range.low;
-          known.of_low = of;
-        }
-        if (range.high < known.range.high)
-        {
-          known.range.high = range.high;
-          known.of_high = of;
-        }
-        known.range.round_off = std::max(known.range.round_off, range.round_off);
+        const bool of_reference = one == &reference;
+        Ends &known = ends[name][of_reference];
+        const std::string words = step.name + (of_reference ? " of the reference" : "");
+        if (range.low > known.low.value)
+          known.low = {range.low, range.round_off, words};
+        if (range.high < known.high.value)
+          known.high = {range.high, range.round_off, words};
       }
-  for (const auto &[name, known] : ends)
-    if (known.range.low > known.range.high + 2 * known.range.round_off)
-    {
-      std::ostringstream line;
-      line.precision(12);
-      line << name << " is at least " << known.range.low << " in " << known.of_low << ", at most "
-           << known.range.high << " in " << known.of_high;
-      result.push_back(line.str());
-    }
+  for (const auto &[name, both] : ends)
+    for (const Ends &one : both)
+      for (const Ends &other : both)
+      {
+        const End &low = one.low, &high = other.high;
+        if (low.value > high.value + low.round_off + high.round_off)
+        {
+          std::ostringstream line;
+          line.precision(12);
+          line << name << " is at least " << low.value << " in " << low.step << ", at most "
+               << high.value << " in " << high.step;
+          result.push_back(line.str());
+        }
+      }
 }
 
 /** The scene, with what it contradicts, and its reference. */

@@ -95,6 +95,7 @@ private:
   std::vector<std::string> methods{"hup2", "hup3", "hap2", "hap3", "hap4",
                                    "pu",   "hpa1", "hpa2", "hpa3"},
       n_steps{"2", "4", "8"};
+  std::string most_unknowns = "1500";
 };
 
 Patchwork::Patchwork(const std::string &kind, std::mt19937 &random)
@@ -163,7 +164,7 @@ void Patchwork::join(const unsigned int d, const std::vector<std::string> &laws)
       {
         const std::string law = dice.chosen(laws);
         joint = {{"Law", law}};
-        if (law == "tangential" || (law != "tied" && dice.happens(0.5)))
+        if (law == "tangential" || (law != "tied" && dice.happens(0.3)))
           joint.emplace_back("Friction bound",
                              metamorphic::text(young * std::pow(10, dice.number(-4, -2))));
         is_joined[d] = is_joined[d] && law == "tied";
@@ -241,7 +242,7 @@ void Patchwork::draw_strips()
 Patchwork::Spot Patchwork::spot(const unsigned int d, const double from, const double to,
                                 const double offset)
 {
-  levels = static_cast<unsigned int>(dice.number(3, 8));
+  levels = static_cast<unsigned int>(dice.number(3, 9));
   const double length = d == 0 ? 1 : height, size = length / cells[d] / (1u << levels);
   const unsigned int n = cells[d] << levels;
   const unsigned int width = dice.happens(0.7) ? 1 : 2,
@@ -338,9 +339,10 @@ void Patchwork::draw_falls()
   resize(1, dice.happens(0.6) ? 1 : 2);
   is_joined[1] = n_bodies[1] == 1;
   finer = cells;
-  set_contact(dice.chosen({"bilateral", "unilateral", "tangential"}),
-              {{"Friction bound", in_frame(smooth_and(pad(young * std::pow(10, dice.number(-2, 1))),
-                                                      0.001 * young))}});
+  set_contact(
+      dice.chosen({"bilateral", "unilateral", "tangential"}),
+      {{"Friction bound",
+        in_frame(smooth_and(pad(young * std::pow(10, dice.number(-1, 1.3))), 0.001 * young))}});
   const std::string move = vector(metamorphic::text(dice.number(0.002, 0.02)), "0");
   sides[left].back() = {{"Displacement", move}};
   if (dice.happens(0.3))
@@ -349,7 +351,8 @@ void Patchwork::draw_falls()
     add(top, "Traction",
         vector(dice.about(0.001 * young), metamorphic::text(-0.01 * young * dice.number(0, 1))));
   methods = {"hpa2", "hpa3", "hap3"};
-  n_steps = {"8", "12"}; // only a small bound tells
+  n_steps = {"10", "16"}; // only a small bound tells
+  most_unknowns = "2500";
 }
 
 /** Springs, up to a million times as stiff as the body or much softer, on sides at which joints end. */
@@ -382,10 +385,11 @@ void Patchwork::draw_joints()
 void Patchwork::draw_vertex()
 {
   resize(dice.happens(0.7) ? 2 : 3, 2);
-  const std::vector<std::string> laws{"unilateral", "unilateral", "unilateral",
-                                      "bilateral",  "tangential", "tied"};
+  if (dice.happens(0.6))
+    cells = finer = {{1, 1}};
+  const std::vector<std::string> laws{"unilateral", "bilateral", "tangential", "tied"};
   join(0, dice.happens(0.7) ? std::vector<std::string>{"tied"} : laws);
-  join(1, laws);
+  join(1, dice.happens(0.6) ? std::vector<std::string>{"unilateral"} : laws);
   if (dice.happens(0.7))
     sections.push_back(
         {"Material other",
@@ -397,7 +401,7 @@ void Patchwork::draw_vertex()
   add(top, "Spring", stiffness() + "; " + stiffness());
   add(top, "Traction", vector(dice.about(0.01 * young), dice.about(0.01 * young)));
   add(right, "Traction", vector(dice.about(0.03 * young), dice.about(0.03 * young)));
-  methods = {"hup2", "hup2", "hup3", "hap2", "hap3", "hpa2", "hpa3"};
+  methods = {"hup2", "hup2", "hup3", "hap2", "hpa2", "hpa3"};
   n_steps = {"4", "8"};
 }
 
@@ -428,7 +432,7 @@ void Patchwork::draw_method()
   Entries entries{{"Method", dice.chosen(methods)},
                   {"Indicator", dice.chosen({"residual", "bound"})},
                   {"Maximum steps", dice.chosen(n_steps)},
-                  {"Maximum unknowns", "1500"}};
+                  {"Maximum unknowns", most_unknowns}};
   if (dice.happens(0.5))
     entries.emplace_back("Tolerance", "0");
   sections.push_back({"Adaptivity", entries});
