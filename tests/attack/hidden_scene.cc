@@ -243,6 +243,8 @@ Patchwork::Spot Patchwork::spot(const unsigned int d, const double from, const d
                                 const double offset)
 {
   levels = static_cast<unsigned int>(dice.number(3, 9));
+  while (cells[d] << levels > 400) // the program samples each side five hundred times
+    --levels;
   const double length = d == 0 ? 1 : height, size = length / cells[d] / (1u << levels);
   const unsigned int n = cells[d] << levels;
   const unsigned int width = dice.happens(0.7) ? 1 : 2,
@@ -326,7 +328,7 @@ std::string Patchwork::pad(const double stress)
   if (dice.happens(0.7))
     return inside(0, spot(0, 0, 0.3, offset), stress);
   const double centre = std::pow(10, dice.number(-2.3, -0.5)),
-               width = centre * std::pow(10, dice.number(-1.5, -0.3));
+               width = std::max(0.002, centre * std::pow(10, dice.number(-1.5, -0.3)));
   graded = {{{0, offset}}, {{centre, offset}}};
   levels = 2 + static_cast<unsigned int>(-std::log2(width));
   return metamorphic::text(stress) + "*exp(-((X - " + metamorphic::text(centre) + ")/" +
@@ -381,22 +383,23 @@ void Patchwork::draw_joints()
     hold(bottom, "0", "0");
 }
 
-/** Four bodies around a vertex, or six, that are pressed together or torn. */
+/** Four bodies around a vertex, or six, that are pressed together or torn, mostly on soft springs. */
 void Patchwork::draw_vertex()
 {
-  resize(dice.happens(0.7) ? 2 : 3, 2);
-  if (dice.happens(0.6))
+  resize(dice.happens(0.8) ? 2 : 3, 2);
+  if (dice.happens(0.7))
     cells = finer = {{1, 1}};
   const std::vector<std::string> laws{"unilateral", "bilateral", "tangential", "tied"};
   join(0, dice.happens(0.7) ? std::vector<std::string>{"tied"} : laws);
-  join(1, dice.happens(0.6) ? std::vector<std::string>{"unilateral"} : laws);
+  join(1, dice.happens(0.7) ? std::vector<std::string>{"unilateral"} : laws);
   if (dice.happens(0.7))
     sections.push_back(
         {"Material other",
          {{"Where", in_frame("X - 1")},
-          {"Young's modulus", metamorphic::text(young * std::pow(10, dice.number(-1.5, 1.5)))}}});
+          {"Young's modulus", metamorphic::text(young * std::pow(10, dice.number(-1, 1.7)))}}});
+  const double softest = dice.number(-3, 1);
   const auto stiffness = [&]
-  { return metamorphic::text(young * std::pow(10, dice.number(-2.5, 1))); };
+  { return metamorphic::text(young * std::pow(10, dice.number(softest, softest + 0.5))); };
   hold(bottom, "0", "0");
   add(top, "Spring", stiffness() + "; " + stiffness());
   add(top, "Traction", vector(dice.about(0.01 * young), dice.about(0.01 * young)));
