@@ -32,7 +32,7 @@ EVALUATIONS = {
     "source/contact/contact_numbering.cc": 6, "source/contact/resistance.cc": 1, "source/discretisation/elastic_system.cc": 2,
     "source/discretisation/initial_stress.cc": 3, "source/discretisation/missed_loads.cc": 1,
     "source/discretisation/springs.cc": 1, "source/equilibration/boundary_tractions.cc": 3,
-    "source/equilibration/data_error.cc": 2, "source/equilibration/force_modes.cc": 3, "source/equilibration/initial_modes.cc":
+    "source/equilibration/data_error.cc": 3, "source/equilibration/force_modes.cc": 3, "source/equilibration/initial_modes.cc":
     1, "source/equilibration/macro_stresses.cc": 2, "source/evaluation/contact_residuals.cc": 1,
     "source/evaluation/contact_state.cc": 2, "source/evaluation/elastic_strain.cc": 1,
     "source/evaluation/residual_estimator.cc": 4, "source/evaluation/true_error.cc": 3, "source/evaluation/unseen_contact.cc":

@@ -19,7 +19,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double same_place = 1e-9; ///< of the size of the bodies
 
 NamedSide side_called(const Parameters &parameters, const std::string &section,
                       const std::string &name, const std::vector<NamedSide> &sides,

@@ -2,6 +2,7 @@
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/drawn_side.h>
+#include <hpvi/scene/facing_sides.h>
 
 #include <cmath>
 
@@ -11,7 +12,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double same_place = 1e-9; ///< of the size of the bodies
 
 struct FreeSide
 {

@@ -12,8 +12,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double parallel = 1e-9, ///< of unit vectors
-    same_place = 1e-9;            ///< of the size of the bodies
+constexpr double parallel = 1e-9; ///< of unit vectors
 
 /** A side that is one straight line. */
 struct Line

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/scene/facing_sides.h>
 #include <hpvi/scene/opposite_edges.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using namespace dealii;
 namespace
 {
 constexpr unsigned int n_samples = 32; ///< of an edge, and both of its ends
-constexpr double same_place = 1e-9,    ///< of the size of the bodies
+constexpr double
     near =
         0.02, ///< of the size, or the radius: what hangs over at a larger distance touches nobody
     smooth = 1 - 1e-10; ///< cosine between edges that meet: a spline in pieces is smooth to less

@@ -7,8 +7,8 @@
 #include <hpvi/checks/rejection.h>
 #include <hpvi/evaluation/probe_value.h>
 #include <hpvi/evaluation/solution_field.h>
-#include <hpvi/stresses/mean_gradients.h>
 #include <hpvi/scene/bare_joints.h>
+#include <hpvi/stresses/mean_gradients.h>
 #include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
