@@ -27,7 +27,7 @@ EVALUATIONS = {
     "include/hpvi/contact/contact_space.h": 2, "include/hpvi/discretisation/initial_stress.h": 4,
     "include/hpvi/evaluation/contact_traces.h": 1, "include/hpvi/evaluation/turned_divergence.h": 1,
     "include/hpvi/moments/moment_space.h": 1, "source/admissibility/admissible_pressure.cc": 4,
-    "source/admissibility/face_contact.cc": 1, "source/body/displacement_cuts.cc": 2, "source/body/given_data.cc": 6,
+    "source/admissibility/face_contact.cc": 1, "source/body/displacement_cuts.cc": 2, "source/body/given_data.cc": 7,
     "source/body/load_rule.cc": 4, "source/contact/collapse.cc": 3, "source/contact/contact_face.cc": 5,
     "source/contact/contact_numbering.cc": 6, "source/contact/resistance.cc": 1, "source/discretisation/elastic_system.cc": 2,
     "source/discretisation/initial_stress.cc": 3, "source/discretisation/missed_loads.cc": 1,

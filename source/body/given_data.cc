@@ -70,6 +70,12 @@ GivenData given_data(const Scene<2> &scene, const coarse_cuts::Cell &cell, const
       take(boundary.traction);
       result.value = value_of(boundary.traction);
     }
+    else if (datum == Datum::friction_bound && !boundary.pair && boundary.friction.bound)
+    {
+      result.functions.push_back(boundary.friction.bound);
+      result.value = [&boundary](const Point<2> &x)
+      { return components(boundary.friction.bound_at(x), 0.); };
+    }
     else if (datum == Datum::spring)
     {
       result.name = "Spring on " + boundary.name;
@@ -177,8 +183,9 @@ DataPieces cut_data(const Scene<2> &scene, const coarse_cuts::Cell &cell, const 
   const CellMap<2> map = map_of<2>(cell);
   const BoundaryCondition<2> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
   const std::array<Expression<2>, 2> components =
-      datum == Datum::load ? boundary.traction
-                           : Load<2>{{boundary.spring.normal, boundary.spring.tangential}};
+      datum == Datum::load     ? boundary.traction
+      : datum == Datum::spring ? Load<2>{{boundary.spring.normal, boundary.spring.tangential}}
+                               : Load<2>{{boundary.friction.bound, nullptr}};
   const double length = map.face_measure(face, point_on_face<2>(face, Point<1>(0.5)));
   DataPieces result;
   for (unsigned int c = 0; c < 2; ++c)

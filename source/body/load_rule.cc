@@ -35,6 +35,7 @@ LoadRules<dim>::LoadRules(const Scene<dim> &scene, const Triangulation<dim> &mes
       {
         look_at(cell, face, Datum::load);
         look_at(cell, face, Datum::spring);
+        look_at(cell, face, Datum::friction_bound);
       }
   }
   // Around an axis what is radial balances itself, and turns nothing.
@@ -97,7 +98,7 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face, const Datum 
   };
   if (face != inside)
   {
-    const Quadrature<1> rule = spring(cell, face, degree).quadrature;
+    const Quadrature<1> rule = on_face(cell, face, datum, degree, {}).quadrature;
     for (unsigned int q = 0; q < rule.size(); ++q)
     {
       const Point<dim> s = point_on_face<dim>(face, rule.point(q));

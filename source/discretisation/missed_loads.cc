@@ -92,12 +92,22 @@ DatumValue sum_of_springs(const Discretisation<2> &discretisation)
   return result;
 }
 
+/** `int g` along foundations. */
+DatumValue sum_of_friction(const ContactSpace<2> &contact_space)
+{
+  DatumValue result;
+  for (const ContactFace<2> &face : contact_space.faces())
+    if (!face.condition->pair)
+      result[0] += face.length * face.friction.integral();
+  return result;
+}
 } // namespace
 
 std::string in_words(const Datum datum, const DatumValue &value)
 {
-  return datum == Datum::initial_strain ? to_string(Point<3>(value[0], value[1], value[2]))
-                                        : to_string(Point<2>(value[0], value[1]));
+  return datum == Datum::initial_strain   ? to_string(Point<3>(value[0], value[1], value[2]))
+         : datum == Datum::friction_bound ? to_string(value[0])
+                                          : to_string(Point<2>(value[0], value[1]));
 }
 
 std::string missed_loads(const Discretisation<2> &discretisation, const LoadRules<2> &loads)
@@ -117,6 +127,9 @@ std::string missed_loads(const Discretisation<2> &discretisation, const LoadRule
                      "stresses of initial strains sum");
   if (result.empty() && scene.has_springs())
     result = compare(Datum::spring, sum_of_springs(discretisation), "stiffnesses of springs sum");
+  if (result.empty() && scene.has_friction() && !scene.is_axisymmetric())
+    result = compare(Datum::friction_bound, sum_of_friction(discretisation.spaces->contact_space),
+                     "friction bounds sum");
   return result;
 }
 

@@ -16,12 +16,13 @@ enum class Datum
 {
   load,           ///< a body force in a cell [stress/length], a traction on an edge [stress]
   initial_strain, ///< its stress C eps_0 in a cell [stress]
-  spring          ///< stiffness k_n, k_t on an edge [stress/length]
+  spring,         ///< stiffness k_n, k_t on an edge [stress/length]
+  friction_bound ///< g on an edge of a foundation [stress]; FrictionRule integrates it, and its sum is compared
 };
 
 constexpr unsigned int inside = dealii::numbers::invalid_unsigned_int; ///< in the place of a face
 
-/** Components of a force; xx, yy, xy and that around an axis of a stress; k_n, k_t. */
+/** Components of a force; xx, yy, xy and that around an axis of a stress; k_n, k_t; g. */
 using DatumValue = dealii::Tensor<1, 4>;
 
 /** One datum in a cell or on a face of it. The scene must outlive this. */

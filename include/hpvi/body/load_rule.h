@@ -133,7 +133,7 @@ private:
   /** Of loads and initial strains, by cell and degree. */
   mutable std::array<std::map<CellKey, std::vector<RulePart<dim>>>, 2> known_parts;
   LoadSum total;
-  std::array<Total, 3> totals; ///< by datum
+  std::array<Total, 4> totals; ///< by datum
 };
 } // namespace hpvi
 
