@@ -21,9 +21,9 @@ auto references_of(Loads &loads)
 {
   auto &load = loads.load;
   return std::tie(load.t, load.work, load.dissipated, load.stored, load.released, load.unbalanced,
-                  loads.seconds, loads.slipped, loads.initial_part, loads.tolerance,
-                  loads.past_data.stress, loads.past_data.displacement, loads.data.stress,
-                  loads.data.displacement);
+                  load.trapezoidal, loads.seconds, loads.slipped, loads.initial_part,
+                  loads.tolerance, loads.past_data.stress, loads.past_data.displacement,
+                  loads.data.stress, loads.data.displacement);
 }
 
 /** The bits of each: decimals of a large mesh would take longer than all else. */

@@ -61,6 +61,7 @@ struct LoadHistory<dim>::Evolution
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
   std::string reason(const std::string &stopped_by) const;
+  void add_warnings(StepReport<dim> &report) const;
   void conclude(StepReport<dim> &report);
   PastSlip<dim> slip_so_far() const;
   void count(const Work &done);
@@ -187,6 +188,19 @@ StepReport<dim> LoadHistory<dim>::Evolution::report(const StepReport<dim> &step)
   return result;
 }
 
+/** What only the history can say of a load step, and of all when the last one is over. */
+template <int dim>
+void LoadHistory<dim>::Evolution::add_warnings(StepReport<dim> &report) const
+{
+  if (report.stopped_by != "round-off")
+    report.warnings = joined(report.warnings, load_step_warnings(report.relative_estimate));
+  const LoadStep &load = finished.load;
+  if (load.number == scene.loading.steps)
+    report.warnings =
+        joined(report.warnings, dissipation_warnings(load.dissipated, load.trapezoidal,
+                                                     std::abs(load.work) + load.stored));
+}
+
 /** The last step of a load step: what the load step did, and what the next one starts from. */
 template <int dim>
 void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
@@ -212,6 +226,7 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
   { return one.kind == WarningKind::no_contact; };
   report.warnings.erase(std::remove_if(report.warnings.begin(), report.warnings.end(), is_passing),
                         report.warnings.end());
+  add_warnings(report);
   keep_worst(finished.warnings, report.warnings, place());
   if (finished.load.number == scene.loading.steps)
     report.warnings = finished.warnings;
@@ -224,6 +239,7 @@ void LoadHistory<dim>::Evolution::count(const Work &done)
   finished.load.dissipated += scene.thickness * done.dissipated;
   finished.load.released += scene.thickness * done.released;
   finished.load.unbalanced += scene.thickness * done.unbalanced;
+  finished.load.trapezoidal += scene.thickness * done.trapezoidal;
 }
 
 /** What the load step did from where the one before has ended. */

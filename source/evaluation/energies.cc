@@ -245,7 +245,7 @@ Work between(const Acting &last, const Acting &next)
 {
   return {0.5 * (last.outside + next.outside), next.friction,
           0.5 * (last.friction - next.friction + last.pressure + next.pressure),
-          0.5 * last.residual};
+          0.5 * last.residual, 0.5 * (last.friction + next.friction)};
 }
 } // namespace
 

@@ -44,7 +44,8 @@ std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
                       {"work", text(load.work)},
                       {"stored_energy", text(load.stored)},
                       {"released_energy", text(load.released)},
-                      {"unbalanced_energy", text(load.unbalanced)}});
+                      {"unbalanced_energy", text(load.unbalanced)},
+                      {"dissipated_energy_trapezoidal", text(load.trapezoidal)}});
 }
 
 /** The guaranteed bound; relative to a displacement of zero it is null. */
@@ -105,7 +106,8 @@ void Summary::take_up(const std::vector<Record> &rows, const std::vector<Record>
           number("dissipated_energy"),
           number("stored_energy"),
           number("released_energy"),
-          number("unbalanced_energy")};
+          number("unbalanced_energy"),
+          number("dissipated_energy_trapezoidal")};
 }
 
 template <int dim>

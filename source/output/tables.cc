@@ -249,6 +249,7 @@ Record loading_record(const StepReport<dim> &step)
   record.emplace_back("unbalanced_energy", text(step.load.unbalanced));
   const Record displacements = prescribed_displacements(step);
   record.insert(record.end(), displacements.begin(), displacements.end());
+  record.emplace_back("dissipated_energy_trapezoidal", text(step.load.trapezoidal));
   return record;
 }
 

@@ -121,7 +121,7 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
   const Acting before = last ? in_state(*last) : Acting(), after = in_state(next);
   return {0.5 * (before.outside + after.outside), after.friction,
           0.5 * (before.friction - after.friction + before.pressure + after.pressure),
-          -0.5 * before.elsewhere};
+          -0.5 * before.elsewhere, 0.5 * (before.friction + after.friction)};
 }
 
 template PastState<2> end_state(const MomentSpace<2> &, const DistributedVector &,

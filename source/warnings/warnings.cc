@@ -60,6 +60,29 @@ Warnings contradiction_warnings(const std::string &contradiction)
                "guaranteed: please send scene.prm"}};
 }
 
+Warnings load_step_warnings(const double relative_estimate)
+{
+  if (!(relative_estimate > 0.1))
+    return {};
+  return {{WarningKind::load_step, relative_estimate,
+           line("the error indicator of a load step is ", 100 * relative_estimate,
+                " % of its solution, so that its numbers are rough; let it take more steps: "
+                "Adaptivity/Maximum steps, Adaptivity/Tolerance, or Loading/Adapt = every step")}};
+}
+
+Warnings dissipation_warnings(const double at_ends, const double trapezoidal, const double energy)
+{
+  const double larger = std::max(std::abs(at_ends), std::abs(trapezoidal)),
+               difference = std::abs(at_ends - trapezoidal);
+  if (!(larger > 1e-6 * energy && difference > 0.05 * larger))
+    return {};
+  return {{WarningKind::dissipation, difference / larger,
+           line("friction dissipates ", at_ends,
+                " by its values at the end of each load step, which dissipated_energy counts, and ",
+                trapezoidal, " by the trapezoidal rule, which work follows: ",
+                100 * difference / larger, " % apart; take more Loading/Steps")}};
+}
+
 Warnings bound_warnings(const double relative, const double imbalance)
 {
   if (!(relative < 1e-9 && relative > 1e-12)) // below that a run ends as exact to round-off

@@ -349,6 +349,73 @@ TEST(Warnings, ABoundOfRoundOffSaysSo)
   EXPECT_NE(line.find("1.4e-14 of their stresses"), std::string::npos) << line;
 }
 
+TEST(Warnings, OfLoadSteps)
+{
+  EXPECT_TRUE(load_step_warnings(0.099).empty());
+  EXPECT_TRUE(load_step_warnings(std::nan("")).empty());
+  EXPECT_NE(load_step_warnings(0.941).at(0).text.find("is 94.1 % of its solution"),
+            std::string::npos);
+}
+
+TEST(Warnings, OfDissipation)
+{
+  EXPECT_TRUE(dissipation_warnings(0., 0., 0.).empty());
+  EXPECT_TRUE(dissipation_warnings(1., 0.951, 2.).empty());
+  EXPECT_TRUE(dissipation_warnings(0.951, 1., 2.).empty());
+  EXPECT_TRUE(dissipation_warnings(1., 0.5, 1.1e6).empty()); // nobody will miss it
+  EXPECT_FALSE(dissipation_warnings(0.949, 1., 2.).empty());
+  EXPECT_FALSE(dissipation_warnings(1., -0.1, 2.).empty());
+  const std::string line = dissipation_warnings(6.367, 4.836, 4.836).at(0).text;
+  EXPECT_NE(line.find("6.37 by its values at the end"), std::string::npos) << line;
+  EXPECT_NE(line.find("4.84 by the trapezoidal rule"), std::string::npos) << line;
+  EXPECT_NE(line.find("24 % apart"), std::string::npos) << line;
+}
+
+/**
+ * A square that is pressed down and dragged by @p slip: all of it slides under Coulomb's law, or under a bound. Where friction grows with
+ * the slip, as under a pressure that grows with t, the values at the ends of n load steps dissipate 1 + 1/n of what it does.
+ */
+TEST(Warnings, OfHistoriesWithFewLoadSteps)
+{
+  struct Row
+  {
+    std::string law, value, pressure;
+    unsigned int steps;
+    bool warns;
+  };
+  for (const Row &row :
+       {Row{"coefficient", "0.1", "t", 4, true}, Row{"coefficient", "0.1", "t", 30, false},
+        Row{"coefficient", "0.1", "2", 30, false}, Row{"coefficient", "0.1", "2 - t", 2, true},
+        Row{"bound", "0.1*t", "1", 4, true}, Row{"bound", "0.1*t", "1", 30, false},
+        Row{"bound", "0.1", "1", 2, true}, Row{"bound", "0", "1", 2, false}})
+  {
+    std::vector<std::string> warnings;
+    LoadStep end;
+    LoadHistory<2>(scene_of({{"Material/Young's modulus", "1000"},
+                             {"Material/Poisson's ratio", "0"},
+                             {"Boundary top/Displacement", "0.05*t; free"},
+                             {"Boundary top/Pressure", row.pressure},
+                             {"Boundary bottom/Contact", "unilateral"},
+                             {"Boundary bottom/Friction " + row.law, row.value},
+                             {"Adaptivity/Maximum steps", "2"},
+                             {"Loading/Steps", std::to_string(row.steps)}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              warnings = texts(step.warnings);
+              end = step.load;
+            });
+    const bool found = std::any_of(warnings.begin(), warnings.end(),
+                                   [](const std::string &warning)
+                                   { return warning.find("friction dissipates ") == 0; });
+    EXPECT_EQ(found, row.warns) << row.law << ' ' << row.value << ' ' << row.pressure << ' '
+                                << row.steps << ": " << end.dissipated << ' ' << end.trapezoidal;
+    EXPECT_EQ(found, std::abs(end.dissipated - end.trapezoidal) >
+                             0.05 * std::max(end.dissipated, end.trapezoidal) &&
+                         end.dissipated > 0);
+  }
+}
+
 // ---------------------------------------------------------------- contact
 
 /** A unit square whose top is moved by @p displacement onto what lies below; further @p entries. */

@@ -13,11 +13,12 @@ struct LoadStep
   unsigned int number = 0; ///< from 1
   double t = 0;
   /** From the beginning of the history to the end of the load step, once it is reached: */
-  double work = 0;       ///< the sum of Work::external [stress length^dim]
-  double dissipated = 0; ///< the sum of Work::dissipated, likewise
-  double stored = 0;     ///< a(u_N,u_N)/2, likewise
-  double released = 0;   ///< the sum of Work::released, likewise
-  double unbalanced = 0; ///< the sum of Work::unbalanced, likewise
+  double work = 0;        ///< the sum of Work::external [stress length^dim]
+  double dissipated = 0;  ///< the sum of Work::dissipated, likewise
+  double stored = 0;      ///< a(u_N,u_N)/2, likewise
+  double released = 0;    ///< the sum of Work::released, likewise
+  double unbalanced = 0;  ///< the sum of Work::unbalanced, likewise
+  double trapezoidal = 0; ///< the sum of Work::trapezoidal, likewise
 };
 
 /** What the load steps of a history leave to the next one, besides the solution of the last of them. */

@@ -47,6 +47,7 @@ struct Work
   double released = 0;
   /** Half of what the forces of the last load step leave on du: zero on its own mesh, not on a finer one. */
   double unbalanced = 0;
+  double trapezoidal = 0; ///< `1/2 int (z' + z) du_t`: `dissipated` as `external` is formed
 };
 
 /**

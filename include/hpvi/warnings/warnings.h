@@ -28,6 +28,8 @@ enum class WarningKind
   open_friction,     ///< friction without contact
   stagnation,        ///< of the indicator
   rise,              ///< likewise
+  load_step,         ///< of a history, has a large indicator
+  dissipation,       ///< depends on the number of load steps
   unseen_contact,    ///< between points that nothing presses
   unseen_gap,        ///< between the points of the contact conditions
   round_off,         ///< reaches the digits shown
@@ -134,6 +136,15 @@ Warnings contradiction_warnings(const std::string &contradiction);
 
 /** Likewise, as the reason why a step has no bound. */
 std::string no_guarantee(const std::string &contradiction);
+/** Of a load step that is over: that @p relative_estimate, its relative indicator, is above a tenth; or none. */
+Warnings load_step_warnings(double relative_estimate);
+
+/**
+ * Of a history that is over: that friction dissipates @p at_ends by its values at the end of each load step, @p trapezoidal by the
+ * trapezoidal rule, and that they differ by more than a twentieth of the larger; or none, also where both are below 1e-6 of
+ * @p energy, which was turned over.
+ */
+Warnings dissipation_warnings(double at_ends, double trapezoidal, double energy);
 
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; or none. */
 Warnings bound_warnings(double relative, double imbalance);
