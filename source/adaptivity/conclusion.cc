@@ -4,6 +4,8 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/checks/rejection.h>
 
+#include <algorithm>
+
 namespace hpvi
 {
 template <int dim>
@@ -14,7 +16,15 @@ void conclude(const Backend<dim> &backend, const History<dim> &history, StepRepo
   std::vector<std::vector<StressSample<dim>>> peaks;
   for (const PastStep<dim> &past : history)
     peaks.push_back(past.peaks);
-  step.unbounded = unbounded_stresses(growing_peaks(peaks), stress_samples(step.field), step.field);
+  const std::vector<StressSample<dim>> samples = stress_samples(step.field);
+  std::vector<StressSample<dim>> growing = growing_peaks(peaks);
+  if (backend.trail().size() >= history.size()) // the mesh comes from load steps before
+    for (const StressSample<dim> &peak : peaks_of_rings(step.peaks, samples, step.field))
+      if (std::none_of(growing.begin(), growing.end(),
+                       [&](const auto &known)
+                       { return known.boundary == peak.boundary && known.where == peak.where; }))
+        growing.push_back(peak);
+  step.unbounded = unbounded_stresses(growing, samples, step.field);
   const BodyState<dim> body = body_state(step.field);
   Warnings of_all;
   together(backend.communicator,

@@ -87,7 +87,7 @@ std::string in_words(const std::string &name, const Scene<dim> &scene,
   const bool is_pressure = stress.peak.boundary != numbers::invalid_boundary_id;
   return name + " is unbounded at " + point_text<dim>(stress.where) + ": " +
          labelled(stress.peak.value, scene.stress_unit) + " in cells of " +
-         labelled(stress.peak.length, scene.length_unit) + ", more in each step" +
+         labelled(stress.peak.length, scene.length_unit) + ", more in smaller ones" +
          (is_pressure ? "; the last " + labelled(stress.within, scene.length_unit) + " carry " +
                             text(stress.force, digits)
                       : "") +

@@ -158,7 +158,7 @@ std::string unbounded_words(const std::string &name, const JsonTree &tree,
   if (list)
     for (const auto &[key, peak] : *list)
       words += "; " + name + " is unbounded" + at(peak, "at") + " (" +
-               shown(peak, "value", stress) + " there, more in each step" +
+               shown(peak, "value", stress) + " there, more in smaller cells" +
                (member(peak, "force") ? ", of which the last " + shown(peak, "within", length) +
                                             " carry " + shown(peak, "force", force)
                                       : "") +

@@ -4,6 +4,7 @@
 #include <hpvi/peaks/unbounded_stress.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace hpvi
@@ -12,6 +13,18 @@ using namespace dealii;
 
 namespace
 {
+constexpr double growth = 1.15; ///< no less is taken for one without bound
+constexpr unsigned int n_rings = 4;
+
+/** Of @p largest stresses in rings, each twice as wide as the one inside of it, the innermost first. */
+bool grows_inwards(const std::vector<double> &largest)
+{
+  for (unsigned int k = 1; k < largest.size(); ++k)
+    if (!(largest[k] > 0 && largest[k - 1] > growth * largest[k]))
+      return false;
+  return largest[0] / largest[1] > 0.9 * largest[n_rings - 2] / largest[n_rings - 1];
+}
+
 /** The one of @p peaks, of the step before, that @p peak has grown from by more than 15 %; else null. */
 template <int dim>
 const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &peaks,
@@ -19,7 +32,7 @@ const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &peaks,
 {
   for (const StressSample<dim> &before : peaks) // the largest first
     if (before.boundary == peak.boundary && before.where.distance(peak.where) <= 2 * before.length)
-      return peak.value > 1.15 * before.value ? &before : nullptr;
+      return peak.value > growth * before.value ? &before : nullptr;
   return nullptr;
 }
 
@@ -74,6 +87,31 @@ growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps)
   return result;
 }
 
+// A field like r^-a beside a vertex has the same growth from ring to ring around it on one mesh as from mesh to mesh beside the
+// vertex. One that is bounded grows less from ring to ring the nearer they are, as soon as cells are smaller than what rounds it.
+template <int dim>
+std::vector<StressSample<dim>> peaks_of_rings(const std::vector<StressSample<dim>> &peaks,
+                                              const std::vector<StressSample<dim>> &samples,
+                                              const Field<dim> &field)
+{
+  std::vector<StressSample<dim>> result;
+  for (const StressSample<dim> &peak : peaks)
+  {
+    const Point<dim> centre = next_vertex(peak, field);
+    std::vector<double> own(n_rings), largest(n_rings);
+    for (const StressSample<dim> &sample : samples)
+      if (sample.boundary == peak.boundary)
+        if (const double ring = std::max(
+                0., 1 + std::floor(std::log2(centre.distance(sample.where) / peak.length)));
+            ring < n_rings)
+          own[ring] = std::max(own[ring], sample.value);
+    Utilities::MPI::max(own, field.communicator(), largest);
+    if (largest[0] <= peak.value && grows_inwards(largest))
+      result.push_back(peak);
+  }
+  return result;
+}
+
 template <int dim>
 std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
                                                      const std::vector<StressSample<dim>> &samples,
@@ -114,6 +152,12 @@ std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSam
 
 template std::vector<StressSample<2>>
 growing_peaks(const std::vector<std::vector<StressSample<2>>> &);
+template std::vector<StressSample<2>> peaks_of_rings(const std::vector<StressSample<2>> &,
+                                                     const std::vector<StressSample<2>> &,
+                                                     const Field<2> &);
+template std::vector<StressSample<3>> peaks_of_rings(const std::vector<StressSample<3>> &,
+                                                     const std::vector<StressSample<3>> &,
+                                                     const Field<3> &);
 template std::vector<UnboundedStress<2>> unbounded_stresses(const std::vector<StressSample<2>> &,
                                                             const std::vector<StressSample<2>> &,
                                                             const Field<2> &);

@@ -2,6 +2,7 @@
 // Where stresses are largest, and which of them grow without bound.
 #include "discretisation.h"
 
+#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/output/contact_report.h>
 
 namespace
@@ -157,6 +158,119 @@ TEST(UnboundedStress, IsSaidOfPunches)
       EXPECT_GT(edge.largest, 0.);
       EXPECT_GE(edge.largest_point.distance(Point<2>(1, 0)), edge.beyond - edge.peak.length);
     }
+}
+
+/** A cone of titanium that is pressed into a socket of bone: its corner below is an edge with unbounded pressure. */
+const Overrides cone = {{"Body stem/Shape", "quadrilateral"},
+                        {"Body stem/Corners", "0, 0; 5, 0; 8, 60; 0, 60"},
+                        {"Body stem/Subdivisions", "2, 10"},
+                        {"Body stem/Material", "Ti"},
+                        {"Body bone/Shape", "quadrilateral"},
+                        {"Body bone/Corners", "5, 0; 14, 0; 14, 60; 8, 60"},
+                        {"Body bone/Subdivisions", "2, 10"},
+                        {"Material/Young's modulus", "17000"},
+                        {"Material/Poisson's ratio", "0.3"},
+                        {"Material/Plane", "axisymmetric"},
+                        {"Material Ti/Young's modulus", "110000"},
+                        {"Boundary stem.top/Pressure", "10*t"},
+                        {"Boundary bone.bottom/Displacement", "0; 0"},
+                        {"Contact cone/Between", "stem.right, bone.left"},
+                        {"Contact cone/Friction coefficient", "0.3"}};
+
+/** A block on a wider one: an edge on a half plane. */
+const Overrides block_on_block = {{"Body foot/Lower corner", "-1, 0"},
+                                  {"Body foot/Upper corner", "1, 2"},
+                                  {"Body foot/Subdivisions", "2, 2"},
+                                  {"Body ground/Lower corner", "-4, -4"},
+                                  {"Body ground/Upper corner", "4, 0"},
+                                  {"Body ground/Subdivisions", "8, 4"},
+                                  {"Boundary foot.top/Displacement", "0; -0.01*t"},
+                                  {"Boundary ground.bottom/Displacement", "0; 0"},
+                                  {"Contact sole/Between", "foot.bottom, ground.top"}};
+
+/**
+ * Places where a run ends with unbounded pressures, and the largest pressure away from them: in each load step of a history with one mesh
+ * or with several as in the static run under the load of its end. Loads are proportional, and friction or none makes no other corner.
+ */
+TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
+{
+  struct Row
+  {
+    std::string name;
+    Overrides entries, last; ///< last: what a static run has in their place
+    bool bounded = false;
+  };
+  const auto joined = [](Overrides entries, const Overrides &more)
+  {
+    for (const auto &entry : more)
+    {
+      entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                   [&](const auto &one) { return one.first == entry.first; }),
+                    entries.end());
+      entries.push_back(entry);
+    }
+    return entries;
+  };
+  const Overrides rolled = {{"Geometry/Lower corner", "-2, 0"},
+                            {"Geometry/Upper corner", "2, 2"},
+                            {"Geometry/Subdivisions", "8, 2"},
+                            {"Boundary top/Displacement", "0; -0.02*t"},
+                            {"Boundary bottom/Contact", "unilateral"}};
+  for (const Row &row :
+       {Row{"cone", cone, {{"Boundary stem.top/Pressure", "10"}}},
+        Row{"cone without friction",
+            joined(cone, {{"Contact cone/Friction coefficient", ""}}),
+            {{"Boundary stem.top/Pressure", "10"}}},
+        Row{"block", block_on_block, {{"Boundary foot.top/Displacement", "0; -0.01"}}},
+        Row{"block, nothing first",
+            joined(block_on_block,
+                   {{"Boundary foot.top/Displacement", "0; -0.02*max(0, t - 0.5)"}}),
+            {{"Boundary foot.top/Displacement", "0; -0.01"}}},
+        Row{"punch with an edge",
+            joined(rolled, {{"Boundary bottom/Gap", "if(abs(x) < 1, 0, 1)"}}),
+            {{"Boundary top/Displacement", "0; -0.02"}}},
+        Row{"roller",
+            joined(rolled, {{"Boundary bottom/Gap", "x^2/20"}}),
+            {{"Boundary top/Displacement", "0; -0.02"}},
+            true},
+        Row{"block on a plane",
+            joined(rolled, {{"Boundary bottom/Friction coefficient", "0.2"}}),
+            {{"Boundary top/Displacement", "0; -0.02"}},
+            true}})
+  {
+    using Place = std::pair<Point<2>, double>;
+    const auto unbounded = [](const StepReport<2> &step)
+    {
+      std::vector<Place> places;
+      for (const UnboundedStress<2> &stress : step.unbounded)
+        if (stress.peak.boundary != body)
+          places.emplace_back(stress.where, stress.largest);
+      std::sort(places.begin(), places.end(),
+                [](const Place &a, const Place &b) { return a.first[0] < b.first[0]; });
+      return places;
+    };
+    std::vector<Place> exact;
+    AdaptiveSolver<2>(
+        scene_of(joined(joined(row.entries, row.last), {{"Adaptivity/Tolerance", "0"}})))
+        .run([&](const StepReport<2> &step) { exact = unbounded(step); });
+    EXPECT_EQ(exact.empty(), row.bounded) << row.name;
+    for (const std::string adapt : {"first step", "every step"})
+      LoadHistory<2>(
+          scene_of(joined(row.entries, {{"Loading/Steps", "3"}, {"Loading/Adapt", adapt}})))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                if (step.load.number < 3 || step.stopped_by.empty())
+                  return;
+                const std::vector<Place> places = unbounded(step);
+                ASSERT_EQ(places.size(), exact.size()) << row.name << ' ' << adapt;
+                for (unsigned int k = 0; k < places.size(); ++k)
+                {
+                  EXPECT_LT(places[k].first.distance(exact[k].first), 1e-2) << row.name;
+                  EXPECT_NEAR(places[k].second, exact[k].second, 0.2 * exact[k].second) << row.name;
+                }
+              });
+  }
 }
 
 /** von Mises' stress of Example 5.2 at its clamped corner; and as text. */

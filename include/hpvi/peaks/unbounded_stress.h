@@ -29,6 +29,15 @@ template <int dim>
 std::vector<StressSample<dim>>
 growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps);
 
+/**
+ * Those of @p peaks towards which the stress grows in the same way on the one mesh of @p field: by more than 15 % in each of three steps
+ * from ring to ring, with the radii h, 2 h, 4 h, 8 h about the vertex next to it, h the length of its edge. Collective.
+ */
+template <int dim>
+std::vector<StressSample<dim>> peaks_of_rings(const std::vector<StressSample<dim>> &peaks,
+                                              const std::vector<StressSample<dim>> &samples,
+                                              const Field<dim> &field);
+
 /** What there is to say of @p peaks, of which stress_samples() of @p field are @p samples. Collective. */
 template <int dim>
 std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
