@@ -12,6 +12,7 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
+#include <hpvi/discretisation/negligible_solution.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -69,7 +70,7 @@ void StepStages<dim>::judge()
   }
   check_numbers(scene, backend->field().largest_displacement(), energies);
   if (const auto reduced = backend->reduced())
-    check_algebraic_error(reduced->algebraic);
+    check_algebraic_error(reduced->algebraic, negligible_energy(scene));
   history.push_back(past_step());
 }
 

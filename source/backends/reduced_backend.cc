@@ -225,7 +225,7 @@ void ReducedBackend<dim>::solve()
                          .solve(program, algebraic);
   times.qp += program.seconds;
   times.recover += timer.wall_time() - program.seconds;
-  if (drop_round_off(*discretisation, program.z, u))
+  if (drop_round_off(*discretisation, algebraic.energy_product, program.z, u))
     algebraic = {};
   keep_start(program.z, motions ? motions->in_basis(program.motion) : Vector<double>());
   if (needs_factor_again())
@@ -249,6 +249,11 @@ bool ReducedBackend<dim>::needs_factor_again() const
 template <int dim>
 void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
 {
+  const auto is_away = [reach = 3 * u.linfty_norm()](const auto &missed)
+  { return missed.is_gap && std::min(missed.value, missed.interpolated) > reach; };
+  missed_displacements.erase( // no contact, however it varies
+      std::remove_if(missed_displacements.begin(), missed_displacements.end(), is_away),
+      missed_displacements.end());
   solution = std::make_unique<const Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
   values_at_points = std::make_unique<const SolutionField<dim>>(*solution);
   known_forces.reset();

@@ -2,6 +2,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/discretisation/internal_forces.h>
 #include <hpvi/discretisation/iterative_refinement.h>
+#include <hpvi/discretisation/negligible_solution.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>
@@ -57,7 +58,8 @@ Vector<double> IterativeRefinement<dim>::solve(ReducedSolution &reduced, Algebra
     change -= last.z;
     const double largest = std::max(contact_space.largest_bound(), reduced.z.linfty_norm());
     error.multiplier = change.linfty_norm() == 0. ? 0. : change.linfty_norm() / largest;
-    if (error.multiplier <= 1e-9)
+    if (change.linfty_norm() <=
+        std::max(1e-9 * largest, round_off_of_data * discretisation.scene.past_data.stress))
       break;
   }
   return u;
@@ -100,14 +102,16 @@ Vector<double> IterativeRefinement<dim>::residual(const Vector<double> &z, const
 
 /**
  * A bound of the energy that the last bits of u have, or of what the data displace: 100 times `weight (epsilon |u|)^2`
- * for each unknown. A body with no more is moved, not strained. The stiffest material has most.
+ * for each unknown. A body with no more is moved, not strained, and so is one with none beside load steps before. The stiffest
+ * material has most.
  */
 template <int dim>
 double IterativeRefinement<dim>::round_off_energy(const Vector<double> &u) const
 {
   const double largest = std::max(u.linfty_norm(), data_scale(discretisation.scene).displacement),
                last_bit = std::numeric_limits<double>::epsilon() * largest;
-  return 100 * discretisation.scene.largest_weight() * last_bit * last_bit * u.size();
+  return std::max(100 * discretisation.scene.largest_weight() * last_bit * last_bit * u.size(),
+                  negligible_energy(discretisation.scene));
 }
 
 /** Does the residual do more work on the free part of u than round-off explains? */
@@ -154,7 +158,8 @@ AlgebraicError IterativeRefinement<dim>::improve(const Vector<double> &z, Vector
   double square = dot(r, answer), least = square;
   // Far from the solution a step may gain nothing and the next one much; near it that is round-off.
   const auto patience = [&] { return least > 1e-20 * error.energy_product ? 6U : 1U; };
-  const double enough = 1e-24 * error.energy_product;
+  const double enough =
+      std::max(1e-24 * error.energy_product, negligible_energy(discretisation.scene));
   const unsigned int most = 60;
   for (unsigned int stalled = 0; least > enough && stalled < patience() && error.corrections < most;
        ++error.corrections)

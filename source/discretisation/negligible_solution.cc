@@ -3,6 +3,7 @@
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hpvi
 {
@@ -27,11 +28,21 @@ bool nothing_acts(const Discretisation<dim> &discretisation, const DataScale &sc
 } // namespace
 
 template <int dim>
-bool drop_round_off(const Discretisation<dim> &discretisation, Vector<double> &z, Vector<double> &u)
+double negligible_energy(const Scene<dim> &scene)
+{
+  const DataScale &past = scene.past_data;
+  return round_off_of_data * round_off_of_data * past.stress * past.displacement *
+         std::pow(scene.geometry.diameter(), dim - 1);
+}
+
+template <int dim>
+bool drop_round_off(const Discretisation<dim> &discretisation, const double energy,
+                    Vector<double> &z, Vector<double> &u)
 {
   const DataScale scale = data_scale(discretisation.scene);
   const bool is_zero = nothing_acts(discretisation, scale);
-  if (!is_zero && z.size() > 0 && z.linfty_norm() > round_off_of_data * scale.stress)
+  if (!is_zero && z.size() > 0 && z.linfty_norm() > round_off_of_data * scale.stress &&
+      energy > negligible_energy(discretisation.scene))
     return false;
   z = 0.;
   if (!is_zero && u.linfty_norm() > round_off_of_data * scale.displacement)
@@ -40,5 +51,7 @@ bool drop_round_off(const Discretisation<dim> &discretisation, Vector<double> &z
   return true;
 }
 
-template bool drop_round_off(const Discretisation<2> &, Vector<double> &, Vector<double> &);
+template double negligible_energy(const Scene<2> &);
+template double negligible_energy(const Scene<3> &);
+template bool drop_round_off(const Discretisation<2> &, double, Vector<double> &, Vector<double> &);
 } // namespace hpvi

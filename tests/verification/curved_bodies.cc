@@ -118,6 +118,147 @@ void solved(const Overrides &entries, const std::function<void(const StepReport<
   AdaptiveSolver<2>(scene_of(entries)).run(look);
 }
 
+/** Bodies that are moved towards each other by `distance`, and touch where that is 1. */
+struct Approach
+{
+  std::string name;
+  Overrides entries;
+  std::string moved; ///< the entry that moves one
+};
+
+std::vector<Approach> approaches()
+{
+  const Overrides roller = {{"Body a/Shape", "ring sector"},
+                            {"Body a/Centre", "0, 30"},
+                            {"Body a/Radii", "1, 10"},
+                            {"Body a/Angles", "180, 360"},
+                            {"Body a/Subdivisions", "2, 4"}},
+                  box = {{"Body b/Lower corner", "-20, 0"},
+                         {"Body b/Upper corner", "20, 19"},
+                         {"Boundary b.bottom/Displacement", "0; 0"},
+                         {"Contact c/Between", "a.outer, b.top"}},
+                  wedge = {{"Body a/Shape", "quadrilateral"},
+                           {"Body a/Corners", "-5, 21; 5, 20; 5, 30; -5, 30"},
+                           {"Body a/Subdivisions", "3, 2"},
+                           {"Contact c/Between", "a.bottom, b.top"}},
+                  bore = {{"Body a/Angles", "0, 360"},
+                          {"Body a/Centre", "0, 0"},
+                          {"Body a/Subdivisions", "1, 8"},
+                          {"Body b/Shape", "ring sector"},
+                          {"Body b/Radii", "11, 15"},
+                          {"Body b/Angles", "0, 360"},
+                          {"Body b/Subdivisions", "1, 9"},
+                          {"Boundary b.outer/Displacement", "0; 0"},
+                          {"Contact c/Between", "a.outer, b.inner"}};
+  const std::string inner = "Boundary a.inner/Displacement";
+  return {
+      {"roller", with(roller, box), inner},
+      {"steel", with(with(roller, box), {{"Material/Young's modulus", "210000"}}), inner},
+      {"friction", with(with(roller, box), {{"Contact c/Friction coefficient", "0.3"}}), inner},
+      {"fine",
+       with(with(roller, box), {{"Body a/Subdivisions", "4, 8"}, {"Body b/Subdivisions", "6, 3"}}),
+       inner},
+      {"degree 6", with(with(roller, box), {{"Adaptivity/Start degree", "6"}}), inner},
+      {"sphere",
+       with(with(roller, box), {{"Body a/Angles", "270, 360"},
+                                {"Body a/Subdivisions", "2, 3"},
+                                {"Body b/Lower corner", "0, 0"},
+                                {"Material/Plane", "axisymmetric"}}),
+       inner},
+      {"bore", with(roller, bore), inner},
+      {"wedge", with(box, wedge), "Boundary a.top/Displacement"}};
+}
+
+/** A body that is only moved is no problem to refine for, and none that others take an error from. */
+TEST(CurvedBodies, AreMovedBeforeTheyTouch)
+{
+  for (const Approach &approach : approaches())
+    for (const std::string distance : {"0.1", "0.99"})
+    {
+      unsigned int steps = 0;
+      solved(with(approach.entries, {{approach.moved, "0; -" + distance}}),
+             [&](const StepReport<2> &step)
+             {
+               ++steps;
+               EXPECT_EQ(step.stopped_by, "round-off") << approach.name << ' ' << distance;
+               EXPECT_EQ(texts(step.warnings), std::vector<std::string>()) << approach.name;
+               EXPECT_EQ(step.solution().z.linfty_norm(), 0.) << approach.name;
+               const double moved = std::stod(distance);
+               EXPECT_NEAR(step.field.largest_displacement(), moved, 1e-12 * moved);
+               if (steps > 2)
+                 throw std::runtime_error(approach.name + " is refined");
+             });
+      EXPECT_EQ(steps, 1U) << approach.name << ' ' << distance;
+    }
+}
+
+/** hpa3 up to p = 12 comes to the end of double precision, on curves, in pairs and of revolution, and ends there. */
+TEST(CurvedBodies, EndWhereRoundOffRules)
+{
+  const Overrides hp = {{"Adaptivity/Method", "hpa3"},       {"Adaptivity/Start degree", "3"},
+                        {"Adaptivity/Maximum degree", "12"}, {"Adaptivity/hpa3 threshold", "0.2"},
+                        {"Adaptivity/Maximum steps", "18"},  {"Adaptivity/Tolerance", "0"}};
+  const Overrides tube = {{"Geometry/Shape", "ring sector"},  {"Geometry/Radii", "1, 2"},
+                          {"Geometry/Angles", "0, 90"},       {"Geometry/Subdivisions", "1, 2"},
+                          {"Boundary inner/Pressure", "1"},   {"Material/Poisson's ratio", "0.3"},
+                          {"Boundary start/Symmetry", "true"}},
+                  symmetric = {{"Boundary end/Symmetry", "true"}},
+                  turned = {{"Material/Plane", "axisymmetric"}};
+  const auto at = [&](const std::string &name) { return shipped_scene(name, hp); };
+  for (const auto &[name, scene] :
+       {std::make_pair("press-ring", at("press-ring")),
+        std::make_pair("tube", scene_of(with(with(tube, symmetric), hp))),
+        std::make_pair("hollow sphere", scene_of(with(with(tube, turned), hp))),
+        std::make_pair("rings", scene_of(with(rings({{"Boundary in.inner/Pressure", "1"}}), hp))),
+        std::make_pair("quarters",
+                       scene_of(with(quarters({{"Boundary in.inner/Pressure", "1"}}), hp))),
+        std::make_pair("fit", scene_of(with(quarters({{"Contact fit/Gap", "-0.001"}}), hp)))})
+  {
+    std::string stopped_by;
+    double relative = 0, seconds = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          stopped_by = step.stopped_by;
+          relative = step.relative_estimate;
+          seconds = step.seconds;
+        });
+    EXPECT_EQ(stopped_by, "round-off") << name;
+    EXPECT_LT(relative, 1e-10) << name;
+    EXPECT_LT(seconds, 20.) << name;
+  }
+}
+
+/** The third of three load steps presses as the static scene does, though the first two are exact; so it has no tolerance from them. */
+TEST(CurvedBodies, PressAfterLoadStepsApart)
+{
+  for (const Approach &approach : approaches())
+  {
+    const Overrides limits = {{"Adaptivity/Maximum steps", "5"}, {"Adaptivity/Tolerance", "0"}};
+    const auto push = [](const StepReport<2> &step) { return step.contact.at(0).normal_resultant; };
+    double exact = 0;
+    std::vector<std::string> stopped_by;
+    solved(with(with(approach.entries, limits), {{approach.moved, "0; -1.05"}}),
+           [&](const StepReport<2> &step) { exact = push(step); });
+    EXPECT_LT(exact, 0.) << approach.name;
+    LoadHistory<2>(scene_of(with(with(approach.entries, limits),
+                                 {{approach.moved, "0; -1.05*t"}, {"Loading/Steps", "3"}})))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              if (step.stopped_by.empty())
+                return;
+              stopped_by.push_back(step.stopped_by);
+              if (step.load.number < 3)
+                EXPECT_EQ(push(step), 0.) << approach.name;
+              else
+                EXPECT_NEAR(push(step), exact, 1e-9 * std::abs(exact)) << approach.name;
+            });
+    EXPECT_EQ(stopped_by, (std::vector<std::string>{"round-off", "round-off", "Maximum steps"}))
+        << approach.name;
+  }
+}
+
 /** Under a pressure inside, pressed into each other, and both; by any law that has a pressure, either side the slave. */
 TEST(CurvedBodies, FitAsLameSays)
 {

@@ -146,13 +146,14 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
   const unsigned int steps = 24;
   const std::vector<State> states = evolution(block(path, contact, steps));
   ASSERT_EQ(states.size(), steps);
-  double dissipated = 0, slip = 0, work = 0, tau = 0, last_p = 0, U = 0;
+  double dissipated = 0, trapezoidal = 0, slip = 0, work = 0, tau = 0, last_p = 0, U = 0;
   for (unsigned int k = 1; k <= steps; ++k)
   {
     const State &state = states[k - 1];
     const double t = k / double(steps), p = path.pressure(t);
     const Jenkins exact = jenkins(path, steps, k);
     dissipated += width * exact.tau * (exact.slip - slip);
+    trapezoidal += width * (tau + exact.tau) / 2 * (exact.slip - slip);
     // The support above and the pressure on it, by the trapezoidal rule; the sides cancel.
     work += width * (tau + exact.tau) / 2 * (wave(t) - U) +
             width * (last_p + p) / 2 * (p - last_p) / young;
@@ -166,6 +167,7 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
     EXPECT_EQ(state.load.number, k);
     EXPECT_EQ(state.load.t, t);
     EXPECT_NEAR(state.load.dissipated, dissipated, 1e-10);
+    EXPECT_NEAR(state.load.trapezoidal, trapezoidal, 1e-10);
     EXPECT_NEAR(state.load.stored, width * (exact.tau * exact.tau / (2 * mu) + p * p / (2 * young)),
                 1e-10);
     EXPECT_NEAR(state.load.work, work, 1e-10);
@@ -554,6 +556,70 @@ TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
               (std::vector<std::string>{"round-off", "Maximum steps", "error of load step 2",
                                         "error of load step 2"}));
   }
+}
+
+/** Loads and displacements that fall to a tiny part of the largest, or to where bodies just touch, leave what is zero beside it, at once. */
+TEST(LoadHistory, ZeroIsBesideTheLargestLoad)
+{
+  const Overrides blocks = {{"Body lower/Upper corner", "1, 1"},
+                            {"Body lower/Subdivisions", "2, 2"},
+                            {"Body upper/Lower corner", "0, 1.01"},
+                            {"Body upper/Upper corner", "1, 2.01"},
+                            {"Body upper/Subdivisions", "3, 3"},
+                            {"Material/Young's modulus", "1000"},
+                            {"Material/Poisson's ratio", "0"},
+                            {"Boundary lower.bottom/Displacement", "0; 0"},
+                            {"Contact touch/Between", "upper.bottom, lower.top"},
+                            {"Loading/Steps", "2"}},
+                  pad = {{"Geometry/Upper corner", "2, 1"},
+                         {"Geometry/Subdivisions", "4, 2"},
+                         {"Material/Young's modulus", "1000"},
+                         {"Material/Poisson's ratio", "0.3"},
+                         {"Boundary top/Displacement", "0.001*t; free"},
+                         {"Boundary bottom/Contact", "unilateral"},
+                         {"Loading/Steps", "2"}};
+  struct Row
+  {
+    Overrides scene;
+    std::string entry, least, friction; ///< with least in the place of LEAST
+  };
+  const std::string lifted = "0.003; -if(t < 0.9, 0.02, LEAST)", pressed = "if(t < 0.9, 1, LEAST)";
+  for (const Row &row :
+       {Row{blocks, lifted, "0.01", "0.2"}, Row{blocks, lifted, "0.01", ""},
+        Row{blocks, lifted, "0.01 + 1e-14", "0.2"}, Row{blocks, lifted, "0.01 + 1e-13", "0.2"},
+        Row{blocks, lifted, "0.01 - 1e-13", "0.2"}, Row{blocks, lifted, "0.01 + 2e-12", "0.2"},
+        Row{pad, pressed, "1e-10", "0.3"}, Row{pad, pressed, "1e-12", "0.3"},
+        Row{pad, pressed, "0", "0.3"}})
+    for (const std::string adapt : {"first step", "every step"})
+    {
+      Overrides entries = row.scene;
+      const bool is_pad = row.entry == pressed;
+      std::string value = row.entry;
+      value.replace(value.find("LEAST"), 5, row.least);
+      entries.emplace_back(is_pad ? "Boundary top/Pressure" : "Boundary upper.top/Displacement",
+                           value);
+      entries.emplace_back(is_pad ? "Boundary bottom/Friction coefficient"
+                                  : "Contact touch/Friction coefficient",
+                           row.friction);
+      entries.emplace_back("Loading/Adapt", adapt);
+      entries.emplace_back("Adaptivity/Maximum steps", "8");
+      unsigned int last_steps = 0;
+      double first = 0, last = 0, seconds = 0;
+      std::string stopped_by;
+      LoadHistory<2>(scene_of(entries))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                (step.load.number == 1 ? first : last) = step.energies.norm;
+                last_steps += step.load.number == 2;
+                stopped_by = step.stopped_by;
+                seconds = step.seconds;
+              });
+      EXPECT_EQ(stopped_by, "round-off") << value << ' ' << adapt;
+      EXPECT_EQ(last_steps, 1U) << value << ' ' << adapt;
+      EXPECT_LT(last, 2e-9 * first) << value << ' ' << adapt;
+      EXPECT_LT(seconds, 10.) << value << ' ' << adapt;
+    }
 }
 
 /** What is exact on the coarse mesh, as no load at all, leaves the mesh to the next load step. */

@@ -34,8 +34,8 @@ struct LastSolution
 template <int dim>
 void check_numbers(const Scene<dim> &scene, double displacement, const Energies &energies);
 
-/** Likewise where round-off has spoilt a displacement. */
-void check_algebraic_error(const AlgebraicError &error);
+/** Likewise where round-off has spoilt a displacement, also beside the load steps before, of which @p negligible is negligible_energy(). */
+void check_algebraic_error(const AlgebraicError &error, double negligible);
 
 /**
  * Why the last step of @p history needs no next one: an entry of section Adaptivity, or "round-off" where the

@@ -7,12 +7,19 @@
 namespace hpvi
 {
 /**
- * What is round-off beside the data of the scene and its history is zero: multipliers @p z, then displacements @p u. True:
- * both are zero now.
+ * What a(u_N,u_N) is as good as zero beside the load steps before, `1e-24 stress displacement size^(dim-1)` of Scene::past_data: a
+ * body with no more is moved, not strained. 0 without load steps before.
  */
 template <int dim>
-bool drop_round_off(const Discretisation<dim> &discretisation, dealii::Vector<double> &z,
-                    dealii::Vector<double> &u);
+double negligible_energy(const Scene<dim> &scene);
+
+/**
+ * What is round-off beside the data of the scene and its history is zero: multipliers @p z, then displacements @p u, where
+ * a(u,u) is @p energy. True: both are zero now.
+ */
+template <int dim>
+bool drop_round_off(const Discretisation<dim> &discretisation, double energy,
+                    dealii::Vector<double> &z, dealii::Vector<double> &u);
 } // namespace hpvi
 
 #endif
