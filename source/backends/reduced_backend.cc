@@ -15,7 +15,6 @@
 #include <hpvi/discretisation/missed_loads.h>
 #include <hpvi/discretisation/negligible_solution.h>
 #include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/stresses/edge_polynomial.h>
 
 #include <algorithm>
@@ -316,15 +315,6 @@ void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
   for (const MissedDisplacement<dim> &displacement : missed_displacements)
     refinement.bisect[displacement.cell] = true;
   discretisation->spaces->keep_bound(scene, refinement);
-}
-
-template <int dim>
-bool ReducedBackend<dim>::resolves_data()
-{
-  return missing.empty() && unresolved.empty() && missed_displacements.empty() &&
-         solution->contact_space.unresolved_jumps(solution->z).empty() &&
-         solution->contact_space.unresolved_bounds(solution->z).empty() &&
-         unseen_gaps(*solution).empty();
 }
 
 // @sect3{Refine}

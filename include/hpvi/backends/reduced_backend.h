@@ -8,6 +8,7 @@
 #include <hpvi/base/team.h>
 #include <hpvi/contact/multiplier_trace.h>
 #include <hpvi/evaluation/legendre_smoothness.h>
+#include <hpvi/evaluation/unseen_contact.h>
 #include <hpvi/intervals/resultant_intervals.h>
 
 #include <array>
@@ -73,7 +74,13 @@ public:
   }
 
   void mark_unresolved(Refinement &refinement) const override;
-  bool resolves_data() override;
+  bool resolves_data() override
+  {
+    return missing.empty() && unresolved.empty() && missed_displacements.empty() &&
+           solution->contact_space.unresolved_jumps(solution->z).empty() &&
+           solution->contact_space.unresolved_bounds(solution->z).empty() &&
+           unseen_gaps(*solution).empty();
+  }
   double missed(const std::optional<ErrorBound> &bound) const override
   {
     return bound ? bound->oscillation : 0.;
