@@ -201,7 +201,8 @@ void MeanIntervals<2>::set(StepReport<2> &step)
         flaw = of_mean.why;
       else if (!is_away_from_lifts(probe, step))
         flaw = "prescribed displacements there are no polynomials of the mesh";
-      else if (of_mean.scene->has_pairs() && !is_away_from_corrections(probe, step))
+      else if (of_mean.z && of_mean.scene->has_pairs() &&
+               !is_away_from_corrections(probe, step)) // w is none where all is prescribed
         flaw = "cells of joints have a part of it";
       else
         value.displacement[c].interval = interval(value.displacement[c], of_mean, step);

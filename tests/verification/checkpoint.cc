@@ -289,6 +289,7 @@ TEST(RunState, WithoutSenseIsRefused)
   state.refinements[0].n_cells = 3;
   EXPECT_NE(refusal_to_go_on(state, steps(3)).find("another coarse mesh"), std::string::npos);
 }
+
 /** Both sides of a pair, a probe and a support: all that a step may guarantee. */
 Scene<2> scene_with_claims(const unsigned int n)
 {
@@ -301,7 +302,7 @@ Scene<2> scene_with_claims(const unsigned int n)
                    {"Contact joint/Between", "up.bottom, low.top"},
                    {"Contact joint/Law", "bilateral"},
                    {"Contact joint/Friction bound", "0.002"},
-                   {"Probe tip/On", "up.top"},
+                   {"Probe tip/On", "low.bottom"},
                    {"Adaptivity/Tolerance", "0"},
                    {"Adaptivity/Maximum steps", std::to_string(n)}});
 }
