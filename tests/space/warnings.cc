@@ -193,10 +193,11 @@ TEST(Warnings, OfContactThatTouchesNowhere)
        left},
       {more({{"Boundary top/Displacement", "0; -0.005; 0"}}), ""},
       {more({{"Boundary top/Displacement", "0; -0.005; 0"}, {"Boundary bottom/Gap", "x/100"}}), ""},
-      {more({{"Boundary top/Displacement", "-0.01; 0.01; 0"},
+      {more({{"Boundary top/Displacement", "free; 0.01; 0"},
+             {"Boundary right/Traction", "-0.01; 0; 0"},
              {"Boundary left/Contact", "unilateral"}}),
        ""},
-      {more({{"Boundary top/Displacement", "0.01; 0.01; 0"},
+      {more({{"Boundary top/Displacement", "free; 0.01; 0"},
              {"Boundary left/Contact", "bilateral"}}),
        ""}};
   for (const auto &[entries, words] : rows)
