@@ -19,6 +19,11 @@ constexpr double
     shortest =
         1e-9, ///< of an edge: a segment below is round-off of ends that lie opposite to each other
     parallel = 1e-9; ///< of unit vectors
+
+double chord(const DrawnFace &face)
+{
+  return face.path.ends[0].distance(face.path.ends[1]);
+}
 } // namespace
 
 double DrawnFace::on_path(const double s) const
@@ -109,25 +114,6 @@ bool Pairing<dim>::is_master(const types::boundary_id boundary) const
                      [&](const Masters &pair) { return pair.master == boundary; });
 }
 
-namespace
-{
-/** All of a small face, that hangs over by what digits leave, opposite to the end of the nearest of @p masters. */
-template <class Face, class Segment>
-Segment beyond_the_end(const std::vector<Face> &masters, const DrawnFace &slave)
-{
-  const Point<2> x = slave.path.point(0.5);
-  const auto distance = [&](const Face &face)
-  { return x.distance(face.drawn.path.point(face.drawn.path.nearest(x))); };
-  const Face &face =
-      *std::min_element(masters.begin(), masters.end(),
-                        [&](const Face &a, const Face &b) { return distance(a) < distance(b); });
-  const auto both = std::make_shared<const FacingFaces>(FacingFaces{slave, face.drawn});
-  return {
-      0,   1, face.cell, face.face_no, face.degree, both->opposite(0, 0.5), both->opposite(1, 0.5),
-      both};
-}
-} // namespace
-
 /**
  * Neighbours take what is left out between them, and the ends of the side. A segment that is short is no reason to end another one: vertices of
  * two drawings of a curve lie beside each other by whatever their digits leave.
@@ -144,15 +130,15 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
   const DrawnFace slave = drawn(cell, face_no);
   std::vector<ContactSegment<dim>> result =
       pair->along.norm() > 0 ? on_line(*pair, cell, face_no) : on_curve(*pair, slave);
-  double covered = 0;
+  double covered = 0, length = 0;
   for (const ContactSegment<dim> &segment : result)
     covered += segment.end - segment.begin;
-  if (1 - covered > std::ldexp(same_end, cell->level())) // of an edge of the coarse mesh
+  for (const Face &face : pair->faces)
+    length += chord(face.drawn);
+  if (result.empty() || (1 - covered) * chord(slave) > same_end * length)
     throw NumericalFailure("an edge of a body at " + to_string(slave.path.point(0.5)) +
                            " lies opposite to no edge of the other one along a part of its length; "
                            "give both bodies more edges there");
-  if (result.empty())
-    result.push_back(beyond_the_end<Face, ContactSegment<dim>>(pair->faces, slave));
   std::sort(result.begin(), result.end(),
             [](const auto &a, const auto &b) { return a.begin < b.begin; });
   for (unsigned int k = 0; k + 1 < result.size(); ++k)

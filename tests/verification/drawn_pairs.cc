@@ -166,8 +166,8 @@ TEST(DrawnPairs, FitWhereVerticesNearlyMeet)
                          Row{"Coulomb", "sheet.inner", "circle", false, 2, 1e-5},
                          Row{"tied", "pin.outer", "circle", false, 3, 1e-5},
                          Row{"bilateral", "automatic", "circle", true, 2, 1e-5},
-                         Row{"unilateral", "pin.outer", "spline", false, 8, 1e-6},
-                         Row{"tied", "sheet.inner", "spline", false, 8, 1e-6}})
+                         Row{"unilateral", "pin.outer", "spline", false, 8, 1e-8},
+                         Row{"tied", "sheet.inner", "spline", false, 8, 1e-8}})
   {
     const bool is_circle = row.curve == "circle";
     const unsigned int p = is_circle ? 6 : 3;
@@ -191,29 +191,6 @@ TEST(DrawnPairs, FitWhereVerticesNearlyMeet)
               << row.law << " " << row.curve << " " << apart << " " << is_reversed;
         }
   }
-}
-
-/** A sheet turned by so much that edges of both hang over, also where cells are smaller than that. */
-TEST(DrawnPairs, EndWhereTheOtherSideNearlyDoes)
-{
-  for (const double apart : {-1e-5, 2e-5, 1e-8})
-    for (const std::string slave : {"pin.outer", "sheet.inner"})
-      for (const unsigned int levels : {0, 20})
-      {
-        std::vector<double> turned = angles(3, [] { return 0.; });
-        for (double &angle : turned)
-          angle += apart * 30;
-        Overrides entries =
-            joined({fitted("tied", slave, 4), ring_file("pin", 1, angles(3, [] { return 0.; })),
-                    ring_file("sheet", 2, turned)});
-        if (levels > 0)
-          for (const std::string body : {"pin", "sheet"})
-          {
-            entries.emplace_back("Body " + body + "/Graded towards", "2, 0");
-            entries.emplace_back("Body " + body + "/Grading levels", text(levels));
-          }
-        EXPECT_LT(deviation(entries, fit), 3e-4) << apart << " " << slave << " " << levels;
-      }
 }
 
 /** Meshes of five sizes with the noise of Gmsh, each in each, either side the slave. */

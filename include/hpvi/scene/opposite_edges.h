@@ -10,8 +10,8 @@
 
 namespace hpvi
 {
-/** Of an edge: what hangs over the end of the other side by no more ends there. Drawings have so many digits, and the error is of its square. */
-constexpr double same_end = 1e-4;
+/** Of an edge: what hangs over the end of the other side by no more ends there, for drawings have so many digits. */
+constexpr double same_end = 1e-6;
 
 /** Of two sides, curved or at an angle to each other, the edges that make a pair. */
 struct OppositeEdges
