@@ -28,6 +28,19 @@ Mesh mesh_of(const Result &result)
           array(mesh.cells, {n, Size(1) << dim}), array(mesh.degrees, {n})};
 }
 
+/** The values of points, or a ValueError that says which bodies there are. */
+PointArrays values_at(const Result &result, const std::vector<double> &x, const std::string &body)
+{
+  try
+  {
+    return result.at(x, body);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw py::value_error(error.what());
+  }
+}
+
 /** One value of each point: those of the points, of which the last axis has the coordinates, and @p tail. */
 py::array_t<double>
 at_points(const Result &result,
@@ -39,7 +52,7 @@ at_points(const Result &result,
   if (x.ndim() == 0 || x.shape(x.ndim() - 1) != dim)
     throw py::value_error("points: the last axis has the coordinates, " + std::to_string(dim) +
                           " of them");
-  const PointArrays values = result.at({x.data(), x.data() + x.size()}, body);
+  const PointArrays values = values_at(result, {x.data(), x.data() + x.size()}, body);
   std::vector<Size> shape(x.shape(), x.shape() + x.ndim() - 1);
   shape.insert(shape.end(), tail.begin(), tail.end());
   return array(values.*what, shape);
