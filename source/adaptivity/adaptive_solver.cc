@@ -9,6 +9,7 @@
 #include <hpvi/adaptivity/step_stages.h>
 #include <hpvi/adaptivity/thickness.h>
 #include <hpvi/backends/threads.h>
+#include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/checks/rejection.h>
@@ -143,6 +144,10 @@ void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)>
   try
   {
     run_steps(*stages, finished_step);
+  }
+  catch (const MemoryFailure &failure)
+  {
+    throw MemoryFailure(in_entries_of(stages->scene, failure.what()));
   }
   catch (const NumericalFailure &failure)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/contact/tangential_trace.h>
@@ -334,6 +335,10 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
         return;
       evolution->begin(number + 1);
     }
+  }
+  catch (const MemoryFailure &failure)
+  {
+    throw MemoryFailure(evolution->place() + ": " + failure.what());
   }
   catch (const NumericalFailure &failure)
   {
