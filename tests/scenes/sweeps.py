@@ -27,11 +27,18 @@ def table(text):
 
 
 def state(text):
-    """state.dat without its checksum and seconds: the fifth number of each step, the tenth of all load steps."""
+    """state.dat without its checksum and seconds: the fifth number of each step, which claims follow, and the eleventh
+    of all load steps."""
     head, steps, rest = re.split(r"^(steps \d+)\n", text, flags=re.M)
     count = int(steps.split()[1])
-    lines = [re.sub(r"^(loads(?: \S+){9}) \S+", r"\1", line) for line in rest.splitlines()]
-    return (re.sub("checksum .*", "", head), [line.split()[:4] + line.split()[5:] for line in lines[:count]], lines[count:])
+    lines = [re.sub(r"^(loads(?: \S+){10}) \S+", r"\1", line) for line in rest.splitlines()]
+    found = []
+    for _ in range(count):
+        words = lines.pop(0).split()
+        claims = 2 + 3 * int(lines[0].split()[1])
+        found.append((words[:4] + words[5:], lines[:claims]))
+        del lines[:claims]
+    return re.sub("checksum .*", "", head), found, lines
 
 
 def without_times(path):
