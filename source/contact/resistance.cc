@@ -208,6 +208,21 @@ RigidBodyMotion<dim> seen_motion(const LoadedMotions<dim> &loaded,
   return motion;
 }
 
+/** Does each contact open that moves at all? */
+template <int dim>
+bool opens(const ContactSpace<dim> &contact_space, const RigidBodyMotion<dim> &motion)
+{
+  const double rest = 1e-10 * motion.largest_translation();
+  return std::all_of(contact_space.faces().begin(), contact_space.faces().end(),
+                     [&](const ContactFace<dim> &face)
+                     {
+                       const ContactFrame<dim> middle = face.frame(0.5);
+                       const Tensor<1, dim> jump = motion.jump(middle.x, face.bodies);
+                       return jump.norm() <= rest ||
+                              (face.condition->is_unilateral() && middle.normal * jump < -rest);
+                     });
+}
+
 /** As in "the loads turn the body about (1 0) with 2, contact can resist with 1". */
 template <int dim>
 std::string in_words(const LoadedMotions<dim> &loaded, const Imbalance &imbalance,
@@ -296,15 +311,20 @@ void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMot
   std::string words = collapse(contact_space, loaded);
   if (words.empty())
   {
-    // What even friction without limit does not hold lifts off or topples.
-    const std::optional<Imbalance> lifted = imbalance_of(
+    // What even friction without limit does not hold lifts off or topples; what goes straight away from all contact lifts off,
+    // though on a curve such friction might clamp it.
+    std::optional<Imbalance> lifted = imbalance_of(
         on_any_mesh(contact_space, false, /*is_rough=*/true), loaded, loaded.motions.size());
+    if (const RigidBodyMotion<dim> motion = seen_motion(loaded, imbalance->motion);
+        !lifted && imbalance->resistance == 0. && motion.is_translation() &&
+        opens(contact_space, motion))
+      lifted = imbalance;
     const std::string entry = lifted ? "" : friction_entry(contact_space);
     words = (!lifted                                                ? "sliding: "
              : seen_motion(loaded, lifted->motion).is_translation() ? "lifting off: "
                                                                     : "toppling: ") +
-            in_words(loaded, lifted ? *lifted : *imbalance) + " at most; add a support, " +
-            (entry.empty() ? "" : "raise " + entry + " ") + "or change the loads";
+            in_words(loaded, lifted ? *lifted : *imbalance) + " at most; add a support" +
+            (entry.empty() ? " " : ", raise " + entry + " ") + "or change the loads";
   }
   throw NumericalFailure("no equilibrium: " + words);
 }

@@ -9,6 +9,19 @@ namespace hpvi
 {
 using namespace dealii;
 
+namespace
+{
+/** With 0 for coordinates that are the rest of numbers of @p size. */
+template <int dim>
+Tensor<1, dim> without_round_off(Tensor<1, dim> x, const double size)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    if (std::abs(x[d]) < 1e-14 * size)
+      x[d] = 0;
+  return x;
+}
+} // namespace
+
 template <int dim>
 Tensor<1, dim> RigidBodyMotion<dim>::at(const Point<dim> &x, const unsigned int body) const
 {
@@ -74,10 +87,12 @@ std::string RigidBodyMotion<dim>::direction() const
         text << (text.str().empty() ? "" : " and ") << one.name << ' ' << one.direction();
   }
   else if (is_translation())
-    text << "along (" << translation / translation.norm() << ')';
+    text << "along (" << without_round_off(translation / translation.norm(), 1.) << ')';
   else
-    text << "about (" << centre + Tensor<1, dim>({-translation[1], translation[0]}) / rotation
-         << ')';
+  {
+    const Tensor<1, dim> arm = Tensor<1, dim>({-translation[1], translation[0]}) / rotation;
+    text << "about (" << without_round_off(centre + arm, centre.norm() + arm.norm()) << ')';
+  }
   return text.str();
 }
 
