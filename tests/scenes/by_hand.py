@@ -757,9 +757,10 @@ class ByHand(RunTest):
         self.assertIn("sliding along bottom: the loads push with 3.6, friction resists with 0.74 * 4.8 = 3.552", line)
 
     def test_a_block_that_turns_on_a_slope(self):
-        """Loads of (20, -6) meet the base at x = 1 + 20/12, beyond its end: friction turns the body, too, and no end is blamed."""
+        """Loads of (20, -6) meet the base at x = 1 + 20/12, beyond its end: friction turns the body, too, and no end is blamed. About
+        the right end they turn by 20/2 - 6, and with a coefficient above 4/3 friction would pull the base down."""
         line = self.run_settings({**SLOPE, "Boundary bottom/Friction coefficient": "0.8", "Boundary left/Traction": "20; 0"}, status=2)
-        self.assertIn("no equilibrium: the loads turn the body", line)
+        self.assertIn("no equilibrium: sliding: the loads turn the body about (2 0) with 4, contact can resist with 0 at most", line)
 
     def test_a_shaft_pressed_out_of_its_ring(self):
         """A pressure of 1 on a shaft of radius 2 against friction of 0.2 on its side, 3 long."""

@@ -5,6 +5,8 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/evaluation/solution_field.h>
 
+#include <algorithm>
+
 namespace
 {
 using namespace verification;
@@ -315,8 +317,16 @@ Scene<2> pile(const Overrides &first, const Overrides &second = {})
       {"Body b/Upper corner", "3, 2"},           {"Boundary a.bottom/Displacement", "0; 0"},
       {"Boundary b.top/Pressure", "1"},          {"Contact j/Between", "b.bottom, a.top"},
       {"Contact j/Friction coefficient", "0.3"}, {"Adaptivity/Maximum steps", "1"}};
+  // An empty one takes away what it names, so that a body of another shape may have other sides.
   for (const Overrides *const more : {&first, &second})
-    entries.insert(entries.end(), more->begin(), more->end());
+    for (const auto &entry : *more)
+    {
+      entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                   [&](const auto &other) { return other.first == entry.first; }),
+                    entries.end());
+      if (!entry.second.empty())
+        entries.push_back(entry);
+    }
   return scene_of(entries);
 }
 
