@@ -96,10 +96,13 @@ std::string loading_words(const JsonTree &summary, const std::string &energy)
   if (!loading)
     return {};
   const auto of = [&](const std::string &name) { return shown(words_of(*loading, name)); };
+  std::string dissipated = of("dissipated_energy");
+  if (const std::string other = of("dissipated_energy_trapezoidal"); !other.empty())
+    dissipated += " (" + other + " by the trapezoidal rule)";
   return element("p", "Load history: " + of("finished") + " of " + of("load_steps") +
                           " load steps, to t = " + of("t") + "; energies" + bracketed(energy) +
                           ": work " + of("work") + ", stored " + of("stored_energy") +
-                          ", dissipated by friction " + of("dissipated_energy") + ", released " +
+                          ", dissipated by friction " + dissipated + ", released " +
                           of("released_energy") + ", unbalanced " + of("unbalanced_energy") + ".") +
          "\n";
 }
