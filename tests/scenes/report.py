@@ -174,8 +174,8 @@ class Report(RunTest):
                     self.check_equal_run(page, *settings)
 
     def test_probes_have_their_own_columns(self):
-        """Other columns begin with the same words: p_max, normal_resultant_bound, seconds_solve, energy_norm."""
-        names = ("p", "normal", "friction", "energy", "error", "estimate", "seconds", "qp", "dofs", "tip")
+        """Other columns begin with the same words: p_max, normal_resultant_bound, error_bound, condition_raw."""
+        names = ("p", "normal", "friction", "error", "qp", "condition", "coulomb", "newton", "tip")
         self.run_scene(SHORT, *(f"Probe {name}/At={k / 4}, 1" for k, name in enumerate(names)))
         page, row = self.page(), self.rows()[-1]
         for name in names:
