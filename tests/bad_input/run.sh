@@ -546,7 +546,7 @@ misbehaves() { # STEPS WORD ENTRY=VALUE
   grep -qF "  \"steps\": $1," "$kept/summary.json" || complain "$row" "summary.json does not hold $1 steps"
   [ "$(find "$kept" -name 'mesh-*.svg' | wc -l)" -eq "$1" ] || complain "$row" "there are not $1 pictures"
 }
-misbehaves 1 "is not finite at (0.129" "Body force/Expression=if(abs(x-0.13)<0.002,sqrt(-1),0); 0"
+misbehaves 1 "is not finite at (0.129" "Body force/Expression=if(abs(x-0.13)<0.001,sqrt(-1),0); 0"
 # What the first step finds comes before anything is written.
 refused "Body force/Expression = 1/(x-0.125); 0" "is not finite at (0.125, " -- "$scenes/base.prm" --set "Body force/Expression=1/(x-0.125); 0"
 early="Boundary bottom/Friction bound = 1+1.2*sin(16*pi*x)"

@@ -18,7 +18,7 @@ check() {
   shift
   "$@" >"$scratch/out" 2>"$scratch/err"
   local got=$?
-  grep -v '^-*$\|mpirun\|the job to be terminated\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/err" >"$scratch/lines"
+  grep -v '^-*$\|^mpirun\|the job to be terminated\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/err" >"$scratch/lines"
   [ "$got" -eq "$status" ] || { echo "status $got, not $status: $*"; failures=1; }
   [ "$(wc -l <"$scratch/lines")" -eq 1 ] || { echo "not one line: $*"; cat "$scratch/err"; failures=1; }
   for word in "${words[@]}"; do
