@@ -582,12 +582,14 @@ TEST(LoadHistory, ZeroIsBesideTheLargestLoad)
   {
     Overrides scene;
     std::string entry, least, friction; ///< with least in the place of LEAST
+    bool is_zero = true;                ///< beside the largest load; else small, and no failure
   };
   const std::string lifted = "0.003; -if(t < 0.9, 0.02, LEAST)", pressed = "if(t < 0.9, 1, LEAST)";
   for (const Row &row :
        {Row{blocks, lifted, "0.01", "0.2"}, Row{blocks, lifted, "0.01", ""},
         Row{blocks, lifted, "0.01 + 1e-14", "0.2"}, Row{blocks, lifted, "0.01 + 1e-13", "0.2"},
-        Row{blocks, lifted, "0.01 - 1e-13", "0.2"}, Row{blocks, lifted, "0.01 + 2e-12", "0.2"},
+        Row{blocks, lifted, "0.01 - 1e-13", "0.2"},
+        Row{blocks, lifted, "0.01 + 2e-12", "0.2", false}, // 1e-10 of the largest strain
         Row{pad, pressed, "1e-10", "0.3"}, Row{pad, pressed, "1e-12", "0.3"},
         Row{pad, pressed, "0", "0.3"}})
     for (const std::string adapt : {"first step", "every step"})
@@ -615,8 +617,11 @@ TEST(LoadHistory, ZeroIsBesideTheLargestLoad)
                 stopped_by = step.stopped_by;
                 seconds = step.seconds;
               });
-      EXPECT_EQ(stopped_by, "round-off") << value << ' ' << adapt;
-      EXPECT_EQ(last_steps, 1U) << value << ' ' << adapt;
+      if (row.is_zero)
+      {
+        EXPECT_EQ(stopped_by, "round-off") << value << ' ' << adapt;
+        EXPECT_EQ(last_steps, 1U) << value << ' ' << adapt;
+      }
       EXPECT_LT(last, 2e-9 * first) << value << ' ' << adapt;
       EXPECT_LT(seconds, 10.) << value << ' ' << adapt;
     }
