@@ -248,12 +248,8 @@ bool ReducedBackend<dim>::needs_factor_again() const
 template <int dim>
 void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
 {
-  const auto is_away = [reach = 3 * u.linfty_norm()](const auto &missed)
-  { return missed.is_gap && std::min(missed.value, missed.interpolated) > reach; };
-  missed_displacements.erase( // no contact, however it varies
-      std::remove_if(missed_displacements.begin(), missed_displacements.end(), is_away),
-      missed_displacements.end());
   solution = std::make_unique<const Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
+  missed_displacements = within_reach(missed_displacements, *solution);
   values_at_points = std::make_unique<const SolutionField<dim>>(*solution);
   known_forces.reset();
 }

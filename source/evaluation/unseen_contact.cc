@@ -162,8 +162,30 @@ std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution)
   return result;
 }
 
+template <int dim>
+std::vector<MissedDisplacement<dim>> within_reach(std::vector<MissedDisplacement<dim>> missed,
+                                                  const Solution<dim> &solution)
+{
+  const double reach = 3 * solution.u.linfty_norm();
+  const auto &faces = solution.contact_space.faces();
+  const auto nobody_closes = [&](const MissedDisplacement<dim> &one)
+  {
+    const auto has_it = [&](const auto &face)
+    {
+      return face.cell->active_cell_index() == one.cell &&
+             one.name == "Gap on " + face.condition->name;
+    };
+    return one.is_gap && (std::min(one.value, one.interpolated) > reach ||
+                          std::none_of(faces.begin(), faces.end(), has_it));
+  };
+  missed.erase(std::remove_if(missed.begin(), missed.end(), nobody_closes), missed.end());
+  return missed;
+}
+
 template std::vector<UnseenContact<2>> unseen_contacts(const Solution<2> &);
 template double deformation(const Field<2> &);
 template double deformation(const Field<3> &);
 template std::vector<UnseenGap<2>> unseen_gaps(const Solution<2> &);
+template std::vector<MissedDisplacement<2>> within_reach(std::vector<MissedDisplacement<2>>,
+                                                         const Solution<2> &);
 } // namespace hpvi

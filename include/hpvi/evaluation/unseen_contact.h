@@ -2,6 +2,7 @@
 #ifndef hpvi_unseen_contact_h
 #define hpvi_unseen_contact_h
 
+#include <hpvi/body/displacement_cuts.h>
 #include <hpvi/discretisation/solution.h>
 #include <hpvi/evaluation/field.h>
 
@@ -48,6 +49,14 @@ struct UnseenGap
  */
 template <int dim>
 std::vector<UnseenGap<dim>> unseen_gaps(const Solution<dim> &solution);
+
+/**
+ * @p missed without gaps that nobody closes, however they vary: those beyond three times the largest displacement, and those of masters, as the
+ * points of their slaves alone ask for the gap of a pair.
+ */
+template <int dim>
+std::vector<MissedDisplacement<dim>> within_reach(std::vector<MissedDisplacement<dim>> missed,
+                                                  const Solution<dim> &solution);
 } // namespace hpvi
 
 #endif
