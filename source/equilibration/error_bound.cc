@@ -144,8 +144,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
     Vector<double> v(correction.unknowns());
     v *= -1.;
     change = energy_change(solution, discretisation, v);
-    for (unsigned int cell = 0; cell < result.moved.size(); ++cell) // of the U of either w
-      result.moved[cell] = std::max(result.moved[cell], correction.energy()[cell]);
+    result.moved_by_energy.assign(correction.energy().begin(), correction.energy().end());
   }
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2

@@ -45,7 +45,9 @@ OpenContact::OpenContact(const Solution<2> &solution, const ErrorBound &bound,
     if (face.condition->id == boundary && !face.condition->pair)
     {
       const double a = face.point(0.).distance(from), b = face.point(1.).distance(from);
-      const bool is_moved = bound.moved[face.cell->active_cell_index()] > nothing;
+      const unsigned int cell = face.cell->active_cell_index();
+      const bool is_moved = bound.moved[cell] > nothing || (!bound.moved_by_energy.empty() &&
+                                                            bound.moved_by_energy[cell] > nothing);
       all.push_back({std::min(a, b), std::max(a, b), is_moved ? 0. : room_on(solution, face)});
     }
   std::sort(all.begin(), all.end(),

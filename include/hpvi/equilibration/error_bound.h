@@ -48,8 +48,8 @@ struct ErrorBound
 
   std::vector<double> indicators() const; ///< roots of squares
 
-  /** By active cell: |w|_K^2 and |d|_K, of what makes U of u_N. */
-  std::vector<double> moved, lifted;
+  /** By active cell: |w|_K^2 and |d|_K, of what makes U of u_N; |w|_K^2 of the w that the bound of the energy has, if it is another. */
+  std::vector<double> moved, lifted, moved_by_energy;
 
   /**
    * Between sigma(u_N) and s lies m = sigma(u_N) + theta (s - sigma(u_N)), which for some theta in [0, 1/2) is nearer to
