@@ -5,6 +5,7 @@
 
 #include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/body/mesh.h>
+#include <hpvi/intervals/test_motion.h>
 
 #include <gtest/gtest.h>
 
@@ -638,6 +639,25 @@ TEST_P(NarrowData, AreTheSameOnMeshesThatDoNotKnowTheirPlace)
 
 INSTANTIATE_TEST_SUITE_P(Rows, NarrowData, ::testing::ValuesIn(narrow_data()),
                          [](const auto &row) { return row.param.name; });
+
+/** What friction of a narrow pad may do where a test displacement falls: `int g (1 - s/l) ds`, wherever the pad is. */
+TEST(FallAlongFriction, HasTheWorkOfANarrowPad)
+{
+  for (const double l : {1., 0.25})
+    for (unsigned int k = 1; k < 20; ++k)
+    {
+      const double at = k * l / 20.3, half = l / 250;
+      Scene<2> scene = body({1., 1.}, {{4, 4}});
+      scene.boundary("bottom").friction.bound =
+          expression<2>(std::function<double(const Point<2> &)>(
+              [=](const Point<2> &x) { return std::abs(x[0] - at) < half ? 0.5 : 0.; }));
+      const Point<2> along(1., 0.);
+      const TestMotion::Fall fall{scene.boundary("bottom").id, Point<2>(), 3. * along, along,
+                                  TractionKind::friction};
+      const double exact = 3 * half * (1 - at / l);
+      EXPECT_NEAR(fall.work(scene, l), exact, 1e-9 * exact) << at;
+    }
+}
 
 // ---------------------------------------------------------------- no end
 
