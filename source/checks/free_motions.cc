@@ -128,6 +128,27 @@ void add_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary, cons
                            : RigidMotion<2>{{0, 0, 1}});
 }
 
+/** Springs hold those pieces of a side on which they are not zero all along. */
+void add_springs(const BoundaryCondition<2> &boundary, const Side<2> &side, const Point<2> &centre,
+                 const double length, std::vector<RigidMotion<2>> &held)
+{
+  const double n_points = 2000; // four times those that look for strips in the body
+  for (const bool is_normal : {true, false})
+    for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    {
+      const auto &stiffness = is_normal ? boundary.spring.normal : boundary.spring.tangential;
+      bool acts = false;
+      for (unsigned int i = 0; stiffness && !acts && i < n_points; ++i)
+        acts = stiffness->value(side.point(k, (i + 0.5) / n_points)) != 0;
+      for (unsigned int i = 0; acts && i <= 4; ++i)
+      {
+        const Tensor<1, 2> normal = side.normal(k, i / 4.);
+        held.push_back(row_of(is_normal ? normal : -cross_product_2d(normal),
+                              (side.point(k, i / 4.) - centre) / length));
+      }
+    }
+}
+
 /** Where conditions on motions are asked for on a side, with its normals: at the corners of each piece, and along curves. */
 template <int dim>
 std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &side)
@@ -167,11 +188,6 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
         // Coulomb's law has a multiplier where bilateral contact is a support else.
         (boundary.has_pressure() ? rows.resisted : rows.held)
             .push_back(row_of(condition.direction, arm));
-      if (boundary.spring.normal)
-        rows.held.push_back(row_of(normal, arm));
-      if constexpr (dim == 2)
-        if (boundary.spring.tangential)
-          rows.held.push_back(row_of(-cross_product_2d(normal), arm));
       if constexpr (dim == 2)
         if (boundary.friction) // where it vanishes, the mesh decides
           rows.resisted.push_back(row_of(-cross_product_2d(boundary.held_direction(normal)), arm));
@@ -182,8 +198,12 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
     }
   if constexpr (dim == 2)
     for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-      if (boundary.plate && !is_other(boundary))
-        add_plate(scene, boundary, centre, length, rows.held);
+      if (!is_other(boundary))
+      {
+        add_springs(boundary, sides[boundary.id], centre, length, rows.held);
+        if (boundary.plate)
+          add_plate(scene, boundary, centre, length, rows.held);
+      }
   if constexpr (dim == 2)
     if (scene.is_axisymmetric()) // strains around the axis: the way along it alone is rigid
       for (const RigidMotion<dim> &motion : {RigidMotion<dim>{{1, 0, 0}}, {{0, 0, 1}}})

@@ -7,6 +7,7 @@
 #include <hpvi/evaluation/energies.h>
 #include <hpvi/evaluation/equilibrium.h>
 
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
@@ -21,31 +22,46 @@ using namespace dealii;
 
 namespace
 {
-/** The points in (0,1) where a function of one variable vanishes, as far as its samples show. */
+/**
+ * The points in (0,1) where a function of one variable vanishes, as far as its samples show. Between samples of one sign its
+ * least magnitude is looked for, lest two zeros that are close to each other are missed.
+ */
 template <class F>
 std::vector<double> zeros(const F &function, const unsigned int n_samples)
 {
-  std::vector<double> result;
-  double left = 0., f_left = function(left);
-  for (unsigned int k = 1; k <= n_samples; ++k)
+  std::vector<std::pair<double, double>> samples; // a point and the value there
+  const auto sample = [&](const double s) { return std::pair<double, double>(s, function(s)); };
+  const auto has_sign = [](const double value) { return (value > 0.) - (value < 0.); };
+  for (unsigned int k = 0; k <= n_samples; ++k)
+    samples.push_back(sample(static_cast<double>(k) / n_samples));
+  for (unsigned int k = 0; k <= n_samples; ++k)
   {
-    const double right = static_cast<double>(k) / n_samples, f_right = function(right);
-    if ((f_left < 0. && f_right > 0.) || (f_left > 0. && f_right < 0.))
+    const auto &[left, f_left] = samples[k == 0 ? 1 : k - 1];
+    const auto &[right, f_right] = samples[k == n_samples ? k - 1 : k + 1];
+    const double sign = has_sign(f_left), f = sign * samples[k].second;
+    if (sign * f_right > 0 && f < sign * f_left && f <= sign * f_right)
+      samples.push_back(sample(
+          boost::math::tools::brent_find_minima([&](const double s) { return sign * function(s); },
+                                                std::min(samples[k].first, left),
+                                                std::max(samples[k].first, right), 24)
+              .first));
+  }
+  std::sort(samples.begin(), samples.end());
+  std::vector<double> result;
+  for (unsigned int k = 1; k < samples.size(); ++k)
+  {
+    const auto &[left, f_left] = samples[k - 1];
+    const auto &[right, f_right] = samples[k];
+    if (has_sign(f_left) * has_sign(f_right) < 0)
     {
       // Signs alone: products of small values underflow.
-      const auto sign = [&](const double s)
-      {
-        const double value = function(s);
-        return (value > 0.) - (value < 0.);
-      };
-      const auto bracket = boost::math::tools::bisect(
-          sign, left, right, boost::math::tools::eps_tolerance<double>(48));
+      const auto bracket =
+          boost::math::tools::bisect([&](const double s) { return has_sign(function(s)); }, left,
+                                     right, boost::math::tools::eps_tolerance<double>(48));
       result.push_back(0.5 * (bracket.first + bracket.second));
     }
-    else if (f_right == 0. && k < n_samples)
+    else if (f_right == 0. && k + 1 < samples.size())
       result.push_back(right);
-    left = right;
-    f_left = f_right;
   }
   return result;
 }

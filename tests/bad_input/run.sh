@@ -354,6 +354,10 @@ invalid "Boundary right/Displacement = 0; 0" "Boundary top/Displacement = free; 
   "Boundary top/Displacement=free; 1"
 broken no_support.prm "Boundary" "Displacement" "rigid-body motion" "translation in x" "prescribe"
 invalid "rigid-body motion" "translation in x" "no friction resists" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound="
+unheld=("Boundary right/Displacement=" "Boundary bottom/Friction bound=")
+invalid "rigid-body motion" "translation in x" -- "${unheld[@]}" "Boundary right/Spring=max(0, y - 50); 0"
+invalid "rigid-body motion" "translation in x" -- "${unheld[@]}" "Boundary right/Spring=0; 3"
+invalid "rigid-body motion" "translation in x" -- "${unheld[@]}" "Boundary top/Spring=3; 0"
 frictionless=("Boundary bottom/Contact=none" "Boundary bottom/Friction bound=")
 invalid "rigid-body motion" "translation in y" "prescribe" -- "${frictionless[@]}" "Boundary right/Displacement=0; free"
 invalid "rigid-body motion" "rotation about (4, 0)" "prescribe" -- "${frictionless[@]}" \
@@ -607,6 +611,8 @@ valid() { # WHAT ENTRY=VALUE...
     complain "base.prm" "$what is rejected"
 }
 valid "one comparison at a time" "Boundary left/Traction=(y>1)*(y<=2); if(y<1 && y>0.5||y==3&&x!=2, y < 2 ? 1 : y < 3, (x>0)==(y>0))"
+valid "a narrow strip of springs" "${unheld[@]}" "Boundary right/Spring=if(abs(y - 0.6) < 0.003, 1, 0); 0"
+valid "springs along a side" "${unheld[@]}" "Boundary top/Spring=0; if(x > 1, 1, 0)"
 valid "contact that opens" "${open[@]}" "Boundary bottom/Gap=if(abs(x)<=1, 0, x/8)"
 valid "interference beside a free edge" "${open[@]}" "Boundary bottom/Gap=0.01*(x - 3)"
 valid "contact without multiplier of degree 1" "${open[@]}" "Boundary bottom/Friction bound=" "Adaptivity/Start degree=1"

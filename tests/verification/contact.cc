@@ -171,27 +171,36 @@ TEST(Contact, APolynomialBoundTakesOnePointMoreThanTheDegreeOnEachEdge)
     EXPECT_EQ(face.friction.points.size(), face.degree + 1);
 }
 
-/** u_t = x - 1/2 on the edge (0,1) changes its sign just where it is sampled: int |u_t| = 1/4. */
-TEST(Contact, SeesASignChangeOnASample)
+/** int |u_t| for u_t = c (x - a) (x - b) on the edge (0,1), whose zeros lie on a sample, between two, and beside an end. */
+TEST(Contact, SeesWhereTheDisplacementChangesItsSign)
 {
   const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
                                    {"Boundary bottom/Contact", "bilateral"},
                                    {"Boundary bottom/Friction bound", "3"}});
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  for (const unsigned int p : {2U, 3U, 6U})
-  {
-    const Laboratory discrete(scene, mesh, Degrees(1, p));
-    Vector<double> u(discrete.displacement_space.n_dofs()),
-        lambda(discrete.contact_space.n_multipliers());
-    const VectorFunctionFromScalarFunctionObject<2> slip(
-        [](const Point<2> &x) { return x[0] - 0.5; }, 0, 2);
-    VectorTools::interpolate(discrete.displacement_space.dof_handler(), slip, u);
-    const Solution<2> solution(scene, discrete.spaces, u, lambda);
-    const Energies e =
-        energies<2>(SolutionField<2>(solution), 0., discrete.system.work(solution.u));
-    EXPECT_NEAR(e.slack, 3 * 0.25, 1e-14) << "p = " << p;
-  }
+  for (const auto &[a, b] : std::vector<std::pair<double, double>>{
+           {0.5, 2.}, {0.51, 0.52}, {0., 0.01}, {0.985, 1.}, {0.3, 0.3}})
+    for (const double c : {1., -1.})
+      for (const unsigned int p : {2U, 3U, 6U})
+      {
+        const Laboratory discrete(scene, mesh, Degrees(1, p));
+        Vector<double> u(discrete.displacement_space.n_dofs()),
+            lambda(discrete.contact_space.n_multipliers());
+        const VectorFunctionFromScalarFunctionObject<2> slip(
+            [a = a, b = b, c](const Point<2> &x) { return c * (x[0] - a) * (x[0] - b); }, 0, 2);
+        VectorTools::interpolate(discrete.displacement_space.dof_handler(), slip, u);
+        const Solution<2> solution(scene, discrete.spaces, u, lambda);
+        const Energies e =
+            energies<2>(SolutionField<2>(solution), 0., discrete.system.work(solution.u));
+        double exact = 0;
+        const auto primitive = [a = a, b = b](const double x)
+        { return ((x / 3 - (a + b) / 2) * x + a * b) * x; };
+        const std::array<double, 4> ends{{0., a, std::min(b, 1.), 1.}};
+        for (unsigned int k = 0; k < 3; ++k)
+          exact += std::abs(primitive(ends[k + 1]) - primitive(ends[k]));
+        EXPECT_NEAR(e.slack, 3 * exact, 1e-14) << "a = " << a << ", b = " << b << ", p = " << p;
+      }
 }
 
 /** A bump between the points of the multiplier is warned of, bisected, and no more warned of then. */
