@@ -45,6 +45,9 @@ StepOutcome outcome_of(const StepReport<2> &step, const Frame &frame)
     result.mises = von_mises(probe.stress) / (frame.amplitude * frame.stress);
     result.across = probe.stress[2][2] / (frame.amplitude * frame.stress);
   }
+  result.misses_load =
+      std::any_of(step.warnings.begin(), step.warnings.end(),
+                  [](const Warning &warning) { return warning.kind == WarningKind::load; });
   result.t = step.load.t;
   if (step.load.number > 0 && !step.stopped_by.empty())
   {
@@ -203,10 +206,12 @@ void compare_energies(const StepOutcome &one, const StepOutcome &other, const do
                       const Tolerances &tolerances, const std::string &place,
                       Comparison &comparison)
 {
-  const double energy = tolerances.energy * norm * norm;
+  // Jumps inside cells that are no parallelograms are cut along straight lines of the reference cell, which depend on the frame.
+  const double factor = one.misses_load || other.misses_load ? 100 : 1,
+               energy = factor * tolerances.energy * norm * norm;
   comparison.near(place + "energy", one.energy, other.energy, tolerances.friction * norm * norm);
   comparison.near(place + "Lagrangian", one.lagrangian, other.lagrangian, energy);
-  comparison.near(place + "energy norm", one.norm, other.norm, tolerances.energy * norm);
+  comparison.near(place + "energy norm", one.norm, other.norm, factor * tolerances.energy * norm);
   comparison.near(place + "indicator", one.estimate, other.estimate,
                   100 * tolerances.energy * (norm + one.estimate));
   comparison.near(place + "work", one.work, other.work, 10 * energy);

@@ -40,6 +40,8 @@ struct StepOutcome
   double bound = unknown, low = unknown, high = unknown; ///< where it is guaranteed
   double mises = unknown, across = unknown;              ///< of the mean stress over a disc
   double t = 0, work = unknown, dissipated = unknown;    ///< of a load history
+  bool misses_load =
+      false; ///< does it warn, as a last step, of a datum that its rule does not resolve?
 };
 
 /** How a run of a scene ended. */
