@@ -21,11 +21,14 @@ Tolerances otherwise()
   return result;
 }
 
-/** Ties of the bound are decided alike in every frame. */
+/**
+ * The correction w that the bound counts is sought with conditions at points where it nearly fails them, and round-off decides
+ * which: 2 gap + |w|^2, which it makes least, agrees to 1e-10, |w| alone, which the bound counts beside oscillation, to 1e-5.
+ */
 Tolerances in_another_frame()
 {
   Tolerances result;
-  result.bound = 1e-6;
+  result.bound = 1e-4;
   return result;
 }
 
