@@ -84,7 +84,7 @@ template <int dim>
 ProbeValue<dim> value_of(const unsigned int number, const Field<dim> &field)
 {
   const Probe<dim> &probe = field.scene.probes[number];
-  const ProbeRule<dim> rule = probe_rule(probe, field.scene, field.dof_handler);
+  const ProbeRule<dim> rule = probe_rule(probe, field.scene, field.dof_handler, field.tables);
   Sum<dim> sum;
   together(field.communicator(),
            [&]()

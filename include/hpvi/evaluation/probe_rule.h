@@ -2,6 +2,7 @@
 #ifndef hpvi_probe_rule_h
 #define hpvi_probe_rule_h
 
+#include <hpvi/body/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -26,12 +27,13 @@ using ProbeRule = std::vector<WeightedPoints<dim>>;
 /**
  * What @p probe, which is no line, asks of a field v, as `sum of weights times v` over all processes: the value at a point,
  * where cells meet the mean of theirs; the mean over a disc or along a boundary, of axisymmetric bodies that of the full turn.
- * Exact for u_N on straight cells. The weights sum to 1; there are none where no cell has the point, or cells do not cover
+ * Exact for u_N on straight cells; cut where initial strains jump or bend inside one. The weights sum to 1; there are none where no cell has the point, or cells do not cover
  * the disc. Collective.
  */
 template <int dim>
 ProbeRule<dim> probe_rule(const Probe<dim> &probe, const Scene<dim> &scene,
-                          const dealii::DoFHandler<dim> &dof_handler);
+                          const dealii::DoFHandler<dim> &dof_handler,
+                          const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif
