@@ -196,7 +196,7 @@ double CorrectionSearch<dim>::lift(Vector<double> &w) const
   for (unsigned int i = 0; i < lifted.size(); ++i)
     w[i] += lifted[i];
   const double rest = penetration(w, heights);
-  return rest <= std::max(tolerance, 1e-13 * solution.u.linfty_norm()) ? 0. : rest;
+  return rest <= std::max(tolerance, 1e-12 * solution.u.linfty_norm()) ? 0. : rest;
 }
 
 template Vector<double> CorrectionSearch<2>::fixed_displacement() const;
