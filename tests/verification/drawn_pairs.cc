@@ -5,6 +5,7 @@
 #include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -29,50 +30,68 @@ Overrides joined(const std::vector<Overrides> &parts)
   return result;
 }
 
+/** Cells, and edges of the boundary with the names of the sides that they belong to. */
+struct Drawing
+{
+  std::vector<Point<2>> points;
+  std::vector<std::array<unsigned int, 4>> cells; ///< counterclockwise
+  std::vector<std::pair<std::string, std::array<unsigned int, 2>>> edges;
+
+  /** The mesh file of this test that is called @p name. */
+  std::string file(const std::string &name) const
+  {
+    std::vector<std::string> sides;
+    const auto group = [&](const std::string &side)
+    {
+      const auto found = std::find(sides.begin(), sides.end(), side);
+      const unsigned int number = found - sides.begin();
+      if (found == sides.end())
+        sides.push_back(side);
+      return number + 1;
+    };
+    std::ostringstream out, elements;
+    unsigned int n = 0;
+    for (const auto &[side, ends] : edges)
+      elements << ++n << " 1 2 " << group(side) << " " << group(side) << " " << ends[0] + 1 << " "
+               << ends[1] + 1 << "\n";
+    for (const auto &cell : cells)
+      elements << ++n << " 3 2 9 9 " << cell[0] + 1 << " " << cell[1] + 1 << " " << cell[2] + 1
+               << " " << cell[3] + 1 << "\n";
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << sides.size() + 1 << "\n";
+    for (const std::string &side : sides)
+      out << "1 " << group(side) << " \"" << side << "\"\n";
+    out << "2 9 \"all\"\n$EndPhysicalNames\n$Nodes\n" << points.size() << "\n";
+    for (unsigned int k = 0; k < points.size(); ++k)
+      out << k + 1 << " " << text(points[k][0]) << " " << text(points[k][1]) << " 0\n";
+    out << "$EndNodes\n$Elements\n" << n << "\n" << elements.str() << "$EndElements\n";
+    const auto path = std::filesystem::path(::testing::TempDir()) /
+                      ("hpvi-" + name + "-" + std::to_string(getpid()) + ".msh");
+    std::ofstream(path) << out.str();
+    return path.string();
+  }
+};
+
 /** A mesh file of one layer of cells between two chains of points, with names of the edges along the first one. */
 std::string strip(const std::string &name, const std::vector<Point<2>> &a,
                   const std::vector<Point<2>> &b, const std::vector<std::string> &names = {"inner"},
                   const bool is_reversed = false)
 {
   const unsigned int n = a.size() - 1;
-  std::ostringstream out, elements;
-  unsigned int n_elements = 0;
-  const auto line = [&](const unsigned int group, const unsigned int one, const unsigned int two)
-  {
-    elements << ++n_elements << " 1 2 " << group << " " << group << " " << one << " " << two
-             << "\n";
-  };
-  std::vector<std::string> groups{"outer", "start", "end"};
+  Drawing drawing{a, {}, {}};
+  drawing.points.insert(drawing.points.end(), b.begin(), b.end());
   for (unsigned int k = 0; k < n; ++k)
   {
-    const std::string &own = names[std::min<std::size_t>(k, names.size() - 1)];
-    auto group = std::find(groups.begin(), groups.end(), own);
-    if (group == groups.end())
-      group = groups.insert(groups.end(), own);
-    line(1 + (group - groups.begin()), k + 1, k + 2);
-    line(1, n + k + 2, n + k + 3);
+    drawing.edges.push_back({names[std::min<std::size_t>(k, names.size() - 1)], {{k, k + 1}}});
+    drawing.edges.push_back({"outer", {{n + k + 1, n + k + 2}}});
   }
-  line(2, 1, n + 2);
-  line(3, n + 1, 2 * n + 2);
+  drawing.edges.push_back({"start", {{0, n + 1}}});
+  drawing.edges.push_back({"end", {{n, 2 * n + 1}}});
   for (unsigned int i = 0; i < n; ++i)
   {
     const unsigned int k = is_reversed ? n - 1 - i : i;
-    elements << ++n_elements << " 3 2 9 9 " << k + 1 << " " << n + k + 2 << " " << n + k + 3 << " "
-             << k + 2 << "\n";
+    drawing.cells.push_back({{k, n + k + 1, n + k + 2, k + 1}});
   }
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << groups.size() + 1 << "\n";
-  for (unsigned int g = 0; g < groups.size(); ++g)
-    out << "1 " << g + 1 << " \"" << groups[g] << "\"\n";
-  out << "2 9 \"all\"\n$EndPhysicalNames\n$Nodes\n" << 2 * (n + 1) << "\n";
-  unsigned int node = 0;
-  for (const std::vector<Point<2>> &chain : {a, b})
-    for (const Point<2> &x : chain)
-      out << ++node << " " << text(x[0]) << " " << text(x[1]) << " 0\n";
-  out << "$EndNodes\n$Elements\n" << n_elements << "\n" << elements.str() << "$EndElements\n";
-  const auto file = std::filesystem::path(::testing::TempDir()) /
-                    ("hpvi-" + name + "-" + std::to_string(getpid()) + ".msh");
-  std::ofstream(file) << out.str();
-  return file.string();
+  return drawing.file(name);
 }
 
 std::vector<Point<2>> arc(const Point<2> &centre, const double radius,
@@ -211,6 +230,149 @@ TEST(DrawnPairs, FitAsShapesDoAtAllSizes)
                             fit),
                   2 * of_shapes)
             << n << " in " << m << " " << slave;
+      }
+}
+
+/**
+ * A quarter of a ring as free meshes have it: @p n edges along its arc, vertices that are moved by a fifth of a cell but along the ends, and every
+ * fourth cell with a smaller one inside, so that vertices have three and five cells around them.
+ */
+std::string free_ring(const std::string &name, const double inner, const unsigned int n,
+                      std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> moved(-0.2, 0.2);
+  const unsigned int m = std::max(1., std::round(n / (numbers::PI / 2 * (inner + 0.5))));
+  Drawing drawing;
+  for (unsigned int j = 0; j <= m; ++j)
+    for (unsigned int k = 0; k <= n; ++k)
+    {
+      const bool on_arc = j % m == 0, at_end = k % n == 0;
+      const double radius = inner + (j + (on_arc ? 0 : moved(random))) / m,
+                   angle = (k + (at_end ? 0 : moved(random))) * 90. / n;
+      drawing.points.push_back(Circle({0, 0}, radius).point(angle * degree));
+    }
+  const auto at = [&](const unsigned int j, const unsigned int k) { return j * (n + 1) + k; };
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    drawing.edges.push_back({"inner", {{at(0, k), at(0, k + 1)}}});
+    drawing.edges.push_back({"outer", {{at(m, k), at(m, k + 1)}}});
+  }
+  for (unsigned int j = 0; j < m; ++j)
+  {
+    drawing.edges.push_back({"start", {{at(j, 0), at(j + 1, 0)}}});
+    drawing.edges.push_back({"end", {{at(j, n), at(j + 1, n)}}});
+  }
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const std::array<unsigned int, 4> cell{
+          {at(j, k), at(j + 1, k), at(j + 1, k + 1), at(j, k + 1)}};
+      if ((j + k) % 4 != 1)
+      {
+        drawing.cells.push_back(cell);
+        continue;
+      }
+      std::array<unsigned int, 4> inside;
+      for (unsigned int c = 0; c < 4; ++c)
+      {
+        inside[c] = drawing.points.size();
+        Point<2> x;
+        for (unsigned int d = 0; d < 4; ++d)
+          x += (c == d ? 0.55 : 0.15) * drawing.points[cell[d]];
+        drawing.points.push_back(x);
+      }
+      drawing.cells.push_back(inside);
+      for (unsigned int c = 0; c < 4; ++c)
+        drawing.cells.push_back({{cell[c], cell[(c + 1) % 4], inside[(c + 1) % 4], inside[c]}});
+    }
+  return drawing.file(name);
+}
+
+/** What one step says of Lame's rings: the root of the missing energy, and the deviation of the pressure where there is contact. */
+struct FitErrors
+{
+  double energy = 0, pressure = 0;
+};
+
+FitErrors fit_errors(const Overrides &entries, const double exact)
+{
+  FitErrors result;
+  AdaptiveSolver<2>(scene_of(entries))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            result.energy = std::sqrt(std::abs(step.energies.energy - exact));
+            for (const ContactState<2> &contact : step.contact)
+              for (const ContactPoint<2> &point : contact.points)
+                result.pressure = std::max({result.pressure, std::abs(point.normal_traction + fit),
+                                            std::abs(point.tangential_traction)});
+          });
+  return result;
+}
+
+/**
+ * The pairing of two free meshes costs nothing: the energy is as near as those of both rings alone, under the exact pressure, and the
+ * pressure as near as that of the worse of them on a rigid circle that has the exact displacement.
+ */
+TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
+{
+  const double E = 10, nu = 0.3, A = 1. / 8, B = 9. / 8; // s_rr = A - B/r^2, s_tt = A + B/r^2
+  const auto u = [&](const double r) { return (1 + nu) / E * ((1 - 2 * nu) * A * r + B / r); };
+  const double inner_work = u(1) * numbers::PI / 2, fit_work = fit * u(2) * numbers::PI;
+  struct Ring
+  {
+    std::string file;
+    FitErrors alone; ///< energy under the pressure, pressure on the rigid circle
+  };
+  std::mt19937 random(11);
+  std::array<std::vector<Ring>, 2> rings;
+  for (const unsigned int body : {0, 1})
+    for (const unsigned int n : {4, 5, 7, 9, 12})
+    {
+      const std::string name = (body == 0 ? "pin" : "sheet") + std::to_string(n),
+                        file = free_ring(name, 1 + body, n, random),
+                        face = body == 0 ? "outer" : "inner";
+      const Overrides ring{{"Geometry/Shape", "file"},
+                           {"Geometry/File", file},
+                           {"Material/Young's modulus", text(E)},
+                           {"Material/Poisson's ratio", text(nu)},
+                           {"Boundary inner/Curve", "circle"},
+                           {"Boundary outer/Curve", "circle"},
+                           {"Boundary start/Symmetry", "true"},
+                           {"Boundary end/Symmetry", "true"},
+                           {"Boundary inner/Pressure", "1"},
+                           {"Adaptivity/Method", "pu"},
+                           {"Adaptivity/Start degree", "4"},
+                           {"Adaptivity/Maximum steps", "1"}};
+      const double work = body == 0 ? inner_work - fit_work : fit_work;
+      Overrides on_circle =
+          joined({ring,
+                  {{"Boundary " + face + "/Contact", "unilateral"},
+                   {"Boundary " + face + "/Gap", text(body == 0 ? u(2) : -u(2))}}});
+      if (body == 1)
+        on_circle = joined({on_circle, {{"Boundary inner/Pressure", "0"}}});
+      rings[body].push_back(
+          {file,
+           {fit_errors(joined({ring, {{"Boundary " + face + "/Pressure", text(fit)}}}), -work / 2)
+                .energy,
+            fit_errors(on_circle, 0).pressure}});
+    }
+  for (const Ring &pin : rings[0])
+    for (const Ring &sheet : rings[1])
+      for (const std::string slave : {"pin.outer", "sheet.inner"})
+      {
+        Overrides entries = fitted("unilateral", slave, 4);
+        for (const auto &[body, file] : {std::make_pair("pin", pin.file), {"sheet", sheet.file}})
+          entries = joined({entries,
+                            {{"Body " + std::string(body) + "/Shape", "file"},
+                             {"Body " + std::string(body) + "/File", file},
+                             {"Boundary " + std::string(body) + ".inner/Curve", "circle"},
+                             {"Boundary " + std::string(body) + ".outer/Curve", "circle"}}});
+        const FitErrors errors = fit_errors(entries, -inner_work / 2);
+        EXPECT_LT(errors.energy, 1.1 * std::hypot(pin.alone.energy, sheet.alone.energy))
+            << pin.file << " " << sheet.file << " " << slave;
+        EXPECT_LT(errors.pressure, 2 * std::max(pin.alone.pressure, sheet.alone.pressure))
+            << pin.file << " " << sheet.file << " " << slave;
       }
 }
 
