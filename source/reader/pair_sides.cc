@@ -63,11 +63,12 @@ Side<2> side_of(const NamedSide &named, const Geometry<2> &geometry)
   return result;
 }
 
-void reject_overlap(const Parameters &parameters, const std::string &section, const double depth)
+void reject_overlap(const Parameters &parameters, const std::string &section, const double depth,
+                    const std::string &place)
 {
   parameters.reject(section, "Between",
-                    "names sides that lie " + to_string(depth) +
-                        " inside each other; move the bodies apart and give an interference as a "
+                    "names sides that lie " + to_string(depth) + " inside each other" + place +
+                        "; move the bodies apart and give an interference as a "
                         "negative Gap, or set Closed within if none is meant");
 }
 
@@ -147,16 +148,16 @@ void cut_at_ends(const Parameters &parameters, const FacingSides &facing, PairSi
   pair.line = facing;
 }
 
-/** @p distance, but 0 up to @p closed. */
-Expression<2> beyond(const double closed, const Expression<2> &distance)
+/** @p distance, but 0 up to @p closed and to the depth @p doubt. */
+Expression<2> beyond(const double closed, const double doubt, const Expression<2> &distance)
 {
-  if (closed == 0)
+  if (closed == 0 && doubt == 0)
     return distance;
   return expression<2>(std::function<double(const Point<2> &)>(
-      [closed, distance](const Point<2> &x)
+      [closed, doubt, distance](const Point<2> &x)
       {
         const double value = distance->value(x);
-        return std::abs(value) <= closed ? 0. : value;
+        return value >= -std::max(closed, doubt) && value <= closed ? 0. : value;
       }));
 }
 } // namespace
@@ -236,7 +237,7 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
       facing->distance = 0;
   }
   if (facing && facing->distance < 0)
-    reject_overlap(parameters, section, -facing->distance);
+    reject_overlap(parameters, section, -facing->distance, "");
   if (facing)
     cut_at_ends(parameters, *facing, pair, singles);
   return pair;
@@ -265,9 +266,18 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
                                         "them vertices where they do"));
   const double closed = read_closed(parameters, pair.section, size),
                within = std::max(closed, same_place * size);
-  if (edges.least < -within)
-    reject_overlap(parameters, pair.section, -edges.least);
-  const bool touches = edges.largest <= within;
+  // Curves that meet, and lie inside each other by no more than splines leave open between their points.
+  const bool is_in_doubt =
+      edges.least < -within && edges.largest >= -within && edges.least_for_sure >= 0;
+  if (edges.least < -within && !is_in_doubt)
+    reject_overlap(parameters, pair.section, -edges.least, " at " + to_string(edges.at_least));
+  const bool touches = edges.largest <= (is_in_doubt ? edges.doubt : within);
+  if (is_in_doubt)
+    singles[pair.sides[0].body].remarks.push_back(
+        pair.section + ": " + pair.sides[0].name + " and " + pair.sides[1].name + " lie up to " +
+        to_string(-edges.least) + " inside each other, at " + to_string(edges.at_least) +
+        ", less than splines through their vertices leave open, " + to_string(edges.doubt) +
+        (touches ? ": that counts as touching" : ": that depth counts as none"));
   if (closed > 0)
     pair.closed = closed_in_words(pair, closed, edges.least, edges.largest);
   if (const auto &left_out = edges.left_out; left_out.number > 0)
@@ -282,8 +292,9 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
   pair.slave = edges.slave;
   for (const unsigned int k : {0, 1})
   {
-    pair.distance[k] =
-        touches ? nullptr : beyond(closed, distance_along_normal(sides[k], sides[1 - k]));
+    pair.distance[k] = touches ? nullptr
+                               : beyond(closed, is_in_doubt ? -edges.least : 0,
+                                        distance_along_normal(sides[k], sides[1 - k]));
     pair.where[k] = expression<2>(
         [side = sides[k], part = pair.sides[k].where, own = edges.in_pair[k]](const Point<2> &x)
         { return (!part || part->value(x) > 0) && own[side.nearest_edge(x)] ? 1. : -1.; });

@@ -2,6 +2,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/scene/facing_sides.h>
 #include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/spline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,10 @@ struct Sight
   unsigned int n_met = 0;
   std::set<unsigned int> edges; ///< of the other side
   double least = std::numeric_limits<double>::max(),
-         largest = std::numeric_limits<double>::lowest(); ///< distances
-  double length = 0;                                      ///< of what meets it
+         largest = std::numeric_limits<double>::lowest(), ///< distances
+      least_for_sure = least, doubt = 0;
+  Point<2> at_least;
+  double length = 0;                   ///< of what meets it
   std::array<double, 2> turn{{1, -1}}; ///< least and largest angle between normals of both sides
 
   /** Of the relative curvature, 1/R = 1/R_1 + 1/R_2, by which distances grow, x^2/2R: contact of half width 0.2 R reaches 0.02 R. */
@@ -69,6 +72,7 @@ struct Candidate
 Sight sight_of(const EdgePath &path, const DrawnSide &other)
 {
   Sight result;
+  const double own_doubt = doubt_of(path.curve);
   Point<2> before;
   for (unsigned int k = 0; k <= n_samples; ++k)
   {
@@ -86,7 +90,11 @@ Sight sight_of(const EdgePath &path, const DrawnSide &other)
     before = x;
     if (there->place.s > same_end && there->place.s < 1 - same_end) // a vertex belongs to two edges
       result.edges.insert(there->edge);
-    result.least = std::min(result.least, there->place.distance);
+    if (there->place.distance < result.least)
+      result.least = there->place.distance, result.at_least = x;
+    const double doubt = own_doubt + doubt_of(other.edges()[there->edge].curve);
+    result.doubt = std::max(result.doubt, doubt);
+    result.least_for_sure = std::min(result.least_for_sure, there->place.distance + doubt);
     result.largest = std::max(result.largest, there->place.distance);
   }
   return result;
@@ -170,7 +178,7 @@ OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
     result.slave = slave;
   for (const unsigned int k : {0, 1})
     result.in_pair[k].resize(sides[k].edges().size());
-  result.least = std::numeric_limits<double>::max();
+  result.least = result.least_for_sure = std::numeric_limits<double>::max();
   result.largest = std::numeric_limits<double>::lowest();
   for (unsigned int e = 0; e < chosen.sights.size(); ++e)
     if (chosen.is_whole(e))
@@ -178,7 +186,10 @@ OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
       result.in_pair[slave][e] = true;
       for (const unsigned int other : chosen.sights[e].edges)
         result.in_pair[1 - slave][other] = true;
-      result.least = std::min(result.least, chosen.sights[e].least);
+      if (chosen.sights[e].least < result.least)
+        result.least = chosen.sights[e].least, result.at_least = chosen.sights[e].at_least;
+      result.least_for_sure = std::min(result.least_for_sure, chosen.sights[e].least_for_sure);
+      result.doubt = std::max(result.doubt, chosen.sights[e].doubt);
       result.largest = std::max(result.largest, chosen.sights[e].largest);
     }
     else if (const Sight &sight = chosen.sights[e]; sight.n_met > 1)

@@ -152,6 +152,32 @@ Tensor<1, 2> Spline::second_derivative(const double t) const
   return ((6 - 12 * s) * chord + (6 * s - 4) * slopes[i] + (6 * s - 2) * slopes[i + 1]) / h;
 }
 
+Tensor<1, 2> Spline::third_derivative(const unsigned int interval) const
+{
+  const double h = parameters[interval + 1] - parameters[interval];
+  const Tensor<1, 2> chord = (points[interval + 1] - points[interval]) / h;
+  return 6 / (h * h) * (slopes[interval] + slopes[interval + 1] - 2. * chord);
+}
+
+// At the second knot and the last but one of an open spline nothing jumps, whatever the curve is: those beside them tell.
+double Spline::doubt(const double from, const double to) const
+{
+  constexpr int near = 2;
+  const int n = parameters.size() - 1, i = interval(into((from + to) / 2));
+  double jump = 0;
+  for (int k = i - near; k <= i + 1 + near; ++k)
+    if (is_periodic || (k > 0 && k < n))
+      jump = std::max(
+          jump, (third_derivative((k + 2 * n) % n) - third_derivative((k - 1 + 2 * n) % n)).norm());
+  return std::pow(parameters[i + 1] - parameters[i], 3) * jump / 24;
+}
+
+double doubt_of(const CurvePiece &piece)
+{
+  const auto *const spline = dynamic_cast<const Spline *>(piece.curve.get());
+  return spline ? spline->doubt(piece.from, piece.to) : 0;
+}
+
 /** From the best of some places by Newton's method, which stays in the interval. */
 double Spline::nearest(const Point<2> &x, const double from, const double to) const
 {

@@ -98,7 +98,7 @@ invalid "Contact joint/Law = tied" "lie apart" -- "Body upper/Shape=quadrilatera
 invalid "Contact joint/Between" "one ends before the other begins" -- "Body upper/Lower corner=3, 1" "Body upper/Upper corner=4, 2"
 invalid "Contact joint/Between" "inside each other" "0.25" "negative Gap" -- "Body upper/Lower corner=1, 0.75"
 lid=("${disc[@]}" "Contact lid/Between=upper.top, disc.arc" "Boundary upper.top/Displacement=" "Boundary upper.left/Displacement=0; 0")
-invalid "Contact lid/Between" "inside each other" "0.1" "negative Gap" -- "${lid[@]}" "Body disc/Centre=1.5, 2.9"
+invalid "Contact lid/Between" "inside each other" "0.1" "at (1" "negative Gap" -- "${lid[@]}" "Body disc/Centre=1.5, 2.9"
 invalid "Contact lid/Between" "do not face each other" "60 degrees" -- "${lid[@]}" "Contact lid/Between=upper.left, disc.arc"
 invalid "Contact lid/Between" "do not face each other" -- "${lid[@]}" "Body disc/Angle=0"
 invalid "Contact lid/Slave = disc.arc" "edge of the slave, at (" "hangs over" "automatic" -- "${lid[@]}" "Contact lid/Slave=disc.arc"

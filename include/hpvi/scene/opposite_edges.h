@@ -18,7 +18,10 @@ struct OppositeEdges
 {
   std::array<std::vector<bool>, 2> in_pair; ///< by edge of either side
   std::optional<unsigned int> slave;        ///< which has to be it; nothing: either may
-  double least = 0, largest = 0; ///< distance along the normal of the first slave [length]
+  double least = 0, largest = 0;  ///< distance along the normal of the first slave [length]
+  dealii::Point<2> at_least = {}; ///< where they are nearest, or deepest inside each other
+  double least_for_sure = 0;      ///< of splines as far apart as their points allow
+  double doubt = 0;               ///< the largest of what these leave open, of both sides
   /** Edges of that slave of which a part alone lies opposite, and too far away for anybody to press there. */
   struct
   {

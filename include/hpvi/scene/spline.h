@@ -24,7 +24,14 @@ public:
   dealii::Tensor<1, 2> derivative(double t) const override;
   double nearest(const dealii::Point<2> &x, double from, double to) const override;
 
+  /**
+   * How far a smooth curve through the points may be from this one between two parameters [length]: h^4/24 times the fourth derivative, as of a cubic
+   * through four of them, by the largest jump of third derivatives at knots that are near, over h.
+   */
+  double doubt(double from, double to) const;
+
 private:
+  dealii::Tensor<1, 2> third_derivative(unsigned int interval) const;
   unsigned int interval(double t) const; ///< of the knots, periodic splines go on
   double into(double t) const;           ///< the range of the knots, of periodic ones
   dealii::Tensor<1, 2> second_derivative(double t) const;
@@ -34,6 +41,9 @@ private:
   std::vector<double> parameters;
   std::vector<dealii::Tensor<1, 2>> slopes; ///< at the points
 };
+
+/** That of a spline; any other curve is meant as it is. */
+double doubt_of(const CurvePiece &piece);
 } // namespace hpvi
 
 #endif
