@@ -115,7 +115,8 @@ bool Pairing<dim>::is_master(const types::boundary_id boundary) const
 }
 
 /**
- * Neighbours take what is left out between them, and the ends of the side. A segment that is short is no reason to end another one: vertices of
+ * Neighbours take what is left out between them, and the ends of the side: where drawings end beside each other, all of a cell that is small enough
+ * has the end of the other side opposite to it. A segment that is short is no reason to end another one: vertices of
  * two drawings of a curve lie beside each other by whatever their digits leave.
  */
 template <int dim>
@@ -135,6 +136,20 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
     covered += segment.end - segment.begin;
   for (const Face &face : pair->faces)
     length += chord(face.drawn);
+  if (result.empty() && chord(slave) <= same_end * length) // all of a small cell hangs over
+  {
+    const Point<dim> x = slave.path.point(0.5);
+    const auto beside = [&](const Face &face)
+    { return face.drawn.path.point(face.drawn.path.nearest(x)).distance(x); };
+    const Face &face =
+        *std::min_element(pair->faces.begin(), pair->faces.end(),
+                          [&](const Face &a, const Face &b) { return beside(a) < beside(b); });
+    const double end = face.drawn.on_path(face.drawn.path.nearest(x));
+    return {{0, 1, face.cell, face.face_no, face.degree, end, end,
+             pair->along.norm() > 0
+                 ? nullptr
+                 : std::make_shared<const FacingFaces>(FacingFaces{slave, face.drawn})}};
+  }
   if (result.empty() || (1 - covered) * chord(slave) > same_end * length)
     throw NumericalFailure("an edge of a body at " + to_string(slave.path.point(0.5)) +
                            " lies opposite to no edge of the other one along a part of its length; "

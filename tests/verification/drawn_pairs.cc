@@ -377,6 +377,37 @@ TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
       }
 }
 
+/** What hangs over by less than 1e-6 of an edge ends there, also where cells are smaller than that: on either body, on arcs and splines; the pressure is right on average. */
+TEST(DrawnPairs, EndWithCellsThatHangOverAltogether)
+{
+  for (const auto &[curve, levels, over] :
+       std::vector<std::tuple<std::string, unsigned int, double>>{{"circle", 0, 4e-5},
+                                                                  {"circle", 24, 4e-5},
+                                                                  {"circle", 28, 8e-6},
+                                                                  {"circle", 24, -4e-5},
+                                                                  {"spline", 24, 1e-5},
+                                                                  {"spline", 27, 8e-6}})
+    for (const bool of_pin : {true, false})
+    {
+      const std::string slave = of_pin ? "pin" : "sheet";
+      std::vector<double> longer = angles(curve == "circle" ? 2 : 8, [] { return 0.; });
+      longer.back() += over;
+      const std::vector<double> other = angles(8, [] { return 0.; });
+      const Point<2> end = arc({0, 0}, 2, longer).back();
+      Overrides entries =
+          joined({fitted("unilateral", of_pin ? "pin.outer" : "sheet.inner", 3),
+                  ring_file("pin", 1, of_pin ? longer : other, curve),
+                  ring_file("sheet", 2, of_pin ? other : longer, curve),
+                  {{"Body " + slave + "/Graded towards", text(end[0]) + ", " + text(end[1])},
+                   {"Body " + slave + "/Grading levels", std::to_string(levels)}}});
+      double mean = 0;
+      AdaptiveSolver<2>(scene_of(entries))
+          .run([&](const StepReport<2> &step)
+               { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
+      EXPECT_NEAR(mean / fit, 1, 1e-3) << curve << " " << levels << " " << over << " " << slave;
+    }
+}
+
 /** A distance in the drawing, which a pressure closes, and an interference: as between shapes. */
 TEST(DrawnPairs, CloseADistanceWhereVerticesNearlyMeet)
 {
