@@ -9,6 +9,7 @@
 #
 # Every WORD must occur in the line.
 
+# Command line, status and line of each row go to the end of $HPVI_ROWS, where that is a file: tests/freeze.py compares them.
 # With the library of tests/fuzz/server.cc rows take a tenth of the time: the program is forked where it has loaded its own.
 
 if [ $# -lt 1 ] || [ $# -gt 2 ] || [ ! -x "$1" ]; then
@@ -55,6 +56,7 @@ check() {
   rows=$((rows + 1))
   run_hpvi "$@"
   status=$?
+  [ -z "${HPVI_ROWS:-}" ] || { echo "$row -> $status" && cat "$scratch/stderr"; } >>"$HPVI_ROWS"
   [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
   [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || complain "$row" "stderr does not hold one line"
   for word in "${expected[@]}"; do

@@ -19,6 +19,7 @@ check() {
   "$@" >"$scratch/out" 2>"$scratch/err"
   local got=$?
   grep -v '^-*$\|^mpirun\|the job to be terminated\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/err" >"$scratch/lines"
+  [ -z "${HPVI_ROWS:-}" ] || { echo "$* -> $got" && cat "$scratch/lines"; } >>"$HPVI_ROWS" # see rows.sh
   [ "$got" -eq "$status" ] || { echo "status $got, not $status: $*"; failures=1; }
   [ "$(wc -l <"$scratch/lines")" -eq 1 ] || { echo "not one line: $*"; cat "$scratch/err"; failures=1; }
   for word in "${words[@]}"; do
