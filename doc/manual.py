@@ -294,6 +294,20 @@ def with_results(text, program, directory):
     return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
 
 
+def of_repository(name):
+    """A page that readers of the repository have, too: its links lead to pages of the manual where these have what they name."""
+    home = (ROOT / name).parent
+
+    def link(match):
+        target = (home / match[2]).resolve()
+        if target.parent == PAGES:
+            return f"[{match[1]}](@ref {target.stem})"
+        return match[1] if match[1] == match[2] else f"{match[1]} ({target.relative_to(ROOT)})"
+
+    text = re.sub("^# (.*)$", rf"# \1 {{#{pathlib.Path(name).stem.lower()}}}", (ROOT / name).read_text(), count=1, flags=re.M)
+    return doxygen_math(re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#:]*)(?:#[\w-]*)?\)", link, text))
+
+
 def session(text):
     """doc/python.md as a page of the manual."""
     text = re.sub("^# (.*)$", r"# \1 {#python}", text, count=1, flags=re.M).replace("](python/", "](../python/")
@@ -329,8 +343,9 @@ def main():
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes", "paraview",
-                 "results", "sweeps", "first-problem", "extensions", "columns", "contributing"):
+                 "results", "sweeps", "first-problem", "extensions", "columns"):
         pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
+    pages["contributing"] = of_repository("CONTRIBUTING.md")
     pages["messages"] = messages.page()
     pages["scenes"] = scenes.page("gallery/", " {#scenes}")
     pages["python"] = session((ROOT / "doc/python.md").read_text())

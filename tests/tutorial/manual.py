@@ -54,6 +54,9 @@ def name_problems(name, text, known):
 def main():
     known, problems = entries(), []
     header, builder = (ROOT / "doc/manual/header.html").read_text(), (ROOT / "doc/manual.py").read_text()
+    for name in re.findall(r"\^([\w-]+)\.html", header):
+        if f'"{name}"' not in builder and name != "index":
+            problems.append(f"header.html leads to {name}.html, which doc/manual.py does not build")
     if len(re.findall(r"`\w+\.prm`:\n\n```\n", "".join(PAGES.values()))) < 3:
         problems.append("the manual's scenes are not found any more")
     for name, text in PAGES.items():
