@@ -294,18 +294,31 @@ def with_results(text, program, directory):
     return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
 
 
-def of_repository(name):
-    """A page that readers of the repository have, too: its links lead to pages of the manual where these have what they name."""
-    home = (ROOT / name).parent
-
+def linked(text, home):
+    """Links between files, which readers of the repository follow: to pages of the manual where these have what they name."""
     def link(match):
-        target = (home / match[2]).resolve()
-        if target.parent == PAGES:
-            return f"[{match[1]}](@ref {target.stem})"
-        return match[1] if match[1] == match[2] else f"{match[1]} ({target.relative_to(ROOT)})"
+        words, target, anchor = match.groups()
+        path = (home / target).resolve()
+        if not path.exists():
+            return match[0]
+        path = path.relative_to(ROOT)
+        if path == pathlib.Path("prm/README.md"):
+            return f"[{words}](@ref scenes)"
+        if path.parent == pathlib.Path("prm"):
+            return f"[{words}](@ref scene_{path.stem.replace('-', '_')})"
+        if path.suffix == ".md" and ROOT / path.parent == PAGES:
+            return f"[{words}](@ref {anchor or path.stem})"
+        return words if words == str(path) else f"{words} ({path})"
 
-    text = re.sub("^# (.*)$", rf"# \1 {{#{pathlib.Path(name).stem.lower()}}}", (ROOT / name).read_text(), count=1, flags=re.M)
-    return doxygen_math(re.sub(r"(?<!!)\[([^\]]*)\]\(([^)#:]*)(?:#[\w-]*)?\)", link, text))
+    text = re.sub(r"(?<!!)\[([^\]]*)\]\(([\w./-]+)(?:#([\w-]*))?\)", link, text)
+    text = re.sub(r'href="\.\./\.\./prm/([\w-]+)\.prm"', lambda m: f'href="scenes.html#scene_{m[1].replace("-", "_")}"', text)
+    return text.replace('"../gallery/', '"gallery/')
+
+
+def of_repository(name):
+    """A page of its top."""
+    text = linked((ROOT / name).read_text(), ROOT)
+    return doxygen_math(re.sub("^# (.*)$", rf"# \1 {{#{pathlib.Path(name).stem.lower()}}}", text, count=1, flags=re.M))
 
 
 def session(text):
@@ -343,8 +356,8 @@ def main():
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes", "paraview",
-                 "results", "sweeps", "first-problem", "extensions", "columns"):
-        pages[name] = with_results((PAGES / f"{name}.md").read_text(), program, output / "runs")
+                 "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns"):
+        pages[name] = with_results(linked((PAGES / f"{name}.md").read_text(), PAGES), program, output / "runs")
     pages["contributing"] = of_repository("CONTRIBUTING.md")
     pages["messages"] = messages.page()
     pages["scenes"] = scenes.page("gallery/", " {#scenes}")

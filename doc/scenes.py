@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The scenes of prm/ by what they show, read from their entries: prm/README.md and a page of the manual.
+"""The scenes of prm/ by what they show, read from their entries: prm/README.md and a page of the manual; and their pictures beside each
+other in doc/manual/gallery.md, whose table has the words of each.
 
 scenes.py --write | --check
 
---check ends with 1 where prm/README.md is not what --write writes, or a scene has no picture or no words.
+--check ends with 1 where these pages are not what --write writes, a scene has no picture, or the table names one that is not there.
 """
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+GALLERY = ROOT / "doc/manual/gallery.md"
+ROW = re.compile(r"^\| \[([\w-]+)\.prm\]\(.*?\) \| .*? \| (.*?) \| (.*?) \|$", re.M)
+BEGIN, END = "<!-- what follows as far as the next remark is written by doc/scenes.py -->\n", "<!-- until here -->\n"
 SPACE = "space"
 # Groups and what there is in each, in the order of the page.
 GROUPS = {
@@ -121,9 +125,8 @@ class Scene:
 
 
 def scenes():
-    """All of prm/, with the words of README.md's table, which knows whether a scene has a bound to leave out."""
-    table = {name: (words, without != "-") for name, without, words in re.findall(
-        r"^\| \[([\w-]+)\.prm\]\(.*?\) \| .*? \| (.*?) \| (.*?) \|$", (ROOT / "README.md").read_text(), re.M)}
+    """All of prm/, with the words of the gallery's table, which knows whether a scene has a bound to leave out; else with its title."""
+    table = {name: (words, without != "-") for name, without, words in ROW.findall(GALLERY.read_text())}
     return [Scene(path, *table.get(path.stem, ("", False))) for path in sorted((ROOT / "prm").glob("*.prm"))]
 
 
@@ -156,19 +159,45 @@ def readme():
         + page("../doc/gallery/")
 
 
+def gallery():
+    """doc/manual/gallery.md with the pictures of all scenes: two of the plane in a row, each beside what it says, or two in space."""
+    def rows(cells):
+        return ["<tr>\n" + "\n".join(cells[k:k + 2]) + "\n</tr>" for k in range(0, len(cells), 2)]
+
+    def solved(name, width):
+        return f'<td><a href="../../prm/{name}.prm"><img src="../gallery/{name}.png" width="{width}" alt="{name}"></a></td>'
+
+    def said(name):
+        picture = f"../gallery/{name}-scene.svg"
+        return f'<td><a href="{picture}"><img src="{picture}" width="225" alt="what {name} says"></a></td>\n'
+
+    plane = [said(scene.name) + solved(scene.name, 185) for scene in scenes() if not scene.in_space]
+    space = [solved(scene.name, 405) for scene in scenes() if scene.in_space]
+    before, rest = GALLERY.read_text().split(BEGIN)
+    table = ["<table>", *rows(plane), "</table>", "", "In space, seen from below; beside the body its contact, with the friction on it:", "",
+             "<table>", *rows(space), "</table>", ""]
+    return before + BEGIN + "\n" + "\n".join(table) + "\n" + END + rest.split(END)[1]
+
+
+def pages():
+    return {ROOT / "prm/README.md": readme(), GALLERY: gallery()}
+
+
 def complaints():
     found = [f"doc/gallery/{name} is missing; run ./run gallery" for scene in scenes()
              for name in [f"{scene.name}.png"] + [f"{scene.name}-scene.svg"] * (not scene.in_space)
              if not (ROOT / "doc/gallery" / name).exists()]
-    target = ROOT / "prm/README.md"
-    if not target.exists() or target.read_text() != readme():
-        found.append("prm/README.md is not what the scenes say; run python3 doc/scenes.py --write")
+    found += [f"doc/manual/gallery.md has a row for {name}.prm, which is not in prm/" for name, _, _ in ROW.findall(GALLERY.read_text())
+              if not (ROOT / f"prm/{name}.prm").exists()]
+    found += [f"{page.relative_to(ROOT)} is not what the scenes say; run python3 doc/scenes.py --write" for page, text in pages().items()
+              if not page.exists() or page.read_text() != text]
     return found
 
 
 def main():
     if sys.argv[1:] == ["--write"]:
-        (ROOT / "prm/README.md").write_text(readme())
+        for page, text in pages().items():
+            page.write_text(text)
     elif sys.argv[1:] == ["--check"]:
         found = complaints()
         print("\n".join(found), end="\n" if found else "")

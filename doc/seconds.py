@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Seconds of all scenes, with the bound of the error and without, into the table of README.md: wall time of the
+"""Seconds of all scenes, with the bound of the error and without, into the table of doc/manual/gallery.md: wall time of the
 whole program, one thread, the median of three runs."""
 import argparse
 import csv
@@ -13,7 +13,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-ROW = re.compile(r"^\| \[(\S+)\.prm\]\(prm/\S+\) \| [\d.]+ \| (?:[\d.]+|-) \| ", re.M)
+ROW = re.compile(r"^\| \[(\S+)\.prm\]\(\.\./\.\./prm/\S+\) \| [\d.]+ \| (?:[\d.]+|-) \| ", re.M)
 
 
 def seconds(program, scene, *entries):
@@ -36,12 +36,12 @@ def row(program, scene):
     with_bound, has_bound = seconds(program, scene)
     without = f"{seconds(program, scene, '--set', 'Error/Bound=false')[0]:.1f}" if has_bound else "-"
     print(f"{scene}: {with_bound:.1f} s, without the bound {without}", flush=True)
-    return f"| [{scene}.prm](prm/{scene}.prm) | {with_bound:.1f} | {without} | "
+    return f"| [{scene}.prm](../../prm/{scene}.prm) | {with_bound:.1f} | {without} | "
 
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--program", default="build/hpvi")
 program = ROOT / parser.parse_args().program
-readme = ROOT / "README.md"
-text = readme.read_text()
-readme.write_text(ROW.sub(lambda found: row(program, found[1]), text))
+page = ROOT / "doc/manual/gallery.md"
+text = page.read_text()
+page.write_text(ROW.sub(lambda found: row(program, found[1]), text))

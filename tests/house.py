@@ -3,7 +3,7 @@
 """house.py ROOT: a file includes only files of its own folder and of folders before it, doc/plan.md has a row for
 every noun under its folder and for nothing else, CMakeLists.txt builds every source, moduli and corners are asked for only
 where their meaning is known, no source is longer than 400 lines, and doc/reliability.md names every source that asks for a function of the
-scene, with as many places as it has here, and all files, commands and targets that CONTRIBUTING.md names are there."""
+scene, with as many places as it has here, and all files, commands and targets that README.md and CONTRIBUTING.md name are there."""
 import pathlib
 import re
 import sys
@@ -51,7 +51,7 @@ def named_problems(page):
     files = set(re.findall(r"(?<![\w/.-])(?:\.ci|doc|include|prm|source|tests)/(?:[\w.-]*\w)?(?:/[\w.-]*\w)*", text))
     files |= {target for target in re.findall(r"\]\(([^)#:]+)[^)]*\)", text)}
     found = [f"the file {name}" for name in files if "NAME" not in name and not (ROOT / name).exists()]
-    commands = set(re.findall(r"`\./run ([\w-]+)", text)) | set(re.findall(r"^\./run ([\w-]+)", text, re.M))
+    commands = set(re.findall(r"`\./run ([\w-]+)(?![\w./-])", text)) | set(re.findall(r"^\./run ([\w-]+)(?![\w./-])", text, re.M))
     found += [f"./run {name}" for name in commands if not re.search(rf"^  (?:[\w-]+ \| )*{name}(?: \| [\w-]+)*\)$", run, re.M)]
     for line in re.findall(r"ninja -C \S+ ([\w ]+?)(?: +#|`|$)", text, re.M):
         found += [f"the target {name}" for name in line.split()
@@ -61,7 +61,7 @@ def named_problems(page):
     return [f"{page} names {what}, which is not there" for what in sorted(found)]
 
 
-problems += named_problems("CONTRIBUTING.md")
+problems += named_problems("CONTRIBUTING.md") + named_problems("README.md")
 tested = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`\w+`(?:, `\w+`)*) \|", (ROOT / "CONTRIBUTING.md").read_text(), re.M))))
 for folder in tested ^ {path.name for path in (ROOT / "tests").iterdir() if path.is_dir() and path.name != "__pycache__"}:
     problems.append(f"tests/{folder} is no folder, or has no row in CONTRIBUTING.md")

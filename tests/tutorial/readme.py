@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What README.md shows to a new user works: its first scene runs, in ten lines at most, with a bound of the error and
-no friction on what is open, and with Coulomb's friction; all scenes of prm/ are in its gallery, and what it links to is there.
+no friction on what is open, and with Coulomb's friction; the program has the options that it names. What it and all pages of the
+repository link to is there, places in pages included.
 
 readme.py HPVI ROOT
 """
@@ -47,15 +48,34 @@ def check_first_scene():
     check_run("first.prm with Coulomb's friction", coulomb, False)
 
 
+def places(path):
+    """What links may name behind a hash: headings as GitHub calls them, and anchors of the manual."""
+    text = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.S | re.M)
+    headings = re.findall(r"^#+ (.*?)(?: \{#[\w-]+\})?$", text, re.M)
+    return set(re.findall(r"\{#([\w-]+)\}", text)) | {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def missing_links():
+    found, n = [], 0
+    for page in [*ROOT.glob("*.md"), *(ROOT / "prm").glob("*.md"), *(ROOT / "doc").rglob("*.md")]:
+        text = re.sub(r"^```.*?^```|`[^`\n]*`", "", page.read_text(), flags=re.S | re.M)
+        for target in re.findall(r"\]\(([^)\s:@]+)\)|(?:src|href)=\"([^\":$]+)\"", text):
+            n += 1
+            name, _, place = "".join(target).partition("#")
+            path = page.parent / name if name else page
+            if not path.exists() or (place and place not in places(path)):
+                found.append(f"{page.relative_to(ROOT)} links to {''.join(target)}, which is not there")
+    return found if n > 300 else [f"of the links of all pages {n} are found"]
+
+
+def missing_options():
+    known = subprocess.run([HPVI, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return [f"README.md names {option}, which is no option of hpvi"
+            for option in re.findall(r"(?:hpvi|\.prm) (--[\w-]+)", README) if f" {option} " not in known]
+
+
 def main():
-    missing = [f"README.md links to {target}, which is not there"
-               for target in re.findall(r"\]\(([^)#:]+)\)|(?:src|href)=\"([^\":#]+)\"", README)
-               for target in target if target and not (ROOT / target).exists()]
-    for scene in sorted((ROOT / "prm").glob("*.prm")):
-        in_plane = "Dimension = 3" not in scene.read_text()
-        for wanted in (f"prm/{scene.name}", f"doc/gallery/{scene.stem}.png", *[f"doc/gallery/{scene.stem}-scene.svg"] * in_plane):
-            if wanted not in README:
-                missing.append(f"README.md does not show {wanted}")
+    missing = missing_links() + missing_options()
     if missing:
         sys.exit("\n".join(missing))
     check_first_scene()
