@@ -20,11 +20,13 @@ import subprocess
 import sys
 
 import messages
+import rooms
 import scenes
 from scenes import assignments
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "doc/manual"
+OF_REPOSITORY = ("CONTRIBUTING.md", "doc/architecture.md", "doc/decisions.md")
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # Entries that no scene of prm/ sets: what one could write.
 EXAMPLES = {
@@ -125,9 +127,9 @@ def commented_source(path):
 # Pages
 
 def reading_order():
-    """Title and noun of each commented source, from the table of doc/plan.md."""
-    table = (ROOT / "doc/plan.md").read_text().split("## Reading order\n")[1].split("\n## ")[0]
-    return re.findall(r"^\| \d+ \| `(\w+/\w+)` \| (.*?) \|$", table, re.M)
+    """Noun and title of each commented source, from doc/architecture.md."""
+    listed = (ROOT / "doc/architecture.md").read_text().split("## Reading order\n")[1].split("\n## ")[0]
+    return re.findall(r"^\d+\. `([\w/]+)` (.*)$", listed, re.M)
 
 
 def program_pages(order):
@@ -145,7 +147,7 @@ def program_pages(order):
             commented_source(ROOT / "source" / f"{noun}.cc"), "", ", ".join(around), ""])
     links = [f"{k}. [{title}](@ref program_{noun.split('/')[1]}), `{noun}`"
              for k, (noun, title) in enumerate(order, 1)]
-    pages["program"] = (PAGES / "program.md").read_text().replace("@LIST@", "\n".join(links))
+    pages["program"] = linked((PAGES / "program.md").read_text(), PAGES).replace("@LIST@", "\n".join(links))
     pages["program"] = doxygen_math(pages["program"])
     return pages
 
@@ -306,8 +308,8 @@ def linked(text, home):
             return f"[{words}](@ref scenes)"
         if path.parent == pathlib.Path("prm"):
             return f"[{words}](@ref scene_{path.stem.replace('-', '_')})"
-        if path.suffix == ".md" and ROOT / path.parent == PAGES:
-            return f"[{words}](@ref {anchor or path.stem})"
+        if path.suffix == ".md" and (ROOT / path.parent == PAGES or str(path) in OF_REPOSITORY):
+            return f"[{words}](@ref {anchor or path.stem.lower()})"
         return words if words == str(path) else f"{words} ({path})"
 
     text = re.sub(r"(?<!!)\[([^\]]*)\]\(([\w./-]+)(?:#([\w-]*))?\)", link, text)
@@ -316,8 +318,8 @@ def linked(text, home):
 
 
 def of_repository(name):
-    """A page of its top."""
-    text = linked((ROOT / name).read_text(), ROOT)
+    """A page that is no part of doc/manual."""
+    text = linked((ROOT / name).read_text(), (ROOT / name).parent)
     return doxygen_math(re.sub("^# (.*)$", rf"# \1 {{#{pathlib.Path(name).stem.lower()}}}", text, count=1, flags=re.M))
 
 
@@ -340,7 +342,7 @@ def images_of(text, sources):
     def copied(match):
         shutil.copy(ROOT / "doc" / match[2], sources / pathlib.Path(match[2]).name)
         return f"![{match[1]}]({pathlib.Path(match[2]).name})"
-    return re.sub(r"!\[([^\]]*)\]\(\.\./([^)]*)\)", copied, text)
+    return re.sub(r"!\[([^\]]*)\]\((?:\.\./)?([\w-]+/[^)]*)\)", copied, text)
 
 
 def main():
@@ -358,7 +360,9 @@ def main():
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes", "paraview",
                  "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns"):
         pages[name] = with_results(linked((PAGES / f"{name}.md").read_text(), PAGES), program, output / "runs")
-    pages["contributing"] = of_repository("CONTRIBUTING.md")
+    for name in OF_REPOSITORY:
+        pages[pathlib.Path(name).stem.lower()] = of_repository(name)
+    pages["nouns"] = rooms.nouns()
     pages["messages"] = messages.page()
     pages["scenes"] = scenes.page("gallery/", " {#scenes}")
     pages["python"] = session((ROOT / "doc/python.md").read_text())

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The rooms of source/ and what they include of each other, as a picture.
+"""The rooms of source/, what they include of each other, as a picture, and their nouns, by the first comment of each header.
 
-rooms.py [--root ROOT] [--picture FILE.svg]
+rooms.py [--root ROOT] [--picture FILE.svg] [--nouns]
 
 The first room of the map stands at the bottom. An arrow leads from a room to one of which it includes something, its number is
 how many includes there are; in order they lead downwards, those that lead upwards are red. Prints how many of both there are.
@@ -18,8 +18,9 @@ ROW, STEP, LEFT, BOX = 22, 17, 60, 150  # heights and widths in pixels
 
 
 def rooms(root=ROOT):
-    """Names in the order of the map."""
-    return re.findall(r"^### (\w+)$", (root / "doc/plan.md").read_text(), re.M)
+    """Names in the order of the map, each with its sentence."""
+    text = (root / "doc/architecture.md").read_text().split("\n## Rooms\n")[1].split("\n## ")[0]
+    return {name: " ".join(words.split()) for name, words in re.findall(r"^- \*\*(\w+)\*\*: (.*?)(?=^- |^$)", text, re.M | re.S)}
 
 
 def files_of(room, root=ROOT):
@@ -28,21 +29,50 @@ def files_of(room, root=ROOT):
 
 def includes(root=ROOT):
     """How often a room includes headers of another, by (room, other)."""
-    counts = collections.Counter()
-    for room in rooms(root):
+    counts, names = collections.Counter(), list(rooms(root))
+    for room in names:
         for file in files_of(room, root):
             for other in re.findall(r"^#include <hpvi/(\w+)/[\w/]+\.h>", file.read_text(), re.M):
-                counts[room, other] += other != room
+                counts[room, other] += other != room and other in names
     return +counts
+
+
+def first_comment(file):
+    """The first paragraph of the first doc comment of a file; of a source without a header any comment before code will do."""
+    text = re.sub(r"^// SPDX.*\n", "", file.read_text())
+    found = re.search(r"/\*\*(.*?)\*/", text, re.S)
+    if found:
+        return " ".join(re.sub(r"^ *\* ?", "", found[1].split("\n *\n")[0].strip(), flags=re.M).split())
+    found = re.match(r"(?:#include.*\n|\n)*((?://.*\n)+)", text)
+    return " ".join(found[1].replace("//", "").split()) if found and file.suffix == ".cc" else ""
+
+
+def nouns(root=ROOT):
+    """A page of the manual: for each room a table of its headers."""
+    lines = ["# Rooms and their nouns {#nouns}", "",
+             "What each header of `include/hpvi` declares first, in its own words; [the map](@ref architecture) says what each room is for.", ""]
+    for room, words in rooms(root).items():
+        lines += [f"## {room} {{#nouns_{room}}}", "", words[0].upper() + words[1:], "", "| header | declares | what it is |", "|---|---|---|"]
+        for file in files_of(room, root):
+            if file.suffix != ".h":
+                continue
+            declared = re.findall(r"^(?:class|struct|enum class|using) (\w+)(?=\n|$| *[{:=])", file.read_text(), re.M)
+            declared += re.findall(r"^(?!template|using|#)[\w:<>, &*]*[ &*](\w+)\(", file.read_text(), re.M)
+            sentence = re.split(r"(?<=[.;:]) (?=[A-Z])", first_comment(file))[0]
+            sentence = re.sub(r"@p (\w+)", r"`\1`", sentence).replace("|", "&#124;").replace("<", "&lt;").replace("@", "\\@").replace("$", "&#36;")
+            lines.append(f"| `{file.relative_to(root / 'include/hpvi' / room).with_suffix('')}` | {', '.join(f'`{name}`' for name in dict.fromkeys(declared[:4]))} | {sentence} |")
+        lines.append("")
+    return "\n".join(lines)
 
 
 def upward(names, counts):
     """Arrows to rooms that come later."""
-    return [(room, other) for room, other in counts if names.index(other) > names.index(room)]
+    place = {name: k for k, name in enumerate(names)}
+    return [(room, other) for room, other in counts if place[other] > place[room]]
 
 
 def picture(root=ROOT):
-    names, counts = rooms(root), includes(root)
+    names, counts = list(rooms(root)), includes(root)
     lines = {room: sum(len(file.read_text().splitlines()) for file in files_of(room, root)) for room in names}
     height = {room: 14 + ROW * (len(names) - 1 - k) + ROW / 2 for k, room in enumerate(names)}
     wrong = set(upward(names, counts))
@@ -87,8 +117,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=pathlib.Path, default=ROOT)
     parser.add_argument("--picture", type=pathlib.Path)
+    parser.add_argument("--nouns", action="store_true", help="print the tables of the manual")
     options = parser.parse_args()
-    names, counts = rooms(options.root), includes(options.root)
+    if options.nouns:
+        print(nouns(options.root))
+        return
+    names, counts = list(rooms(options.root)), includes(options.root)
     wrong = upward(names, counts)
     if options.picture:
         options.picture.write_text(picture(options.root))

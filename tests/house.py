@@ -1,19 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""house.py ROOT: a file includes only files of its own folder and of folders before it, doc/plan.md has a row for
-every noun under its folder and for nothing else, CMakeLists.txt builds every source, moduli and corners are asked for only
-where their meaning is known, no source is longer than 400 lines, and doc/reliability.md names every source that asks for a function of the
-scene, with as many places as it has here, and all files, commands and targets that README.md and CONTRIBUTING.md name are there."""
+"""house.py ROOT: a file includes only files of its own room and of rooms before it in the map, doc/architecture.md, with no more arrows
+between rooms than there were; the map has every room, at most 150 lines of 120 characters, names files that are there, and finds five
+of them by what they are; each file says in its first comment what it is; CMakeLists.txt builds every source; moduli and corners are
+asked for only where their meaning is known; doc/reliability.md names every source that asks for a function of the scene, with as many
+places as it has here; and all files, commands and targets that README.md and CONTRIBUTING.md name are there."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
-PLAN = (ROOT / "doc/plan.md").read_text()
+sys.path.append(str(ROOT / "doc"))
+import rooms
+
+MAP = (ROOT / "doc/architecture.md").read_text()
 RELIABILITY = (ROOT / "doc/reliability.md").read_text()
 CMAKE = (ROOT / "CMakeLists.txt").read_text()
-LONGEST = 400
-FOLDERS = re.findall(r"^### (\w+)$", PLAN, re.M)
+FOLDERS = list(rooms.rooms(ROOT))
+# Where does this live? What the words find in the map has this text.
+QUESTIONS = {"friction law": r"^struct FrictionLaw\b", "mark cell": r"^Refinement mark\(", "column convergence.csv": r'\{"bound_oscillation", ',
+             "oscillation bound": r"^  std::vector<double> oscillation;", "message mesh file": r"^class MeshComplaint\b"}
 KNOWN_IN = {r"\.(?:mu\(\)|lambda\([23d]|young\b|poisson\b)": ["scene", "closed_forms"],
             r"geometry\.corners": ["scene", "shapes", "checks", "body"]}
 # What evaluates loads, strains, springs, friction, gaps and displacements of a scene, beyond the rooms that read and check them.
@@ -41,6 +47,7 @@ EVALUATIONS = {
     "source/primal/contact_statics.cc": 1, "source/primal/load_check.cc": 1, "source/primal/load_work.cc": 1,
     "source/primal/moment_field.cc": 1, "source/primal/nodal_forces.cc": 1, "source/primal/past_state.cc": 1,
     "source/primal/upper_energy.cc": 1, "source/stresses/edge_polynomial.cc": 1, "source/warnings/contact.cc": 2}
+MOST_ARROWS = 170  # between rooms
 problems = []
 
 
@@ -67,27 +74,53 @@ for folder in tested ^ {path.name for path in (ROOT / "tests").iterdir() if path
     problems.append(f"tests/{folder} is no folder, or has no row in CONTRIBUTING.md")
 
 
-def planned(folder):
-    """The nouns in the first column of the folder's table."""
-    table = PLAN.split(f"### {folder}\n")[1].split("\n#")[0]
-    cells = re.findall(r"^\| (`[^|]*) \|", table, re.M)
-    return {noun for cell in cells for noun in re.findall(r"`(\w+)`", cell)}
+def texts_of(noun):
+    """Header and source of ROOM/NOUN; empty where there is none."""
+    return "".join(path.read_text() for path in (ROOT / f"include/hpvi/{noun}.h", ROOT / f"source/{noun}.cc") if path.exists())
 
 
+def found_in_map(words):
+    """The first name of a file behind the words, in the first paragraph or line of a list that has them all."""
+    for item in re.split(r"\n(?=- |\d+\. |\n)", MAP):
+        at = [re.search(rf"\b{re.escape(word)}\b", item) for word in words.split()]
+        if all(at):
+            name = re.search(r"`(\w+(?:/\w+)+)`", item[at[0].start():])
+            return name[1] if name else None
+    return None
+
+
+def map_problems():
+    lines = MAP.splitlines()
+    found = [f"has {len(lines)} lines, more than 150"] if len(lines) > 150 else []
+    found += [f"has more than 120 characters in line {k}" for k, line in enumerate(lines, 1) if len(line) > 120]
+    for noun in re.findall(r"`((?:%s)/\w[\w/]*)`" % "|".join(FOLDERS), MAP):
+        if "NAME" not in noun and not texts_of(noun):
+            found.append(f"names {noun}, which is not there")
+    for words, text in QUESTIONS.items():
+        noun = found_in_map(words)
+        if not noun or not re.search(text, texts_of(noun), re.M):
+            found.append(f"leads from \"{words}\" to {noun}, where it is not")
+    decided = re.findall(r"^## (.*)$", (ROOT / "doc/decisions.md").read_text(), re.M)
+    for name in set(re.findall(r"^- \*\*(.*?)\*\*", MAP.split("\n## Decisions\n")[1], re.M)) ^ set(decided):
+        found.append(f"and doc/decisions.md do not both have the decision {name}")
+    return [f"doc/architecture.md {what}" for what in found]
+
+
+problems += map_problems()
 for top in ("include/hpvi", "source"):
     for folder in (ROOT / top).iterdir():
         if folder.name not in FOLDERS + ["package"]:
-            problems.append(f"{top}/{folder.name} is no folder of doc/plan.md")
+            problems.append(f"{top}/{folder.name} is no room of doc/architecture.md")
 for position, folder in enumerate(FOLDERS):
-    files = [*(ROOT / "include/hpvi" / folder).glob("*.h"), *(ROOT / "source" / folder).glob("*.cc")]
-    nouns = {file.stem for file in files}
-    for noun in nouns ^ planned(folder):
-        problems.append(f"{folder}/{noun} stands only in {'the tree' if noun in nouns else 'doc/plan.md'}")
+    files = rooms.files_of(folder, ROOT)
+    if not files:
+        problems.append(f"{folder} is a room of doc/architecture.md without files")
     for file in files:
         name = str(file.relative_to(ROOT))
-        if len(file.read_text().splitlines()) > LONGEST:
-            problems.append(f"{name} has more than {LONGEST} lines")
-        if file.suffix == ".cc" and f"source/{folder}/{file.name}" not in CMAKE:
+        header = ROOT / "include/hpvi" / file.relative_to(ROOT / "source").with_suffix(".h") if file.suffix == ".cc" else None
+        if not (header and header.exists()) and not rooms.first_comment(file):
+            problems.append(f"{name} does not say in a first comment what it is")
+        if file.suffix == ".cc" and name not in CMAKE:
             problems.append(f"{name} is not built")
         places = len(EVALUATES.findall(re.sub(r"//.*|^ *\*.*|/\*\*.*", "", file.read_text(), flags=re.M)))
         if folder not in EVALUATE_FREELY and places != EVALUATIONS.get(name, 0):
@@ -98,7 +131,9 @@ for position, folder in enumerate(FOLDERS):
         for what, folders in KNOWN_IN.items():
             if folder not in folders and (asked := re.search(what, file.read_text())):
                 problems.append(f"{name} asks for {asked[0]}; ask Material or Geometry what it is for")
-        for other in re.findall(r"#include <hpvi/(\w+)/\w+\.h>", file.read_text()):
-            if FOLDERS.index(other) > position:
-                problems.append(f"{name} includes {other}, which comes later")
+        for other in re.findall(r"#include <hpvi/(\w+)/[\w/]+\.h>", file.read_text()):
+            if other not in FOLDERS[:position + 1]:
+                problems.append(f"{name} includes {other}, which comes later, or nowhere")
+if (n := len(rooms.includes(ROOT))) > MOST_ARROWS:
+    problems.append(f"{n} rooms include others, two by two; at most {MOST_ARROWS} were: see python3 doc/rooms.py")
 sys.exit("\n".join(problems) or 0)

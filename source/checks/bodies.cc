@@ -5,6 +5,7 @@
 
 namespace hpvi
 {
+/** What several bodies do not offer. */
 template <int dim>
 void check_bodies(const Scene<dim> &scene)
 {

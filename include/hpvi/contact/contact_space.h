@@ -141,7 +141,7 @@ struct UnresolvedBound
  * at the p + offset + 1 Gauss points x_i, in the set |z_i| <= g(x_i). For constant g it is g times W_N
  * of (3.58) with the discrete set (3.68), and offset = -2 the thesis's
  * (SolverSettings::multiplier_offset). Where g varies the thesis multiplies the polynomials by g; both
- * are equal once g is resolved, and this one divides by g nowhere (doc/plan.md).
+ * are equal once g is resolved, and this one divides by g nowhere (doc/decisions.md).
  *
  * Pressure, T_n = -z, on faces with unilateral contact: either the same polynomials with z_i >= 0, so
  * that `u_n <= u_0` holds in their moments; or (NormalContact::nodes) a continuous polynomial of degree
