@@ -5,6 +5,7 @@
 #include <hpvi/equilibration/equilibrated_stress.h>
 #include <hpvi/equilibration/patches.h>
 #include <hpvi/equilibration/traction_system.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,9 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
   else
     plain_stresses = std::make_unique<ParallelogramStresses>(
         solution, vertex_patches, boundary.marked_corners(), volume, cache);
-  set_tractions(has_long_cells(solution));
+  // Of a body that expands freely the stress is the round-off of eps(u_N) and eps_0.
+  set_tractions(has_long_cells(solution),
+                solution.scene.has_initial_strain() ? data_scale(solution.scene).stress : 0.);
   if (measured)
     measure_from(*measured);
   measure();
@@ -145,7 +148,7 @@ PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned
 }
 
 /** By patches, or all at once where cells are so long that hat functions would cost too much. */
-void EquilibratedStress::set_tractions(const bool has_long_cells)
+void EquilibratedStress::set_tractions(const bool has_long_cells, const double initial_stress)
 {
   for (unsigned int e = 0; e < vertex_patches.edges().size(); ++e)
   {
@@ -162,7 +165,7 @@ void EquilibratedStress::set_tractions(const bool has_long_cells)
     solve_all_cells();
   else
     solve_patches();
-  double largest = 0;
+  double largest = initial_stress;
   for (const auto &edge : sums)
     for (const auto &component : edge)
       for (const double coefficient : component)

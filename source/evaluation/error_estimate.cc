@@ -68,6 +68,7 @@ double round_off_of_estimate(const Field<dim> &field)
   Scene<dim> unloaded = field.scene;
   unloaded.body_force = {};
   unloaded.body_force_of_material.clear();
+  unloaded.initial_strains.clear();
   for (BoundaryCondition<dim> &boundary : unloaded.boundaries)
   {
     boundary.traction = {};

@@ -329,6 +329,7 @@ TEST(Floor, NoWarningsAboutNothing)
 {
   const Scene<2> scene = scene_of({{"Material/Plane", "stress"},
                                    {"Boundary left/Displacement", "0; free"},
+                                   {"Adaptivity/Tolerance", "0"},
                                    {"Boundary bottom/Contact", "bilateral"},
                                    {"Boundary right/Traction", "0.037; 0"}});
   AdaptiveSolver<2>(scene).run(
@@ -365,6 +366,7 @@ TEST(Floor, NothingActsAndNothingMoves)
 TEST(Floor, AnExactSolutionStopsTheRun)
 {
   const Scene<2> scene = scene_of({{"Boundary left/Displacement", "0; free"},
+                                   {"Adaptivity/Tolerance", "0"},
                                    {"Boundary bottom/Displacement", "free; 0"},
                                    {"Boundary top/Traction", "0; 0.37"}});
   AdaptiveSolver<2>(scene).run(
@@ -393,5 +395,89 @@ TEST(Floor, IsWhereTheTrueErrorFallsNoFurther)
   EXPECT_LT(errors.size(), 40u);
   EXPECT_LT(errors.back(), 2e-12);
   EXPECT_GT(errors.back(), 0.3 * errors[errors.size() - 2]); // it has stopped falling
+}
+
+/** Heat is data: what the last bits are worth does not count it, and the run goes on until nothing falls. */
+TEST(Floor, OfABodyUnderHeat)
+{
+  for (const std::string heat :
+       {"cos(pi*x/2)*cos(pi*y)", "cos(pi*x)", "20 + cos(pi*x/2) + cos(pi*y)"})
+    for (const std::string plane : {"stress", "strain"})
+    {
+      double relative = 1;
+      std::string stopped_by;
+      AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", "2, 1"},
+                                  {"Geometry/Subdivisions", "6, 3"},
+                                  {"Material/Plane", plane},
+                                  {"Material/Thermal expansion", "1e-5"},
+                                  {"Temperature/Expression", heat},
+                                  {"Boundary left/Symmetry", "true"},
+                                  {"Boundary right/Symmetry", "true"},
+                                  {"Boundary top/Symmetry", "true"},
+                                  {"Boundary bottom/Symmetry", "true"},
+                                  {"Error/Bound", "false"},
+                                  {"Adaptivity/Method", "pu"},
+                                  {"Adaptivity/Maximum degree", "20"},
+                                  {"Adaptivity/Maximum steps", "20"},
+                                  {"Adaptivity/Tolerance", "0"}}))
+          .run(
+              [&](const StepReport<2> &step)
+              {
+                stopped_by = step.stopped_by;
+                relative = step.relative_estimate;
+              });
+      EXPECT_EQ(stopped_by, "round-off") << heat << " " << plane;
+      EXPECT_LT(relative, 1e-10) << heat << " " << plane;
+    }
+}
+
+/** Free expansion has no stress but the round-off of two strains; patches are in balance beside these, and there is a bound. */
+TEST(Floor, OfABodyThatExpandsFreely)
+{
+  const Overrides free{{"Geometry/Upper corner", "2, 1"}, {"Geometry/Subdivisions", "4, 1"},
+                       {"Material/Plane", "stress"},      {"Material/Thermal expansion", "12e-6"},
+                       {"Temperature/Expression", "20"},  {"Boundary left/Displacement", "0; free"},
+                       {"Adaptivity/Tolerance", "0"},     {"Boundary bottom/Symmetry", "true"}};
+  const Overrides skew{{"Geometry/Shape", "quadrilateral"},
+                       {"Geometry/Corners", "0, 0; 2, 0; 1.6, 1; 0, 0.8"},
+                       {"Error/Bound on distorted cells", "true"}};
+  for (const auto &[name, others] : std::vector<std::pair<std::string, Overrides>>{
+           {"as it is", {}},
+           {"a strain",
+            {{"Temperature/Expression", "0"}, {"Material/Initial strain", "1e-3; -2e-3; 0"}}},
+           {"a strain that varies",
+            {{"Temperature/Expression", "0"}, {"Material/Initial strain", "1e-3*x; -2e-3; 0"}}},
+           {"plane strain", {{"Material/Plane", "strain"}}},
+           {"long", {{"Geometry/Upper corner", "2, 0.01"}}},
+           {"far away", {{"Geometry/Lower corner", "100, 0"}, {"Geometry/Upper corner", "102, 1"}}},
+           {"no parallelograms", skew},
+           {"two parts",
+            {{"Material stiff/Young's modulus", "1e3"}, {"Material stiff/Where", "x - 1"}}}})
+  {
+    Overrides entries = free;
+    for (const auto &entry : others)
+    {
+      entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                   [&](const auto &one)
+                                   {
+                                     return one.first == entry.first ||
+                                            (name == "no parallelograms" &&
+                                             one.first.find("corner") != std::string::npos);
+                                   }),
+                    entries.end());
+      entries.push_back(entry);
+    }
+    std::string stopped_by;
+    AdaptiveSolver<2>(scene_of(entries))
+        .run(
+            [&, name = name](const StepReport<2> &step)
+            {
+              stopped_by = step.stopped_by;
+              EXPECT_LE(step.number, 4U) << name;
+              EXPECT_TRUE(step.bound) << name << ": " << step.no_bound;
+              EXPECT_LT(step.bound_imbalance, 1e-9) << name;
+            });
+    EXPECT_EQ(stopped_by, "round-off") << name;
+  }
 }
 } // namespace

@@ -26,6 +26,23 @@ double initial_strain_across(const Scene<dim> &scene, const Cell &cell, const de
 }
 
 /**
+ * The slope of @p f by the reference coordinate @p r: by a difference of fourth order, whose error, 1e-15 of the fifth derivative, and
+ * round-off are both below what the last bits of u_N leave of an indicator.
+ */
+template <int dim, class Function>
+auto difference_along(const Function &f, const dealii::Point<dim> &reference, const unsigned int r)
+{
+  constexpr double step = 5e-4; // two of them stay in the cell
+  const auto beside = [&](const int n)
+  {
+    dealii::Point<dim> x = reference;
+    x[r] += n * step;
+    return f(x);
+  };
+  return (8. * (beside(1) - beside(-1)) - (beside(2) - beside(-2))) / (12 * step);
+}
+
+/**
  * `div C eps_0` at a point inside @p cell, by differences [stress/length]. Strains that belong to no displacement have slopes without
  * the symmetry of second derivatives: HookesLaw::divergence_of_stress() is not for them.
  */
@@ -34,20 +51,14 @@ dealii::Tensor<1, dim> initial_stress_divergence(const Scene<dim> &scene, const 
                                                  const CellMap<dim> &map,
                                                  const dealii::Point<dim> &reference)
 {
-  constexpr double step = 1e-4;
   const HookesLaw<dim> law(scene.material_of(cell));
   const dealii::Tensor<2, dim> inverse = dealii::invert(map.jacobian(reference));
   dealii::Tensor<1, dim> result;
   for (unsigned int r = 0; r < dim; ++r)
-  {
-    dealii::Point<dim> before(reference), behind(reference);
-    before[r] -= step;
-    behind[r] += step;
-    result += law.stress((scene.initial_strain_in(cell, map.point(behind)) -
-                          scene.initial_strain_in(cell, map.point(before))) /
-                         (2 * step)) *
+    result += law.stress(difference_along([&](const dealii::Point<dim> &x) -> dealii::Tensor<2, dim>
+                                          { return scene.initial_strain_in(cell, map.point(x)); },
+                                          reference, r)) *
               inverse[r];
-  }
   return result;
 }
 

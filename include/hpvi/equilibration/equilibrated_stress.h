@@ -36,7 +36,8 @@ public:
                      Volume volume = Volume::full);
 
   std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
-  double defect = 0; ///< largest violation of a condition N'r = 0, relative to the tractions
+  double defect =
+      0; ///< largest violation of a condition N'r = 0, relative to tractions, or initial stresses where these are larger
   unsigned int worst_vertex = 0;    ///< of the patch with it
   bool is_worst_in_corners = false; ///< as PatchDefect tells it from equilibrium
 
@@ -72,7 +73,7 @@ public:
 
 private:
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
-  void set_tractions(bool has_long_cells);
+  void set_tractions(bool has_long_cells, double initial_stress);
   void solve_patches();
   void solve_all_cells();
   void add_tractions(unsigned int cell, double *target) const;

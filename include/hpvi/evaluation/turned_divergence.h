@@ -37,17 +37,15 @@ turned_divergence(const Scene<dim> &scene, const Cell &cell, const CellMap<dim> 
   const dealii::SymmetricTensor<2, dim> sigma = law.stress(strain, hoop);
   dealii::Tensor<1, dim> slope = gradient[0] / x[0]; // of u_x/x
   slope[0] -= u[0] / (x[0] * x[0]);
-  constexpr double step = 1e-4; // as in initial_stress_divergence()
   const dealii::Tensor<2, dim> inverse = dealii::invert(map.jacobian(reference));
   for (unsigned int r = 0; r < dim && scene.has_initial_strain(); ++r)
   {
-    dealii::Point<dim> before(reference), behind(reference);
-    before[r] -= step;
-    behind[r] += step;
-    const double difference = initial_strain_across<dim>(scene, cell, map.point(behind)) -
-                              initial_strain_across<dim>(scene, cell, map.point(before));
+    const double difference =
+        difference_along([&](const dealii::Point<dim> &at)
+                         { return initial_strain_across<dim>(scene, cell, map.point(at)); },
+                         reference, r);
     for (unsigned int d = 0; d < dim; ++d)
-      slope[d] -= difference / (2 * step) * inverse[r][d];
+      slope[d] -= difference * inverse[r][d];
   }
   dealii::Tensor<1, dim> result = law.volume_modulus() * slope;
   result[0] += (sigma[0][0] - law.hoop_stress(strain, hoop)) / x[0];
