@@ -3,6 +3,7 @@
 #include "discretisation.h"
 
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/opposite_edges.h>
 
 #include <algorithm>
 #include <array>
@@ -657,6 +658,29 @@ TEST(DrawnPairs, LeaveOutEdgesThatAreFarForTheirRadius)
     ASSERT_GT(force, 1) << row.name;
     EXPECT_NEAR(highest / hertz_pressure(force, row.R), 1, 0.02) << row.name << " " << force;
   }
+}
+
+/** An edge that hangs over counts by its radius, in a body of any size: 1/cos 13 degrees - 1 = 0.026 of it is far, 1/cos 10 degrees - 1 = 0.015 near. */
+TEST(DrawnPairs, MeasureWhatHangsOverByItsRadius)
+{
+  for (const double radius : {0.1, 1., 5.})
+    for (const auto &[turn, is_far] : {std::make_pair(13, true), {10, false}})
+    {
+      const auto circle = std::make_shared<const Circle>(Point<2>(), radius);
+      std::vector<EdgePath> arcs;
+      for (int k = -3; k < 3; ++k)
+      {
+        const double from = (k * turn - 90) * degree, to = from + turn * degree;
+        arcs.push_back({{{circle->point(from), circle->point(to)}}, {circle, from, to}});
+      }
+      const double end = radius * std::tan(1.5 * turn * degree);
+      const std::vector<EdgePath> line{{{{Point<2>(end, -radius), Point<2>(-end, -radius)}}, {}}};
+      std::string problem;
+      const OppositeEdges edges =
+          opposite_edges({{DrawnSide(arcs), DrawnSide(line)}}, 0, 100, problem);
+      EXPECT_EQ(problem.empty(), is_far) << radius << " " << turn << " " << problem;
+      EXPECT_EQ(edges.left_out.number, is_far ? 2U : 0U) << radius << " " << turn;
+    }
 }
 
 /** A punch with fillets of radius 1 beside its flat foot, of which each has a pair with one bar; and on a rigid floor, where the gap says what is round. */
