@@ -561,7 +561,7 @@ def complaints():
     found = [f"{place}: no words of the message are found; give it literals, or name it in PASSED_ON of doc/messages.py" for place in silent]
     text = PAGE.read_text()
     said = {(kind, key): prose for kind, key, prose in re.findall(r"^@(WARNING|FAILURE) ([^@\n]+)@\n\n(.*?)\n(?=@|#|\Z)", text, re.M | re.S)}
-    kinds = re.findall(r"^  (\w+),? +///<", (ROOT / "include/hpvi/warnings/warnings.h").read_text(), re.M)
+    kinds = re.findall(r"^  (\w+),? +///<", (ROOT / "include/hpvi/results/warnings/warnings.h").read_text(), re.M)
     for kind in kinds:
         if not any(message.kind == kind for message in messages):
             found.append(f"warning {kind}: its text is not found in the sources")

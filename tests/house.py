@@ -29,25 +29,25 @@ EVALUATES = re.compile(
     r"|(?:component|function|displacement\[\w+\]|traction\[\w+\]|load\[\w\]|gap|u_D|past|expression|normal|tangential|given)(?:->|\.)value\(")
 EVALUATE_FREELY = ["input", "scene", "gmsh", "shapes", "closed_forms", "reader", "checks", "output", "program", "python", "cones"]
 EVALUATIONS = {
-    "include/hpvi/admissibility/admissible_pressure.h": 1, "include/hpvi/body/load_quadrature.h": 1,
-    "include/hpvi/contact/contact_space.h": 2, "include/hpvi/discretisation/initial_stress.h": 4,
-    "include/hpvi/evaluation/contact_traces.h": 1, "include/hpvi/evaluation/turned_divergence.h": 1,
-    "include/hpvi/moments/moment_space.h": 1, "source/admissibility/admissible_pressure.cc": 4,
-    "source/admissibility/face_contact.cc": 1, "source/body/displacement_cuts.cc": 2, "source/body/given_data.cc": 7,
-    "source/body/load_rule.cc": 4, "source/contact/collapse.cc": 3, "source/contact/contact_face.cc": 5,
-    "source/contact/contact_numbering.cc": 6, "source/contact/resistance.cc": 1, "source/discretisation/elastic_system.cc": 2,
-    "source/discretisation/initial_stress.cc": 3, "source/discretisation/missed_loads.cc": 1,
-    "source/discretisation/springs.cc": 1, "source/equilibration/boundary_tractions.cc": 3,
-    "source/equilibration/data_error.cc": 3, "source/equilibration/force_modes.cc": 3, "source/equilibration/initial_modes.cc":
-    1, "source/equilibration/macro_stresses.cc": 2, "source/evaluation/contact_residuals.cc": 1,
-    "source/evaluation/contact_state.cc": 2, "source/evaluation/elastic_strain.cc": 1,
-    "source/evaluation/residual_estimator.cc": 4, "source/evaluation/true_error.cc": 3, "source/evaluation/unseen_contact.cc":
-    2, "source/intervals/open_contact.cc": 1, "source/intervals/stress_work.cc": 1, "source/intervals/test_motion.cc": 1,
-    "source/moments/moment_space.cc": 3, "source/moments/primal_system.cc": 1, "source/moments/support_constraints.cc": 1,
-    "source/primal/contact_statics.cc": 1, "source/primal/load_check.cc": 1, "source/primal/load_work.cc": 1,
-    "source/primal/moment_field.cc": 1, "source/primal/nodal_forces.cc": 1, "source/primal/past_state.cc": 1,
-    "source/primal/upper_energy.cc": 1, "source/stresses/edge_polynomial.cc": 1, "source/warnings/contact.cc": 2}
-MOST_ARROWS = 170  # between rooms
+    "include/hpvi/bound/admissible_pressure.h": 1, "include/hpvi/plane/load_quadrature.h": 1,
+    "include/hpvi/plane/contact_space.h": 2, "include/hpvi/plane/initial_stress.h": 4,
+    "include/hpvi/results/contact_traces.h": 1, "include/hpvi/results/turned_divergence.h": 1,
+    "include/hpvi/space/moment_space.h": 1, "source/bound/admissible_pressure.cc": 4,
+    "source/bound/face_contact.cc": 1, "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
+    "source/plane/load_rule.cc": 4, "source/plane/collapse.cc": 3, "source/plane/contact_face.cc": 5,
+    "source/plane/contact_numbering.cc": 6, "source/plane/resistance.cc": 1, "source/plane/elastic_system.cc": 2,
+    "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
+    "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 3,
+    "source/bound/data_error.cc": 3, "source/bound/force_modes.cc": 3, "source/bound/initial_modes.cc":
+    1, "source/bound/macro_stresses.cc": 2, "source/results/contact_residuals.cc": 1,
+    "source/results/contact_state.cc": 2, "source/results/elastic_strain.cc": 1,
+    "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
+    2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 1,
+    "source/space/moment_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/support_constraints.cc": 1,
+    "source/space/contact_statics.cc": 1, "source/space/load_check.cc": 1, "source/space/load_work.cc": 1,
+    "source/space/moment_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
+    "source/space/upper_energy.cc": 1, "source/bound/edge_polynomial.cc": 1, "source/results/warnings/contact.cc": 2}
+MOST_ARROWS = 65  # between rooms
 problems = []
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A block lies on a plane and is pushed to the right; friction alone holds it.
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 
 #include <exception>
 #include <iomanip>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/friction_patch.h>
-#include <hpvi/contact/matching.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/friction_patch.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/plane/matching.h>
+#include <hpvi/results/contact_traces.h>
 
 #include <algorithm>
 #include <cmath>

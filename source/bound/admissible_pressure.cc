@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/admissibility/pressed_face.h>
-#include <hpvi/admissibility/pressure_neighbourhoods.h>
-#include <hpvi/contact/matching.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/pressed_face.h>
+#include <hpvi/bound/pressure_neighbourhoods.h>
+#include <hpvi/plane/matching.h>
 
 #include <algorithm>
 #include <cmath>

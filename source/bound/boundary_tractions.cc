@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/springs.h>
-#include <hpvi/equilibration/boundary_tractions.h>
-#include <hpvi/stresses/edge_polynomial.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/boundary_tractions.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/plane/springs.h>
 
 #include <algorithm>
 #include <cmath>

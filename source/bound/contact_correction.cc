@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/contact_correction.h>
-#include <hpvi/admissibility/correction_search.h>
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/bound/contact_correction.h>
+#include <hpvi/bound/correction_search.h>
 
 #include <utility>
 

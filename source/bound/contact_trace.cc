@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/contact_trace.h>
-#include <hpvi/contact/matching.h>
+#include <hpvi/bound/contact_trace.h>
+#include <hpvi/plane/matching.h>
 
 #include <iterator>
 #include <map>

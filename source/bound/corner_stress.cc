@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/stresses/corner_stress.h>
+#include <hpvi/bound/corner_stress.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/correction_search.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/correction_search.h>
+#include <hpvi/bound/legendre.h>
 
 #include <map>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/correction_search.h>
-#include <hpvi/admissibility/nodal_displacement.h>
+#include <hpvi/bound/correction_search.h>
+#include <hpvi/bound/nodal_displacement.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/correction_search.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/discretisation/springs.h>
-#include <hpvi/quadratic/inequality_program.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/correction_search.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/plane/springs.h>
+#include <hpvi/solvers/inequality_program.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/admissible_pressure.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/team.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/equilibration/data_error.h>
-#include <hpvi/equilibration/displacement_lift.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/data_error.h>
+#include <hpvi/bound/displacement_lift.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/internal_forces.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/displacement_lift.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/displacement_lift.h>
+#include <hpvi/bound/legendre.h>
 
 #include <algorithm>
 #include <cmath>

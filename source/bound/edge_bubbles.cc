@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/stresses/edge_bubbles.h>
+#include <hpvi/bound/edge_bubbles.h>
 
 namespace hpvi
 {

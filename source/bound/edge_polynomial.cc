@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/matching.h>
-#include <hpvi/stresses/edge_polynomial.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/plane/matching.h>
 
 #include <boost/math/tools/roots.hpp>
 

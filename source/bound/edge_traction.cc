@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/edge_traction.h>
+#include <hpvi/bound/edge_traction.h>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/discretisation/springs.h>
-#include <hpvi/equilibration/equilibrated_stress.h>
-#include <hpvi/equilibration/patches.h>
-#include <hpvi/equilibration/traction_system.h>
+#include <hpvi/bound/equilibrated_stress.h>
+#include <hpvi/bound/patches.h>
+#include <hpvi/bound/traction_system.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/springs.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/equilibration_cache.h>
+#include <hpvi/bound/equilibration_cache.h>
 
 #include <utility>
 

@@ -14,16 +14,16 @@
 // penetrate. The first term is the distance of two stresses, the second what the discrete friction misses of the law, and the third pays for
 // $w$, which takes the oscillation of $u_N$ around zero away where the body sticks. The proof, and
 // the terms that come from loads and supports which are no polynomials, are in doc/bound.md.
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/contact_correction.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/team.h>
 #include <hpvi/base/text.h>
-#include <hpvi/equilibration/data_error.h>
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/equilibration/macro_stresses.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/contact_correction.h>
+#include <hpvi/bound/data_error.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/bound/macro_stresses.h>
 
 #include <boost/math/tools/minima.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/face_contact.h>
+#include <hpvi/bound/face_contact.h>
 
 #include <algorithm>
 #include <numeric>

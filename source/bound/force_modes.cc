@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/force_modes.h>
+#include <hpvi/bound/force_modes.h>
 
 #include <algorithm>
 #include <array>

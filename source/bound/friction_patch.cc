@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/friction_patch.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/quadratic/inequality_program.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/friction_patch.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/solvers/inequality_program.h>
 
 #include <algorithm>
 #include <cmath>

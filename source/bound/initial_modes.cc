@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/equilibration/initial_modes.h>
+#include <hpvi/bound/initial_modes.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <array>

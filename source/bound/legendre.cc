@@ -3,7 +3,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_tools.h>
 #include <hpvi/base/common_table.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/legendre.h>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/stresses/macro_stress_element.h>
+#include <hpvi/bound/macro_stress_element.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/equilibration/macro_stresses.h>
+#include <hpvi/bound/macro_stresses.h>
+#include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <deal.II/base/geometry_info.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/stresses/macro_triangle.h>
+#include <hpvi/bound/macro_triangle.h>
 
 #include <algorithm>
 #include <cmath>

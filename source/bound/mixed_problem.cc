@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/schur_complement.h>
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/equilibration/mixed_problem.h>
+#include <hpvi/bound/mixed_problem.h>
+#include <hpvi/plane/iterative_refinement.h>
 
 namespace hpvi
 {

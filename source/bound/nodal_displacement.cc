@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/nodal_displacement.h>
+#include <hpvi/bound/nodal_displacement.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/node_freedom.h>
-#include <hpvi/body/supports.h>
-#include <hpvi/discretisation/springs.h>
+#include <hpvi/bound/node_freedom.h>
+#include <hpvi/plane/springs.h>
+#include <hpvi/plane/supports.h>
 
 #include <algorithm>
 #include <cmath>

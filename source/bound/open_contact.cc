@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/coarse_cuts.h>
-#include <hpvi/intervals/open_contact.h>
-#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/bound/open_contact.h>
+#include <hpvi/plane/coarse_cuts.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/common_table.h>
-#include <hpvi/equilibration/force_modes.h>
-#include <hpvi/equilibration/parallelogram_stresses.h>
-#include <hpvi/equilibration/stable_modes.h>
+#include <hpvi/bound/force_modes.h>
+#include <hpvi/bound/parallelogram_stresses.h>
+#include <hpvi/bound/stable_modes.h>
 
 #include <algorithm>
 #include <cmath>

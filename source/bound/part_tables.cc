@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
-#include <hpvi/intervals/part_tables.h>
+#include <hpvi/bound/part_tables.h>
 
 #include <vector>
 

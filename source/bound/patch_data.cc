@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/equilibration/patch_data.h>
+#include <hpvi/bound/patch_data.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/triangular.h>
 #include <hpvi/base/numbers.h>
-#include <hpvi/equilibration/patches.h>
+#include <hpvi/bound/patches.h>
 
 #include <algorithm>
 #include <cmath>

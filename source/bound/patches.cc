@@ -3,7 +3,7 @@
 // Patches of one signature share a factor, and those of one form the choice of their conditions. Both are made by the first of them, to
 // the last bit: so they are looked up in order, by one thread, and what is long in each step is done by all.
 #include <hpvi/base/team.h>
-#include <hpvi/equilibration/patches.h>
+#include <hpvi/bound/patches.h>
 
 #include <algorithm>
 #include <memory>

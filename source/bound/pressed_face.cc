@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/admissibility/pressed_face.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/pressed_face.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/admissibility/pressure_neighbourhoods.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/quadratic/inequality_program.h>
+#include <hpvi/bound/pressure_neighbourhoods.h>
+#include <hpvi/solvers/inequality_program.h>
 
 #include <algorithm>
 #include <cmath>

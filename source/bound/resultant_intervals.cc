@@ -9,8 +9,8 @@
 // times $|w|_a$. So all that is wanted are displacements of small energy with known boundary values. They are no part of
 // the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
 // edge than $V_N$ has.
-#include <hpvi/intervals/resultant_intervals.h>
-#include <hpvi/intervals/stress_work.h>
+#include <hpvi/bound/resultant_intervals.h>
+#include <hpvi/bound/stress_work.h>
 
 #include <algorithm>
 #include <cmath>

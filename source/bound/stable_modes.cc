@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/equilibration/stable_modes.h>
+#include <hpvi/bound/stable_modes.h>
 
 namespace hpvi
 {

@@ -2,9 +2,9 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/stresses/corner_stress.h>
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/stress_element.h>
+#include <hpvi/bound/corner_stress.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/stress_element.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/stress_space.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/stress_space.h>
 
 #include <algorithm>
 #include <cmath>

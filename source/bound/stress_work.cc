@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/team.h>
-#include <hpvi/body/load_quadrature.h>
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/evaluation/common_refinement.h>
-#include <hpvi/intervals/stress_work.h>
-#include <hpvi/intervals/test_motion.h>
+#include <hpvi/bound/stress_work.h>
+#include <hpvi/bound/test_motion.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/load_quadrature.h>
+#include <hpvi/results/common_refinement.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

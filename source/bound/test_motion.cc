@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/cut_rule.h>
 #include <hpvi/base/text.h>
-#include <hpvi/intervals/test_motion.h>
+#include <hpvi/bound/test_motion.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

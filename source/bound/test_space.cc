@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/intervals/stress_work.h>
-#include <hpvi/intervals/test_space.h>
+#include <hpvi/bound/stress_work.h>
+#include <hpvi/bound/test_space.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>

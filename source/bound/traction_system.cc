@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/equilibration/traction_system.h>
+#include <hpvi/bound/traction_system.h>
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/triangular.h>
 #include <hpvi/base/common_table.h>
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/triangle_stress.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/triangle_stress.h>
 
 #include <cmath>
 

@@ -4,15 +4,15 @@
 // mesh with degrees goes in, a solution with an estimate of its error comes out, and so does the next mesh. Whether a step is
 // solved on the contact boundary, by a dense program, or in the whole body, on many processes, is the business of a
 // <i>backend</i>; the loop is the same, and so is all that it says of a solution.
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/conclusion.h>
-#include <hpvi/adaptivity/step_stages.h>
-#include <hpvi/adaptivity/thickness.h>
-#include <hpvi/backends/threads.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/checks/rejection.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/conclusion.h>
+#include <hpvi/driver/step_stages.h>
+#include <hpvi/driver/thickness.h>
+#include <hpvi/driver/threads.h>
+#include <hpvi/reader/checks/rejection.h>
 
 namespace hpvi
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/all_cells.h>
-#include <hpvi/body/cell_ranks.h>
+#include <hpvi/driver/all_cells.h>
+#include <hpvi/plane/cell_ranks.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria_base.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/primal_backend.h>
-#include <hpvi/backends/reduced_backend.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/checks/checks.h>
+#include <hpvi/driver/primal_backend.h>
+#include <hpvi/driver/reduced_backend.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/mpi.h>

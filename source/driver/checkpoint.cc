@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/checkpoint.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
+#include <hpvi/driver/checkpoint.h>
 
 #include <algorithm>
 #include <charconv>

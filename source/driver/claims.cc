@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/claims.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/driver/claims.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/column_width.h>
+#include <hpvi/driver/column_width.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/column_width.h>
-#include <hpvi/adaptivity/conclusion.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/checks/rejection.h>
+#include <hpvi/driver/column_width.h>
+#include <hpvi/driver/conclusion.h>
+#include <hpvi/reader/checks/rejection.h>
 
 #include <algorithm>
 

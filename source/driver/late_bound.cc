@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/late_bound.h>
+#include <hpvi/driver/late_bound.h>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/limits.h>
 #include <hpvi/base/finite.h>
 #include <hpvi/base/text.h>
-#include <hpvi/discretisation/negligible_solution.h>
+#include <hpvi/driver/limits.h>
+#include <hpvi/plane/negligible_solution.h>
 
 #include <algorithm>
 #include <cmath>

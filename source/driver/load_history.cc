@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/contact/tangential_trace.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/discretisation/interpolation.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/interpolation.h>
+#include <hpvi/plane/tangential_trace.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 

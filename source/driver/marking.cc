@@ -3,7 +3,7 @@
 // The strategies of Chapter 5, and one of our own. All get the degrees, an indicator for each cell,
 // and a function that gives the decay rate of a cell; all give a list of cells to bisect and a list
 // of new degrees. A strategy is a case of a <code>switch</code>: none is longer than a few lines.
-#include <hpvi/adaptivity/marking.h>
+#include <hpvi/driver/marking.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/mean_intervals.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/intervals/dual_scene.h>
-#include <hpvi/intervals/stress_work.h>
+#include <hpvi/bound/dual_scene.h>
+#include <hpvi/bound/stress_work.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/mean_intervals.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <cmath>

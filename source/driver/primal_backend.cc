@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/primal_backend.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/cell_ranks.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/primal/contact_statics.h>
-#include <hpvi/primal/load_check.h>
-#include <hpvi/primal/memory_need.h>
-#include <hpvi/primal/moment_field.h>
-#include <hpvi/primal/mooring.h>
-#include <hpvi/primal/nodal_forces.h>
-#include <hpvi/primal/spread_mesh.h>
-#include <hpvi/primal/stored_values.h>
-#include <hpvi/primal/transfer.h>
-#include <hpvi/primal/upper_energy.h>
+#include <hpvi/driver/primal_backend.h>
+#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/space/contact_statics.h>
+#include <hpvi/space/load_check.h>
+#include <hpvi/space/memory_need.h>
+#include <hpvi/space/moment_field.h>
+#include <hpvi/space/mooring.h>
+#include <hpvi/space/nodal_forces.h>
+#include <hpvi/space/spread_mesh.h>
+#include <hpvi/space/stored_values.h>
+#include <hpvi/space/transfer.h>
+#include <hpvi/space/upper_energy.h>
 
 #include <algorithm>
 #include <cmath>

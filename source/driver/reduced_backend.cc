@@ -4,18 +4,18 @@
 // body, a dense program for friction and pressure remains. What steps share is little: tables of
 // shape functions, element matrices that come again, and the multiplier of the step before, as a
 // function on the contact boundary, from which the next one starts.
-#include <hpvi/backends/reduced_backend.h>
 #include <hpvi/base/finite.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
-#include <hpvi/body/curved_edges.h>
-#include <hpvi/body/folded_cell.h>
-#include <hpvi/contact/matching.h>
-#include <hpvi/discretisation/loaded_motions.h>
-#include <hpvi/discretisation/missed_loads.h>
-#include <hpvi/discretisation/negligible_solution.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/driver/reduced_backend.h>
+#include <hpvi/plane/curved_edges.h>
+#include <hpvi/plane/folded_cell.h>
+#include <hpvi/plane/loaded_motions.h>
+#include <hpvi/plane/matching.h>
+#include <hpvi/plane/missed_loads.h>
+#include <hpvi/plane/negligible_solution.h>
+#include <hpvi/results/solution_field.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/step_ahead.h>
 #include <hpvi/base/team.h>
+#include <hpvi/driver/step_ahead.h>
 
 #include <utility>
 

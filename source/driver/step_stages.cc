@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The stages of a step, in the order in which the loop calls them. They see numbers of a step, and ask its backend for those.
-#include <hpvi/adaptivity/all_cells.h>
-#include <hpvi/adaptivity/claims.h>
-#include <hpvi/adaptivity/column_width.h>
-#include <hpvi/adaptivity/late_bound.h>
-#include <hpvi/adaptivity/limits.h>
-#include <hpvi/adaptivity/marking.h>
-#include <hpvi/adaptivity/step_stages.h>
 #include <hpvi/base/finite.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
-#include <hpvi/discretisation/negligible_solution.h>
+#include <hpvi/driver/all_cells.h>
+#include <hpvi/driver/claims.h>
+#include <hpvi/driver/column_width.h>
+#include <hpvi/driver/late_bound.h>
+#include <hpvi/driver/limits.h>
+#include <hpvi/driver/marking.h>
+#include <hpvi/driver/step_stages.h>
+#include <hpvi/plane/negligible_solution.h>
 
 #include <deal.II/base/mpi.h>
 

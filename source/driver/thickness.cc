@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/thickness.h>
+#include <hpvi/driver/thickness.h>
 
 #include <cmath>
 

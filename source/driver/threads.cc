@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/backend.h>
-#include <hpvi/backends/threads.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/driver/threads.h>
 
 #include <algorithm>
 #include <cstdlib>

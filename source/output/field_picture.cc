@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/body/mesh.h>
 #include <hpvi/output/boundary_part.h>
 #include <hpvi/output/colour_bands.h>
 #include <hpvi/output/drawing.h>
@@ -8,6 +7,7 @@
 #include <hpvi/output/raster.h>
 #include <hpvi/output/run_files.h>
 #include <hpvi/output/scene_sheet.h>
+#include <hpvi/plane/mesh.h>
 
 #include <algorithm>
 #include <cmath>

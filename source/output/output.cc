@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/evaluation/stored_solution.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/output/collection.h>
 #include <hpvi/output/finished_run.h>
 #include <hpvi/output/output.h>
@@ -11,6 +9,8 @@
 #include <hpvi/output/step_files.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/output/written_names.h>
+#include <hpvi/reader/input/parameters.h>
+#include <hpvi/results/stored_solution.h>
 
 #include <deal.II/base/mpi.h>
 

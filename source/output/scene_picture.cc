@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/body/mesh.h>
 #include <hpvi/output/arrow_rows.h>
 #include <hpvi/output/axes.h>
 #include <hpvi/output/cell_outline.h>
@@ -9,6 +8,7 @@
 #include <hpvi/output/scene_marks.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/plane/mesh.h>
 
 #include <deal.II/grid/grid_tools.h>
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/backend.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/driver/backend.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/mesh_words.h>
 #include <hpvi/output/probe_marks.h>
 #include <hpvi/output/scene_words.h>
-#include <hpvi/primal/load_check.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
+#include <hpvi/space/load_check.h>
 
 #include <deal.II/grid/grid_tools.h>
 

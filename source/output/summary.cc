@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/threads.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/driver/threads.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/plate_report.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/values_at.h>
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/output/vtu.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/values_at.h>
 
 #include <algorithm>
 #include <array>

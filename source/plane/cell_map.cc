@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_ranks.h>
+#include <hpvi/plane/cell_ranks.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria_base.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/coarse_cuts.h>
+#include <hpvi/plane/coarse_cuts.h>
 
 #include <algorithm>
 

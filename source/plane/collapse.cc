@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/contact/collapse.h>
+#include <hpvi/plane/collapse.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_support.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/discretisation/condensation.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/discretisation/internal_forces.h>
+#include <hpvi/plane/condensation.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/internal_forces.h>
 
 #include <algorithm>
 #include <iterator>

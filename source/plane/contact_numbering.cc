@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/body/coarse_cuts.h>
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/coarse_cuts.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 // basis at the Gauss points and $w_i = \int\psi_i$. In these unknowns $B$ is the diagonal matrix of
 // the weights $w_i$. Nothing is lost, the change of basis has a condition of 1.8 at $p = 14$, and
 // everything that comes after becomes simple.
-#include <hpvi/contact/contact_operator.h>
+#include <hpvi/plane/contact_operator.h>
 
 #include <numeric>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/curved_edges.h>
-#include <hpvi/contact/contact_order.h>
+#include <hpvi/plane/contact_order.h>
+#include <hpvi/plane/curved_edges.h>
 
 #include <algorithm>
 #include <map>

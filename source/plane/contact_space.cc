@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/contact/contact_order.h>
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_order.h>
+#include <hpvi/plane/contact_space.h>
+#include <hpvi/plane/mesh.h>
 
 #include <algorithm>
 

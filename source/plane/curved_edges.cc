@@ -9,7 +9,7 @@
 // by the minimum rule. So each component of the map is a function of the space $V_N$: rigid motions
 // are in it and strain nothing, and moments balance to round-off. A map of lower degree would spoil
 // the order of convergence, an exact one would put a spurious spring on every rotation.
-#include <hpvi/body/curved_edges.h>
+#include <hpvi/plane/curved_edges.h>
 
 #include <algorithm>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/deformation.h>
+#include <hpvi/plane/deformation.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

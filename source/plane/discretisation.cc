@@ -5,9 +5,9 @@
 // To see what depends on what, read the initialiser lists.
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/memory.h>
-#include <hpvi/contact/matching.h>
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/matching.h>
 
 namespace hpvi
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/displacement_cuts.h>
+#include <hpvi/plane/displacement_cuts.h>
 
 #include <algorithm>
 #include <cmath>

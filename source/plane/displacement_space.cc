@@ -4,9 +4,9 @@
 // continuous across edges, and subject to the supports. It is made in two halves. The numbering
 // gives every cell its nodes, and neighbours share those that coincide; the constraints say of all
 // nodes that are not free how they follow from others.
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/edge_constraints.h>
-#include <hpvi/body/plates.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/edge_constraints.h>
+#include <hpvi/plane/plates.h>
 
 namespace hpvi
 {

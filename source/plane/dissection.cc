@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/dissection.h>
+#include <hpvi/plane/dissection.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/dof_numbering.h>
+#include <hpvi/plane/dof_numbering.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/edge_bow.h>
+#include <hpvi/plane/edge_bow.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

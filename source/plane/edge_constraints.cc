@@ -10,7 +10,7 @@
 // higher degree they extrapolate from the halves to the whole, with weights that reach thousands at
 // $p = 14$ and lift round-off accordingly. Here the master is the whole edge, which leaves weights
 // near one.
-#include <hpvi/body/edge_constraints.h>
+#include <hpvi/plane/edge_constraints.h>
 
 #include <algorithm>
 #include <cmath>

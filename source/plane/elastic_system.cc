@@ -5,11 +5,11 @@
 // unknowns first, $T^TKT$, and added afterwards: cells that are congruent and constrained in the
 // same way share the product, and of a mesh that has been bisected again and again many are.
 #include <hpvi/algebra/supervariables.h>
-#include <hpvi/body/dissection.h>
-#include <hpvi/body/plates.h>
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/initial_stress.h>
-#include <hpvi/discretisation/springs.h>
+#include <hpvi/plane/dissection.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/plates.h>
+#include <hpvi/plane/springs.h>
 
 #include <algorithm>
 #include <cmath>

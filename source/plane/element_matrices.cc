@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/polynomial.h>
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/body/tensor_stiffness.h>
+#include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/tensor_stiffness.h>
 
 #include <algorithm>
 #include <cmath>

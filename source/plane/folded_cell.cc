@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/folded_cell.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/folded_cell.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

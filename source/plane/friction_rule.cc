@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/friction_rule.h>
+#include <hpvi/plane/friction_rule.h>
 
 namespace hpvi
 {

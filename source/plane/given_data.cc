@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/box_cutter.h>
-#include <hpvi/body/given_data.h>
-#include <hpvi/body/load_quadrature.h>
+#include <hpvi/plane/given_data.h>
+#include <hpvi/plane/load_quadrature.h>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/team.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/team.h>
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/discretisation/springs.h>
+#include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/internal_forces.h>
+#include <hpvi/plane/springs.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/multiplier_trace.h>
-#include <hpvi/discretisation/interpolation.h>
+#include <hpvi/plane/interpolation.h>
+#include <hpvi/plane/multiplier_trace.h>
 
 #include <array>
 #include <map>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/discretisation/negligible_solution.h>
+#include <hpvi/plane/internal_forces.h>
+#include <hpvi/plane/iterative_refinement.h>
+#include <hpvi/plane/negligible_solution.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/common_table.h>
-#include <hpvi/body/load_rule.h>
+#include <hpvi/plane/load_rule.h>
 
 #include <algorithm>
 #include <cmath>

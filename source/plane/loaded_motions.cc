@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/loaded_motions.h>
+#include <hpvi/plane/loaded_motions.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/contact/matching.h>
+#include <hpvi/plane/matching.h>
 
 #include <algorithm>
 #include <cmath>

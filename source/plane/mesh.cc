@@ -2,9 +2,9 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/curved_edges.h>
-#include <hpvi/body/mesh.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/curved_edges.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/mesh_marks.h>
+#include <hpvi/plane/mesh_marks.h>
 
 namespace hpvi
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/missed_loads.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/missed_loads.h>
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/multiplier_trace.h>
+#include <hpvi/plane/multiplier_trace.h>
 
 #include <limits>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/negligible_solution.h>
+#include <hpvi/plane/negligible_solution.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/contact/pairing.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/pairing.h>
 #include <hpvi/scene/opposite_edges.h>
 
 #include <algorithm>

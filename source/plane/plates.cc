@@ -4,7 +4,7 @@
 // most, and those of its end nodes hold them: they are masters, as many as the plate has free motions, and
 // the constraints of the space express every other node of the plate by them.
 #include <deal.II/lac/full_matrix.h>
-#include <hpvi/body/plates.h>
+#include <hpvi/plane/plates.h>
 
 #include <algorithm>
 #include <cmath>

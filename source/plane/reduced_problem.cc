@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/timer.h>
-#include <hpvi/balance/balance_solver.h>
 #include <hpvi/base/finite.h>
-#include <hpvi/discretisation/reduced_problem.h>
-#include <hpvi/quadratic/active_set.h>
+#include <hpvi/plane/reduced_problem.h>
+#include <hpvi/solvers/active_set.h>
+#include <hpvi/solvers/balance_solver.h>
 
 #include <cmath>
 #include <sstream>

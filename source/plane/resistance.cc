@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/balance/equality_constraints.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/contact/collapse.h>
-#include <hpvi/contact/resistance.h>
+#include <hpvi/plane/collapse.h>
+#include <hpvi/plane/resistance.h>
+#include <hpvi/solvers/equality_constraints.h>
 
 #include <algorithm>
 #include <cmath>

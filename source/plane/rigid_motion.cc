@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/discretisation/rigid_motion.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/plane/rigid_motion.h>
 
 #include <algorithm>
 #include <cmath>

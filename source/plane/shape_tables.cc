@@ -7,7 +7,7 @@
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/common_table.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <cmath>
 #include <numeric>

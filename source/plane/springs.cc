@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_map.h>
-#include <hpvi/discretisation/springs.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/springs.h>
 
 namespace hpvi
 {

@@ -8,8 +8,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/supports.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/supports.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/tangential_trace.h>
+#include <hpvi/plane/tangential_trace.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/fe/fe_tools.h>
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/body/tensor_stiffness.h>
+#include <hpvi/plane/tensor_stiffness.h>
 
 #include <algorithm>
 #include <cmath>

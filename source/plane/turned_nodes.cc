@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/discretisation/turned_nodes.h>
+#include <hpvi/plane/turned_nodes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/discretisation/turned_nodes.h>
-#include <hpvi/discretisation/unknowns.h>
+#include <hpvi/plane/turned_nodes.h>
+#include <hpvi/plane/unknowns.h>
 
 #include <algorithm>
 #include <cmath>

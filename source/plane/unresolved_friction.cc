@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <algorithm>
 #include <cmath>

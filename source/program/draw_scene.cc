@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/program/draw_scene.h>
+#include <hpvi/reader/input/parameters.h>
 
 #include <iostream>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/program/inf_sup_run.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/terminal.h>
+#include <hpvi/results/inf_sup.h>
 
 #include <iomanip>
 #include <iostream>

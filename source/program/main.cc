@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/backends/backend.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/driver/backend.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/draw_scene.h>
@@ -15,6 +14,7 @@
 #include <hpvi/program/sweep_run.h>
 #include <hpvi/program/tell_of_run.h>
 #include <hpvi/program/terminal.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/last_word.h>
 #include <hpvi/output/output.h>

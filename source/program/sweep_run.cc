@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/backends/backend.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
@@ -8,7 +6,8 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/output/finished_run.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/result_directory.h>
@@ -19,6 +18,7 @@
 #include <hpvi/program/sweep_run.h>
 #include <hpvi/program/swept_run.h>
 #include <hpvi/program/terminal.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/evaluation/values_at.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/forces_table.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/python/result.h>
 #include <hpvi/reader/scene_reader.h>
+#include <hpvi/results/values_at.h>
 
 #include <deal.II/base/mpi.h>
 

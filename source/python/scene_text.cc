@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/python/scene_text.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_reader.h>

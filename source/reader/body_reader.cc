@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/expressions.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
+#include <hpvi/reader/input/expressions.h>
+#include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/shapes/hexahedra_from_file.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
-#include <hpvi/shapes/hexahedra_from_file.h>
-#include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/numbers.h>
 

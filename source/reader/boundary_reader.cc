@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/expressions.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/input/expressions.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/plate_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/opposite_edges.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/probe_reader.h>
 
 #include <deal.II/base/patterns.h>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/closed_forms/closed_form.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/material.h>
-#include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/patterns.h>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/reader/scene_reader.h>
-#include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
+#include <hpvi/reader/shapes/shape.h>
 
 #include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
-#include <hpvi/closed_forms/closed_form.h>
-#include <hpvi/input/expressions.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/input/expressions.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>

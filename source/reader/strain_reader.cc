@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/expressions.h>
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/body_reader.h>
+#include <hpvi/reader/input/expressions.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/strain_reader.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/contact_residuals.h>
-#include <hpvi/evaluation/turned_divergence.h>
+#include <hpvi/results/contact_residuals.h>
+#include <hpvi/results/turned_divergence.h>
 
 #include <algorithm>
 #include <array>

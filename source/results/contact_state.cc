@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/contact_zones.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/contact_zones.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/contact_zones.h>
+#include <hpvi/results/contact_zones.h>
 
 #include <algorithm>
 #include <array>

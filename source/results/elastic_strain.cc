@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/elastic_strain.h>
+#include <hpvi/results/elastic_strain.h>
 
 #include <algorithm>
 #include <cmath>

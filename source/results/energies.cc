@@ -3,9 +3,9 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/energies.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>

@@ -2,13 +2,13 @@
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
-#include <hpvi/body/edge_constraints.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/body/plates.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/discretisation/springs.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/plane/edge_constraints.h>
+#include <hpvi/plane/internal_forces.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/plane/plates.h>
+#include <hpvi/plane/springs.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/results/field.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <cmath>

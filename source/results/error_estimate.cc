@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
-#include <hpvi/evaluation/error_estimate.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/results/error_estimate.h>
+#include <hpvi/results/residual_estimator.h>
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/evaluation/field.h>
-#include <hpvi/evaluation/values_at.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/values_at.h>
 #include <hpvi/scene/contact_axes.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
-#include <hpvi/evaluation/field_difference.h>
+#include <hpvi/results/field_difference.h>
 
 namespace hpvi
 {

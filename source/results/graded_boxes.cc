@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/graded_boxes.h>
+#include <hpvi/results/graded_boxes.h>
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/body/curved_edges.h>
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/evaluation/inf_sup.h>
-#include <hpvi/quadratic/quadratic_program.h>
+#include <hpvi/plane/curved_edges.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/results/inf_sup.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_tools.h>
-#include <hpvi/evaluation/legendre_smoothness.h>
+#include <hpvi/results/legendre_smoothness.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_map.h>
-#include <hpvi/evaluation/probe_value.h>
-#include <hpvi/stresses/mean_gradients.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/results/mean_gradients.h>
+#include <hpvi/results/probe_value.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/disc_rule.h>
-#include <hpvi/body/given_data.h>
-#include <hpvi/evaluation/field.h>
-#include <hpvi/evaluation/probe_rule.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/disc_rule.h>
+#include <hpvi/plane/given_data.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/probe_rule.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>

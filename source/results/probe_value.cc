@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/evaluation/probe_rule.h>
-#include <hpvi/evaluation/probe_value.h>
+#include <hpvi/results/probe_rule.h>
+#include <hpvi/results/probe_value.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>

@@ -16,13 +16,13 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
-#include <hpvi/body/load_quadrature.h>
-#include <hpvi/body/second_derivatives.h>
-#include <hpvi/evaluation/contact_residuals.h>
-#include <hpvi/evaluation/elastic_strain.h>
-#include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/evaluation/shared_points.h>
-#include <hpvi/evaluation/turned_divergence.h>
+#include <hpvi/plane/load_quadrature.h>
+#include <hpvi/plane/second_derivatives.h>
+#include <hpvi/results/contact_residuals.h>
+#include <hpvi/results/elastic_strain.h>
+#include <hpvi/results/residual_estimator.h>
+#include <hpvi/results/shared_points.h>
+#include <hpvi/results/turned_divergence.h>
 
 #include <algorithm>
 #include <cmath>

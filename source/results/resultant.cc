@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/resultant.h>
+#include <hpvi/results/resultant.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/shared_points.h>
+#include <hpvi/results/shared_points.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/base/exceptions.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <algorithm>
 #include <cmath>

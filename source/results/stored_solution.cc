@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/body/curved_edges.h>
-#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/plane/curved_edges.h>
+#include <hpvi/results/stored_solution.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/elastic_strain.h>
-#include <hpvi/evaluation/probe_value.h>
-#include <hpvi/peaks/stress_peak.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/elastic_strain.h>
+#include <hpvi/results/probe_value.h>
+#include <hpvi/results/stress_peak.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/body/load_quadrature.h>
-#include <hpvi/evaluation/common_refinement.h>
-#include <hpvi/evaluation/field_difference.h>
-#include <hpvi/evaluation/graded_boxes.h>
-#include <hpvi/evaluation/true_error.h>
+#include <hpvi/plane/load_quadrature.h>
+#include <hpvi/results/common_refinement.h>
+#include <hpvi/results/field_difference.h>
+#include <hpvi/results/graded_boxes.h>
+#include <hpvi/results/true_error.h>
 
 #include <algorithm>
 #include <cmath>

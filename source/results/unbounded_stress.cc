@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_tools.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/peaks/unbounded_stress.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/unbounded_stress.h>
 
 #include <algorithm>
 #include <cmath>

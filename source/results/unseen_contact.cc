@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/deformation.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/plane/deformation.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/unseen_contact.h>
 
 #include <boost/math/tools/minima.hpp>
 

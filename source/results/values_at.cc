@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/mesh.h>
-#include <hpvi/evaluation/elastic_strain.h>
-#include <hpvi/evaluation/values_at.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/results/elastic_strain.h>
+#include <hpvi/results/values_at.h>
 
 #include <algorithm>
 #include <numeric>

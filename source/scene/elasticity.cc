@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/elasticity.h>
 
 #include <deal.II/base/utilities.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/checks/space_motion.h>
-#include <hpvi/checks/supports.h>
+#include <hpvi/reader/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/plate_motion.h>
+#include <hpvi/scene/space_motion.h>
 
 #include <algorithm>
 #include <array>

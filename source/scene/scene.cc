@@ -2,7 +2,7 @@
 #include <hpvi/scene/scene.h>
 
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>

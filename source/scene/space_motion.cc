@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/checks/space_motion.h>
+#include <hpvi/scene/space_motion.h>
 
 namespace hpvi
 {

@@ -6,8 +6,8 @@
 // Newton's method for $z = P(z - \alpha(Sz - d))$, and inherits its speed: a few factorisations,
 // and fewer still from the step before, whatever the condition of $S$. It is not bound to converge.
 // If a prediction comes again, it cycles, and MPRGP takes over from the point that was reached.
-#include <hpvi/quadratic/active_set.h>
-#include <hpvi/quadratic/newton_system.h>
+#include <hpvi/solvers/active_set.h>
+#include <hpvi/solvers/newton_system.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/householder.h>
-#include <hpvi/cones/anderson.h>
+#include <hpvi/solvers/anderson.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
-#include <hpvi/balance/balance_solver.h>
-#include <hpvi/quadratic/newton_system.h>
+#include <hpvi/solvers/balance_solver.h>
+#include <hpvi/solvers/newton_system.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/cones/cone_iterate.h>
+#include <hpvi/solvers/cone_iterate.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/cones/cone_newton.h>
+#include <hpvi/solvers/cone_newton.h>
 
 #include <algorithm>
 #include <cmath>

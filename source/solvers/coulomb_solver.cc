@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/cones/cone_newton.h>
-#include <hpvi/cones/coulomb_solver.h>
-#include <hpvi/cones/pressure_iteration.h>
+#include <hpvi/solvers/cone_newton.h>
+#include <hpvi/solvers/coulomb_solver.h>
+#include <hpvi/solvers/pressure_iteration.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/exceptions.h>
-#include <hpvi/balance/equality_constraints.h>
-#include <hpvi/balance/nearest_force.h>
+#include <hpvi/solvers/equality_constraints.h>
+#include <hpvi/solvers/nearest_force.h>
 
 #include <algorithm>
 #include <cmath>

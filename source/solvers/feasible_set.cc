@@ -4,7 +4,7 @@
 // plane, a half line for a pressure. All solvers work with any product of such sets, and this is the
 // only file that knows their shape: what is asked of it is below.
 #include <deal.II/base/exceptions.h>
-#include <hpvi/quadratic/feasible_set.h>
+#include <hpvi/solvers/feasible_set.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/cones/friction_cones.h>
+#include <hpvi/solvers/friction_cones.h>
 
 namespace hpvi
 {

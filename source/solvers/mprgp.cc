@@ -10,7 +10,7 @@
 // present face. An <i>expansion step</i> hits walls and takes in as many as a projected gradient
 // meets. A <i>proportioning step</i> leaves walls that have turned out wrong. Each lowers $q$, so
 // that the algorithm cannot cycle, and each costs one or two products with $S$.
-#include <hpvi/quadratic/mprgp.h>
+#include <hpvi/solvers/mprgp.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/balance/nearest_force.h>
+#include <hpvi/solvers/nearest_force.h>
 
 #include <algorithm>
 #include <cmath>

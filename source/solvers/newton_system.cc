@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/quadratic/newton_system.h>
+#include <hpvi/solvers/newton_system.h>
 
 namespace hpvi
 {

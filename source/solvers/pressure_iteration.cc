@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/balance/balance_solver.h>
 #include <hpvi/base/numbers.h>
-#include <hpvi/cones/anderson.h>
-#include <hpvi/cones/pressure_iteration.h>
-#include <hpvi/quadratic/active_set.h>
+#include <hpvi/solvers/active_set.h>
+#include <hpvi/solvers/anderson.h>
+#include <hpvi/solvers/balance_solver.h>
+#include <hpvi/solvers/pressure_iteration.h>
 
 #include <algorithm>
 #include <cmath>

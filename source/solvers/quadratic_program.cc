@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/exceptions.h>
 #include <deal.II/lac/lapack_templates.h>
-#include <hpvi/quadratic/quadratic_program.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/moments/box_stiffness.h>
+#include <hpvi/space/box_stiffness.h>
 
 #include <algorithm>
 #include <cmath>

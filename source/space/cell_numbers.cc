@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/primal/cell_numbers.h>
+#include <hpvi/space/cell_numbers.h>
 
 #include <deal.II/base/mpi.h>
 

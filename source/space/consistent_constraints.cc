@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/moments/consistent_constraints.h>
+#include <hpvi/space/consistent_constraints.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/moments/contact_moment.h>
+#include <hpvi/space/contact_moment.h>
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/moments/rigid_motions.h>
-#include <hpvi/primal/contact_statics.h>
+#include <hpvi/space/contact_statics.h>
+#include <hpvi/space/rigid_motions.h>
 
 #include <algorithm>
 #include <array>

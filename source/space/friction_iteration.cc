@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/primal/friction_iteration.h>
+#include <hpvi/space/friction_iteration.h>
 
 #include <deal.II/base/mpi.h>
 

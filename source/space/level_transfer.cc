@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/multigrid/level_transfer.h>
+#include <hpvi/space/level_transfer.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/primal/load_check.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/space/load_check.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/load_quadrature.h>
-#include <hpvi/body/shape_tables.h>
-#include <hpvi/primal/load_work.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/load_quadrature.h>
+#include <hpvi/plane/shape_tables.h>
+#include <hpvi/space/load_work.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/primal/memory_need.h>
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/space/memory_need.h>
+#include <hpvi/space/moment_matrix.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/contact/friction_rule.h>
-#include <hpvi/primal/moment_field.h>
+#include <hpvi/plane/friction_rule.h>
+#include <hpvi/space/moment_field.h>
 
 #include <algorithm>
 #include <cmath>

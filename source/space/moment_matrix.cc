@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/moments/rigid_motions.h>
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/space/moment_matrix.h>
+#include <hpvi/space/rigid_motions.h>
 
 #include <deal.II/base/timer.h>
 

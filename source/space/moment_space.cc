@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
-#include <hpvi/checks/space_motion.h>
-#include <hpvi/moments/consistent_constraints.h>
-#include <hpvi/moments/moment_space.h>
-#include <hpvi/moments/support_constraints.h>
+#include <hpvi/scene/space_motion.h>
+#include <hpvi/space/consistent_constraints.h>
+#include <hpvi/space/moment_space.h>
+#include <hpvi/space/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

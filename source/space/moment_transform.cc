@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/multigrid/moment_transform.h>
+#include <hpvi/space/moment_transform.h>
 
 #include <map>
 

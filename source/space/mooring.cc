@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/primal/mooring.h>
+#include <hpvi/space/mooring.h>
 
 #include <algorithm>
 #include <cmath>

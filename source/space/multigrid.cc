@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/multigrid/multigrid.h>
+#include <hpvi/space/multigrid.h>
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 

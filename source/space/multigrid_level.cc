@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/multigrid/multigrid_level.h>
+#include <hpvi/space/multigrid_level.h>
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/primal/nodal_forces.h>
+#include <hpvi/space/nodal_forces.h>
 
 #include <hpvi/base/processes.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/load_quadrature.h>
-#include <hpvi/moments/support_constraints.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/load_quadrature.h>
+#include <hpvi/space/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>

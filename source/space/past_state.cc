@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/primal/load_work.h>
-#include <hpvi/primal/past_state.h>
+#include <hpvi/space/load_work.h>
+#include <hpvi/space/past_state.h>
 
 #include <algorithm>
 #include <vector>

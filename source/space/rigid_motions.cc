@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/moments/rigid_motions.h>
+#include <hpvi/space/rigid_motions.h>
 
 namespace hpvi
 {

@@ -2,9 +2,9 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/checks/checks.h>
-#include <hpvi/primal/spread_mesh.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/space/spread_mesh.h>
 
 namespace hpvi
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_ranks.h>
-#include <hpvi/primal/cell_numbers.h>
-#include <hpvi/primal/stored_values.h>
-#include <hpvi/primal/transfer.h>
+#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/space/cell_numbers.h>
+#include <hpvi/space/stored_values.h>
+#include <hpvi/space/transfer.h>
 
 namespace hpvi
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_map.h>
-#include <hpvi/moments/support_constraints.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/contact_axes.h>
+#include <hpvi/space/support_constraints.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/primal/transfer.h>
+#include <hpvi/space/transfer.h>
 
 #include <deal.II/base/utilities.h>
 

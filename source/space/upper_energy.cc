@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/primal/load_work.h>
-#include <hpvi/primal/upper_energy.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/space/load_work.h>
+#include <hpvi/space/upper_energy.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

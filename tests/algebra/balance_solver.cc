@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs.h"
 
-#include <hpvi/balance/balance_solver.h>
-#include <hpvi/quadratic/active_set.h>
+#include <hpvi/solvers/active_set.h>
+#include <hpvi/solvers/balance_solver.h>
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include "programs.h"
 
-#include <hpvi/cones/coulomb_solver.h>
+#include <hpvi/solvers/coulomb_solver.h>
 
 /** Problems of Coulomb friction, and what their solutions fulfil. */
 namespace algebra

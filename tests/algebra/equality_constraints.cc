@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs.h"
 
-#include <hpvi/balance/equality_constraints.h>
+#include <hpvi/solvers/equality_constraints.h>
 
 namespace
 {

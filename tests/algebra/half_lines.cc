@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs.h"
 
-#include <hpvi/quadratic/active_set.h>
+#include <hpvi/solvers/active_set.h>
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 #include "programs.h"
 
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/quadratic/inequality_program.h>
+#include <hpvi/solvers/inequality_program.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 #include <gtest/gtest.h>
-#include <hpvi/quadratic/mprgp.h>
+#include <hpvi/solvers/mprgp.h>
 
 #include <cmath>
 #include <initializer_list>

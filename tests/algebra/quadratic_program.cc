@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
-#include <hpvi/quadratic/quadratic_program.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 #include <cmath>
 #include <initializer_list>

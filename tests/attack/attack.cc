@@ -14,12 +14,12 @@
 #include "touching_scene.h"
 
 #include <deal.II/base/mpi.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/stored_solution.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Theorem 4.5, cell by cell: the residual indicator beside the true error, as a table. ./run efficiency.
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the stress in equilibrium and the error are made of near incompressibility, as a table: with the pressure of u_N,
 // and with that of the mixed method. ./run incompressible.
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/equilibration/equilibrated_stress.h>
-#include <hpvi/equilibration/mixed_problem.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/equilibrated_stress.h>
+#include <hpvi/bound/mixed_problem.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <array>

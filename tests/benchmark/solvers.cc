@@ -15,8 +15,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_templates.h>
 #include <dmumps_c.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 #include <metis.h>
 

@@ -3,7 +3,7 @@
 // scenes takes it or throws InputError with one printable line; what it took, printed, is taken again and printed alike.
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>

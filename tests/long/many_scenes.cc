@@ -2,8 +2,8 @@
 // A thousand scenes in one process, on both paths, one after the other and two at a time, and a load history of 2000
 // steps: the memory that it uses does not grow, and each result has the bytes of a fresh process's. ./run long.
 #include <deal.II/base/mpi.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <malloc.h>

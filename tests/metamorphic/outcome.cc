@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "outcome.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "frame.h"
 
 #include <deal.II/base/point.h>
-#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/results/contact_state.h>
 
 #include <array>
 #include <limits>

@@ -2,7 +2,7 @@
 // Fields in closed form: the primal path reproduces polynomials and converges at its rate to others.
 #include "runs.h"
 
-#include <hpvi/evaluation/true_error.h>
+#include <hpvi/results/true_error.h>
 
 #include <filesystem>
 #include <fstream>

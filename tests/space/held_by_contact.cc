@@ -2,8 +2,8 @@
 // Bodies in space that contact alone holds: exact fields, balance, the plane, and what no contact can hold.
 #include "runs.h"
 
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/driver/load_history.h>
 
 #include <array>
 

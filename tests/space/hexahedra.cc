@@ -4,7 +4,7 @@
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/gmsh/hexahedral_file.h>
+#include <hpvi/reader/gmsh/hexahedral_file.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Histories of loads on the primal path: those of the plane, and slabs that are as they are.
 #include "runs.h"
 
-#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/driver/load_history.h>
 
 namespace
 {

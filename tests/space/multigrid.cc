@@ -2,8 +2,8 @@
 // Multigrid without a matrix beside the assembled matrix and factorisations.
 #include "runs.h"
 
-#include <hpvi/multigrid/multigrid.h>
-#include <hpvi/primal/moment_newton.h>
+#include <hpvi/space/moment_newton.h>
+#include <hpvi/space/multigrid.h>
 
 #include <deal.II/grid/grid_generator.h>
 

@@ -2,8 +2,8 @@
 // What finds stick and slip: Newton's method, what takes its place, and where they stop.
 #include "runs.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/driver/adaptive_solver.h>
 
 #include <algorithm>
 

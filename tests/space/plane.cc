@@ -2,7 +2,7 @@
 // What the plane knows: there both paths solve the same discrete problem, and so does a slab in space.
 #include "runs.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 
 #include <algorithm>
 #include <limits>

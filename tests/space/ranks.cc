@@ -2,9 +2,9 @@
 // The same run on one process and on all that mpirun has started: in ctest on 1, 2 and 3.
 #include "runs.h"
 
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/moments/consistent_constraints.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/space/consistent_constraints.h>
 
 #include <deal.II/dofs/dof_tools.h>
 

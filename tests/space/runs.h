@@ -3,7 +3,7 @@
 #define hpvi_space_runs_h
 
 #include <gtest/gtest.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <cmath>

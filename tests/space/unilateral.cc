@@ -2,9 +2,9 @@
 // Contact that may open: pressures at the Gauss points of contact faces, on the primal path.
 #include "reduced_path.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/primal/transfer.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/space/transfer.h>
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 // Each warning that any solution may deserve, on both paths in the plane and in space.
 #include "runs.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/warnings/warnings.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/results/warnings/warnings.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // True errors, stored reference solutions, and the limits that stop a run.
 #include "discretisation.h"
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -2,8 +2,8 @@
 // Bodies of revolution against closed forms: tubes, shafts, and a sleeve that rubs in a ring.
 #include "discretisation.h"
 
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/results/residual_estimator.h>
 
 #include <complex>
 

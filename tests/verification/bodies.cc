@@ -3,10 +3,10 @@
 #include "discretisation.h"
 #include "mesh_texts.h"
 
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/evaluation/contact_residuals.h>
-#include <hpvi/peaks/stress_peak.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/results/contact_residuals.h>
+#include <hpvi/results/stress_peak.h>
 #include <hpvi/scene/bodies.h>
 
 #include <array>

@@ -2,10 +2,10 @@
 // The guaranteed bound where bodies touch: one traction for both, meshes that match and go on so, known energies.
 #include "discretisation.h"
 
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/contact/matching.h>
-#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/plane/matching.h>
 
 #include <algorithm>
 #include <cmath>

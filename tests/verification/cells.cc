@@ -3,7 +3,7 @@
 #include "dense_elimination.h"
 #include "discretisation.h"
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>

@@ -5,9 +5,9 @@
 
 #include <deal.II/numerics/vector_tools_interpolate.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/solution_field.h>
 
 #include <algorithm>
 

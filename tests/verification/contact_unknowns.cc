@@ -2,7 +2,7 @@
 // Moments and nodes of both directions as unknowns, and multipliers that go from mesh to mesh.
 #include "opening_contact.h"
 
-#include <hpvi/contact/multiplier_trace.h>
+#include <hpvi/plane/multiplier_trace.h>
 
 namespace
 {

@@ -2,7 +2,7 @@
 // Rates: manufactured solutions, energies, and the adaptive methods on both thesis examples.
 #include "friction_quadrature.h"
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Coulomb friction against closed forms, a published benchmark, statics and its own conditions.
 #include "coulomb_law.h"
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/closed_forms/partial_slip.h>
-#include <hpvi/closed_forms/stick_slip.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 namespace
 {

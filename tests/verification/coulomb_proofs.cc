@@ -2,11 +2,11 @@
 // Coulomb friction: closed forms with their true errors, limits, several solutions, failures.
 #include "coulomb_law.h"
 
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/closed_forms/partial_slip.h>
-#include <hpvi/closed_forms/stick_slip.h>
-#include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
+#include <hpvi/results/residual_estimator.h>
+#include <hpvi/results/solution_field.h>
 
 #include <limits>
 #include <map>

@@ -3,15 +3,15 @@
 #include "discretisation.h"
 #include "mesh_texts.h"
 
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/contact/multiplier_trace.h>
-#include <hpvi/evaluation/contact_residuals.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/plane/multiplier_trace.h>
+#include <hpvi/reader/shapes/ring_sector.h>
+#include <hpvi/reader/shapes/shape.h>
+#include <hpvi/results/contact_residuals.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/opposite_edges.h>
 #include <hpvi/scene/side_normals.h>
-#include <hpvi/shapes/ring_sector.h>
-#include <hpvi/shapes/shape.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

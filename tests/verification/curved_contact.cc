@@ -3,16 +3,16 @@
 // past, plates, the order of points; and what is said of cells that curves spoil.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/file_format.h>
-#include <hpvi/body/folded_cell.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/plane/folded_cell.h>
+#include <hpvi/reader/shapes/half_disc.h>
+#include <hpvi/reader/shapes/ring_sector.h>
+#include <hpvi/results/residual_estimator.h>
+#include <hpvi/results/warnings/body_state.h>
+#include <hpvi/results/warnings/warnings.h>
 #include <hpvi/scene/plate_motion.h>
-#include <hpvi/shapes/half_disc.h>
-#include <hpvi/shapes/ring_sector.h>
-#include <hpvi/warnings/body_state.h>
-#include <hpvi/warnings/warnings.h>
 
 #include <cmath>
 

@@ -2,15 +2,15 @@
 // Bodies with curved edges: what their maps are, closed forms on rings and plates with holes, contact along arcs.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/gmsh/quadratic_edge.h>
-#include <hpvi/shapes/curve_fit.h>
-#include <hpvi/shapes/half_disc.h>
-#include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/plate_with_hole.h>
-#include <hpvi/shapes/ring_sector.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/reader/gmsh/quadratic_edge.h>
+#include <hpvi/reader/shapes/curve_fit.h>
+#include <hpvi/reader/shapes/half_disc.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
+#include <hpvi/reader/shapes/plate_with_hole.h>
+#include <hpvi/reader/shapes/ring_sector.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <cmath>
 

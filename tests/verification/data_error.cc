@@ -2,8 +2,8 @@
 // What the bound of the error pays for loads and displacements that are no polynomials: its constants, worked out by hand.
 #include "discretisation.h"
 
-#include <hpvi/equilibration/data_error.h>
-#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/bound/data_error.h>
+#include <hpvi/bound/error_bound.h>
 
 namespace
 {

@@ -8,7 +8,7 @@
 #include <deal.II/fe/fe_series.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/grid_generator.h>
-#include <hpvi/adaptivity/marking.h>
+#include <hpvi/driver/marking.h>
 
 #include <algorithm>
 #include <numeric>

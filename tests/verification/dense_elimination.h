@@ -3,7 +3,7 @@
 #define hpvi_dense_elimination_h
 
 #include <gtest/gtest.h>
-#include <hpvi/discretisation/condensation.h>
+#include <hpvi/plane/condensation.h>
 
 #include <algorithm>
 #include <cmath>

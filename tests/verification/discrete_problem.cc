@@ -2,7 +2,7 @@
 // The discrete problem as a whole: equations, complementarity, patch tests, rotation, conformity.
 #include "friction_quadrature.h"
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -3,11 +3,11 @@
 #define hpvi_verification_discretisation_h
 
 #include <gtest/gtest.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/plane/internal_forces.h>
 #include <hpvi/reader/scene_reader.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/stored_solution.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // Lifts of prescribed displacements beside the least energy that a cell can have, from its stiffness matrix.
 #include "discretisation.h"
 
-#include <hpvi/equilibration/displacement_lift.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/displacement_lift.h>
+#include <hpvi/bound/legendre.h>
 
 #include <cmath>
 

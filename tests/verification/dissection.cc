@@ -2,7 +2,7 @@
 // What is known of A before anyone looks at it: is it true?
 #include "discretisation.h"
 
-#include <hpvi/body/dissection.h>
+#include <hpvi/plane/dissection.h>
 
 #include <deal.II/grid/grid_generator.h>
 

@@ -3,7 +3,7 @@
 #include "dense_elimination.h"
 #include "discretisation.h"
 
-#include <hpvi/body/element_matrices.h>
+#include <hpvi/plane/element_matrices.h>
 
 namespace
 {

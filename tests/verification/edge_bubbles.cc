@@ -2,7 +2,7 @@
 #include "discretisation.h"
 
 #include <deal.II/fe/fe_tools.h>
-#include <hpvi/admissibility/contact_correction.h>
+#include <hpvi/bound/contact_correction.h>
 
 #include <numeric>
 

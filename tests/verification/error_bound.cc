@@ -3,11 +3,11 @@
 // error below the bound?
 #include "discretisation.h"
 
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/admissibility/contact_correction.h>
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/contact_correction.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/results/solution_field.h>
 
 #include <algorithm>
 #include <limits>

@@ -2,10 +2,10 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <gtest/gtest.h>
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/closed_forms/partial_slip.h>
-#include <hpvi/closed_forms/smooth.h>
-#include <hpvi/closed_forms/stick_slip.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
+#include <hpvi/reader/closed_forms/smooth.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <array>

@@ -2,9 +2,9 @@
 // What friction adds to the bound of the error: admissible friction, the correction of the slip.
 #include "discretisation.h"
 
-#include <hpvi/admissibility/contact_correction.h>
-#include <hpvi/admissibility/correction_search.h>
-#include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/bound/contact_correction.h>
+#include <hpvi/bound/correction_search.h>
+#include <hpvi/bound/equilibrated_stress.h>
 
 #include <algorithm>
 #include <numeric>

@@ -2,7 +2,7 @@
 // What the laws of friction allow, and the two that take a bound and a coefficient.
 #include "coulomb_law.h"
 
-#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/driver/load_history.h>
 
 #include <limits>
 

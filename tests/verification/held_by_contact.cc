@@ -3,7 +3,7 @@
 #include "opening_contact.h"
 
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // The discrete inf-sup constant: bounded below for degree p - 2, falling or zero above.
 #include "discretisation.h"
 
-#include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/results/inf_sup.h>
 
 #include <limits>
 

@@ -4,8 +4,8 @@
 #include "discretisation.h"
 
 #include <hpvi/base/text.h>
-#include <hpvi/body/mesh.h>
 #include <hpvi/output/output.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // Guaranteed intervals of forces and mean displacements: do they hold what is known, and do all of one run meet?
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/intervals/dual_scene.h>
-#include <hpvi/intervals/resultant_intervals.h>
+#include <hpvi/bound/dual_scene.h>
+#include <hpvi/bound/resultant_intervals.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 // Histories of loads: slip is counted from the load step before, and energy is accounted for.
 #include "opening_contact.h"
 
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/closed_forms/partial_slip.h>
-#include <hpvi/contact/tangential_trace.h>
-#include <hpvi/discretisation/interpolation.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/plane/interpolation.h>
+#include <hpvi/plane/tangential_trace.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
 
 #include <array>
 #include <cstdio>

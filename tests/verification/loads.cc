@@ -3,9 +3,9 @@
 // under them.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/intervals/test_motion.h>
+#include <hpvi/bound/test_motion.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/plane/mesh.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // it, and is it the same in each frame?
 #include "discretisation.h"
 
-#include <hpvi/equilibration/vertex_patches.h>
+#include <hpvi/bound/vertex_patches.h>
 
 namespace
 {

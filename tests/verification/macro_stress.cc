@@ -2,7 +2,7 @@
 // Equilibrated stresses on quadrilaterals that are no parallelograms.
 #include "discretisation.h"
 
-#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/bound/error_bound.h>
 
 #include <algorithm>
 #include <numeric>

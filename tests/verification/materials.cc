@@ -3,11 +3,11 @@
 #include "discretisation.h"
 
 #include <gtest/gtest.h>
-#include <hpvi/adaptivity/adaptive_solver.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/true_error.h>
+#include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/residual_estimator.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/true_error.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "mesh_texts.h"
 
 #include <hpvi/base/input_error.h>
-#include <hpvi/gmsh/quadratic_edge.h>
+#include <hpvi/reader/gmsh/quadratic_edge.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_texts_h
 #define hpvi_mesh_texts_h
 
-#include <hpvi/gmsh/mesh_file.h>
+#include <hpvi/reader/gmsh/mesh_file.h>
 
 #include <string>
 

@@ -2,8 +2,8 @@
 // Scenes of orthotropic materials: displacement, energies, indicator and bound.
 #include "discretisation.h"
 
-#include <hpvi/backends/backend.h>
-#include <hpvi/evaluation/true_error.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/results/true_error.h>
 
 #include <limits>
 

@@ -3,10 +3,10 @@
 #include "discretisation.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <hpvi/discretisation/internal_forces.h>
-#include <hpvi/equilibration/mixed_problem.h>
-#include <hpvi/evaluation/contact_traces.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/bound/mixed_problem.h>
+#include <hpvi/plane/internal_forces.h>
+#include <hpvi/results/contact_traces.h>
+#include <hpvi/results/solution_field.h>
 
 #include <complex>
 

@@ -2,8 +2,8 @@
 // Rigid plates: boundaries that move as a whole, under forces and moments. And bodies with all that a scene can have.
 #include "discretisation.h"
 
-#include <hpvi/body/plates.h>
-#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/plane/plates.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <cmath>
 #include <numeric>

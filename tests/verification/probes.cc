@@ -2,15 +2,15 @@
 // What results tell of single places, against closed forms; and the rules behind it.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/column_width.h>
-#include <hpvi/adaptivity/limits.h>
-#include <hpvi/adaptivity/thickness.h>
-#include <hpvi/body/disc_rule.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/evaluation/probe_rule.h>
-#include <hpvi/evaluation/values_at.h>
+#include <hpvi/driver/column_width.h>
+#include <hpvi/driver/limits.h>
+#include <hpvi/driver/thickness.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/plane/disc_rule.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/results/probe_rule.h>
+#include <hpvi/results/values_at.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

@@ -5,8 +5,8 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/multithread_info.h>
-#include <hpvi/evaluation/inf_sup.h>
 #include <hpvi/output/output.h>
+#include <hpvi/results/inf_sup.h>
 
 #include <sys/stat.h>
 

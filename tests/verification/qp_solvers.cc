@@ -2,7 +2,7 @@
 // The solvers of the reduced problem on scenes: same results, whatever solver and start.
 #include "discretisation.h"
 
-#include <hpvi/contact/multiplier_trace.h>
+#include <hpvi/plane/multiplier_trace.h>
 
 namespace
 {

@@ -3,8 +3,8 @@
 #include "discretisation.h"
 
 #include <hpvi/base/text.h>
-#include <hpvi/closed_forms/stick_slip.h>
 #include <hpvi/output/output.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
 

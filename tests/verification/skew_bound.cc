@@ -3,7 +3,7 @@
 // touches the edges that meet at a corner.
 #include "discretisation.h"
 
-#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/bound/error_bound.h>
 
 namespace
 {

@@ -2,9 +2,9 @@
 // Whole runs that write every file, short enough for a Debug build: there deal.II's assertions speak.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/evaluation/inf_sup.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/output/output.h>
+#include <hpvi/results/inf_sup.h>
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 // Elastic foundations, rigid plates and initial strains: what they add to energies, to the indicator and to the bound of the error.
 #include "discretisation.h"
 
-#include <hpvi/discretisation/springs.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/plane/springs.h>
+#include <hpvi/results/residual_estimator.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/summary.h>
 

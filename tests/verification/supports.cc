@@ -2,7 +2,7 @@
 // Conditions that meet at one node, and the forces that they exert.
 #include "discretisation.h"
 
-#include <hpvi/body/supports.h>
+#include <hpvi/plane/supports.h>
 
 #include <algorithm>
 

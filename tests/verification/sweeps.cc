@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/input/sweep.h>
 #include <hpvi/output/sweep_table.h>
+#include <hpvi/reader/input/sweep.h>
 
 #include <atomic>
 #include <stdexcept>

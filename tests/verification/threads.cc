@@ -3,11 +3,11 @@
 #include "discretisation.h"
 
 #include <gtest/gtest.h>
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/team.h>
+#include <hpvi/driver/load_history.h>
 
 #include <atomic>
 #include <string>

@@ -3,12 +3,12 @@
 // that another number would decide otherwise.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/limits.h>
-#include <hpvi/adaptivity/load_history.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/evaluation/solution_field.h>
-#include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/driver/limits.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/unseen_contact.h>
 
 namespace
 {

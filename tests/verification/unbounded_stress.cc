@@ -2,7 +2,7 @@
 // Where stresses are largest, and which of them grow without bound.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/load_history.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/output/contact_report.h>
 
 namespace

@@ -2,7 +2,7 @@
 // Contact that may open where the answer is known: patch tests, press fits, separation.
 #include "opening_contact.h"
 
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/results/solution_field.h>
 
 namespace
 {

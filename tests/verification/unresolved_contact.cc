@@ -3,7 +3,7 @@
 // and warned of until the mesh resolves them.
 #include "discretisation.h"
 
-#include <hpvi/evaluation/unseen_contact.h>
+#include <hpvi/results/unseen_contact.h>
 
 namespace
 {

@@ -2,14 +2,14 @@
 // Each warning where it belongs, and not where it does not.
 #include "discretisation.h"
 
-#include <hpvi/adaptivity/load_history.h>
-#include <hpvi/body/deformation.h>
-#include <hpvi/checks/rejection.h>
-#include <hpvi/evaluation/probe_value.h>
-#include <hpvi/evaluation/solution_field.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/plane/deformation.h>
+#include <hpvi/reader/checks/rejection.h>
+#include <hpvi/results/mean_gradients.h>
+#include <hpvi/results/probe_value.h>
+#include <hpvi/results/solution_field.h>
+#include <hpvi/results/warnings/warnings.h>
 #include <hpvi/scene/bare_joints.h>
-#include <hpvi/stresses/mean_gradients.h>
-#include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -2,8 +2,8 @@
 #ifndef hpvi_admissible_friction_h
 #define hpvi_admissible_friction_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/plane/solution.h>
 
 #include <array>
 #include <vector>

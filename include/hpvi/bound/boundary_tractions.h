@@ -2,7 +2,7 @@
 #ifndef hpvi_boundary_tractions_h
 #define hpvi_boundary_tractions_h
 
-#include <hpvi/equilibration/vertex_patches.h>
+#include <hpvi/bound/vertex_patches.h>
 
 #include <array>
 #include <functional>

@@ -2,10 +2,10 @@
 #ifndef hpvi_contact_correction_h
 #define hpvi_contact_correction_h
 
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/stresses/edge_bubbles.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/edge_bubbles.h>
+#include <hpvi/plane/discretisation.h>
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_trace_h
 #define hpvi_contact_trace_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/discretisation/unknowns.h>
-#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/plane/unknowns.h>
 
 #include <vector>
 

@@ -2,12 +2,12 @@
 #ifndef hpvi_correction_search_h
 #define hpvi_correction_search_h
 
-#include <hpvi/admissibility/admissible_friction.h>
-#include <hpvi/admissibility/face_contact.h>
-#include <hpvi/admissibility/node_freedom.h>
 #include <hpvi/algebra/restricted_energy.h>
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/stresses/edge_bubbles.h>
+#include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/edge_bubbles.h>
+#include <hpvi/bound/face_contact.h>
+#include <hpvi/bound/node_freedom.h>
+#include <hpvi/plane/discretisation.h>
 
 #include <array>
 #include <map>

@@ -2,7 +2,7 @@
 #ifndef hpvi_data_error_h
 #define hpvi_data_error_h
 
-#include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/bound/equilibrated_stress.h>
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_edge_bubbles_h
 #define hpvi_edge_bubbles_h
 
-#include <hpvi/contact/contact_space.h>
-#include <hpvi/discretisation/condensation.h>
+#include <hpvi/plane/condensation.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <map>
 #include <memory>

@@ -2,7 +2,7 @@
 #ifndef hpvi_edge_polynomial_h
 #define hpvi_edge_polynomial_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <vector>
 

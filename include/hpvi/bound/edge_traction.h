@@ -2,7 +2,7 @@
 #ifndef hpvi_edge_traction_h
 #define hpvi_edge_traction_h
 
-#include <hpvi/equilibration/equilibrated_stress.h>
+#include <hpvi/bound/equilibrated_stress.h>
 
 #include <deal.II/grid/tria.h>
 

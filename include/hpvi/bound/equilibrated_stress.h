@@ -2,9 +2,9 @@
 #ifndef hpvi_equilibrated_stress_h
 #define hpvi_equilibrated_stress_h
 
-#include <hpvi/equilibration/boundary_tractions.h>
-#include <hpvi/equilibration/macro_stresses.h>
-#include <hpvi/equilibration/parallelogram_stresses.h>
+#include <hpvi/bound/boundary_tractions.h>
+#include <hpvi/bound/macro_stresses.h>
+#include <hpvi/bound/parallelogram_stresses.h>
 
 #include <array>
 #include <memory>

@@ -3,11 +3,11 @@
 #define hpvi_equilibration_cache_h
 
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/body/load_rule.h>
-#include <hpvi/equilibration/patch_data.h>
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/macro_stress_element.h>
-#include <hpvi/stresses/stress_element.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/macro_stress_element.h>
+#include <hpvi/bound/patch_data.h>
+#include <hpvi/bound/stress_element.h>
+#include <hpvi/plane/load_rule.h>
 
 #include <map>
 #include <memory>

@@ -2,9 +2,9 @@
 #ifndef hpvi_error_bound_h
 #define hpvi_error_bound_h
 
-#include <hpvi/equilibration/edge_traction.h>
-#include <hpvi/equilibration/mixed_problem.h>
-#include <hpvi/stresses/edge_bubbles.h>
+#include <hpvi/bound/edge_bubbles.h>
+#include <hpvi/bound/edge_traction.h>
+#include <hpvi/bound/mixed_problem.h>
 
 #include <memory>
 #include <string>

@@ -2,9 +2,9 @@
 #ifndef hpvi_face_contact_h
 #define hpvi_face_contact_h
 
-#include <hpvi/admissibility/admissible_pressure.h>
-#include <hpvi/admissibility/contact_trace.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/contact_trace.h>
+#include <hpvi/bound/legendre.h>
 
 #include <functional>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/stresses/edge_polynomial.h>
+#include <hpvi/bound/edge_polynomial.h>
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #ifndef hpvi_initial_modes_h
 #define hpvi_initial_modes_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/modes.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/modes.h>
+#include <hpvi/plane/solution.h>
 
 namespace hpvi
 {

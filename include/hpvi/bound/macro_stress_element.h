@@ -2,7 +2,7 @@
 #ifndef hpvi_macro_stress_element_h
 #define hpvi_macro_stress_element_h
 
-#include <hpvi/stresses/macro_triangle.h>
+#include <hpvi/bound/macro_triangle.h>
 
 #include <array>
 #include <vector>

@@ -2,8 +2,8 @@
 #ifndef hpvi_macro_stresses_h
 #define hpvi_macro_stresses_h
 
-#include <hpvi/equilibration/patch_problem.h>
-#include <hpvi/stresses/macro_stress_element.h>
+#include <hpvi/bound/macro_stress_element.h>
+#include <hpvi/bound/patch_problem.h>
 
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+#include <hpvi/bound/triangle_stress.h>
 #include <hpvi/scene/material.h>
-#include <hpvi/stresses/triangle_stress.h>
 
 #include <array>
 #include <vector>

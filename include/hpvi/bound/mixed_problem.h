@@ -2,8 +2,8 @@
 #ifndef hpvi_mixed_problem_h
 #define hpvi_mixed_problem_h
 
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/plane/solution.h>
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_nodal_displacement_h
 #define hpvi_nodal_displacement_h
 
-#include <hpvi/admissibility/node_freedom.h>
-#include <hpvi/contact/matching.h>
+#include <hpvi/bound/node_freedom.h>
+#include <hpvi/plane/matching.h>
 
 #include <array>
 #include <functional>

@@ -2,8 +2,8 @@
 #ifndef hpvi_node_freedom_h
 #define hpvi_node_freedom_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/discretisation/unknowns.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/plane/unknowns.h>
 
 #include <array>
 #include <map>

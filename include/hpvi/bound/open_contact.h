@@ -2,7 +2,7 @@
 #ifndef hpvi_open_contact_h
 #define hpvi_open_contact_h
 
-#include <hpvi/equilibration/error_bound.h>
+#include <hpvi/bound/error_bound.h>
 
 #include <vector>
 

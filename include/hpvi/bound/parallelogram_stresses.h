@@ -2,10 +2,10 @@
 #ifndef hpvi_parallelogram_stresses_h
 #define hpvi_parallelogram_stresses_h
 
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/equilibration/initial_modes.h>
-#include <hpvi/equilibration/patch_data.h>
-#include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/bound/initial_modes.h>
+#include <hpvi/bound/patch_data.h>
+#include <hpvi/bound/patch_problem.h>
+#include <hpvi/plane/element_matrices.h>
 
 #include <array>
 #include <functional>

@@ -2,7 +2,7 @@
 #ifndef hpvi_part_tables_h
 #define hpvi_part_tables_h
 
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <deal.II/base/bounding_box.h>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_patch_data_h
 #define hpvi_patch_data_h
 
-#include <hpvi/stresses/legendre.h>
-#include <hpvi/stresses/stress_element.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/stress_element.h>
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 #define hpvi_patch_problem_h
 
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/equilibration/equilibration_cache.h>
-#include <hpvi/equilibration/vertex_patches.h>
+#include <hpvi/bound/equilibration_cache.h>
+#include <hpvi/bound/vertex_patches.h>
 
 #include <array>
 #include <vector>

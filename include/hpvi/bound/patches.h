@@ -2,7 +2,7 @@
 #ifndef hpvi_patches_h
 #define hpvi_patches_h
 
-#include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/bound/patch_problem.h>
 
 #include <array>
 #include <utility>

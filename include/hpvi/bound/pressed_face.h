@@ -2,9 +2,9 @@
 #ifndef hpvi_pressed_face_h
 #define hpvi_pressed_face_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/stresses/edge_polynomial.h>
-#include <hpvi/stresses/legendre.h>
+#include <hpvi/bound/edge_polynomial.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/plane/solution.h>
 
 #include <array>
 #include <cmath>

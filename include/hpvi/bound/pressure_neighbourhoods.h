@@ -2,7 +2,7 @@
 #ifndef hpvi_pressure_neighbourhoods_h
 #define hpvi_pressure_neighbourhoods_h
 
-#include <hpvi/admissibility/pressed_face.h>
+#include <hpvi/bound/pressed_face.h>
 
 #include <map>
 

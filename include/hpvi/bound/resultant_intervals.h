@@ -2,10 +2,10 @@
 #ifndef hpvi_resultant_intervals_h
 #define hpvi_resultant_intervals_h
 
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/evaluation/resultant.h>
-#include <hpvi/intervals/open_contact.h>
-#include <hpvi/intervals/test_space.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/bound/open_contact.h>
+#include <hpvi/bound/test_space.h>
+#include <hpvi/results/resultant.h>
 
 #include <memory>
 #include <optional>

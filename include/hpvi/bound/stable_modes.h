@@ -2,8 +2,8 @@
 #ifndef hpvi_stable_modes_h
 #define hpvi_stable_modes_h
 
+#include <hpvi/bound/modes.h>
 #include <hpvi/scene/material.h>
-#include <hpvi/stresses/modes.h>
 
 #include <deal.II/base/tensor.h>
 

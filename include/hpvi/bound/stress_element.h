@@ -2,7 +2,7 @@
 #ifndef hpvi_stress_element_h
 #define hpvi_stress_element_h
 
-#include <hpvi/stresses/stress_space.h>
+#include <hpvi/bound/stress_space.h>
 
 #include <array>
 #include <utility>

@@ -3,8 +3,8 @@
 #define hpvi_stress_space_h
 
 #include <deal.II/base/tensor.h>
+#include <hpvi/bound/modes.h>
 #include <hpvi/scene/material.h>
-#include <hpvi/stresses/modes.h>
 
 #include <array>
 #include <utility>

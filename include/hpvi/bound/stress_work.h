@@ -2,9 +2,9 @@
 #ifndef hpvi_stress_work_h
 #define hpvi_stress_work_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/intervals/part_tables.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/bound/part_tables.h>
+#include <hpvi/plane/solution.h>
 
 #include <functional>
 #include <vector>

@@ -3,10 +3,10 @@
 #define hpvi_test_space_h
 
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/body/supports.h>
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/intervals/part_tables.h>
-#include <hpvi/intervals/test_motion.h>
+#include <hpvi/bound/part_tables.h>
+#include <hpvi/bound/test_motion.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/plane/supports.h>
 
 #include <deal.II/lac/sparse_matrix.h>
 

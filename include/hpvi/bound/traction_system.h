@@ -2,7 +2,7 @@
 #ifndef hpvi_traction_system_h
 #define hpvi_traction_system_h
 
-#include <hpvi/equilibration/patch_problem.h>
+#include <hpvi/bound/patch_problem.h>
 
 #include <vector>
 

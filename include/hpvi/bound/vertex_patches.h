@@ -3,7 +3,7 @@
 #define hpvi_vertex_patches_h
 
 #include <deal.II/base/array_view.h>
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/solution.h>
 
 #include <boost/container/static_vector.hpp>
 

@@ -2,9 +2,9 @@
 #ifndef hpvi_adaptive_solver_h
 #define hpvi_adaptive_solver_h
 
-#include <hpvi/adaptivity/checkpoint.h>
-#include <hpvi/adaptivity/step_report.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/driver/checkpoint.h>
+#include <hpvi/driver/step_report.h>
 
 #include <functional>
 #include <memory>

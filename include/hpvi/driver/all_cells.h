@@ -2,8 +2,8 @@
 #ifndef hpvi_all_cells_h
 #define hpvi_all_cells_h
 
-#include <hpvi/evaluation/field.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/residual_estimator.h>
 
 #include <vector>
 

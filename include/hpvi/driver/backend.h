@@ -4,19 +4,19 @@
 
 #include <hpvi/base/progress.h>
 #include <hpvi/base/stage_times.h>
-#include <hpvi/body/mesh_marks.h>
-#include <hpvi/cones/coulomb_solver.h>
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/equilibration/error_bound.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/evaluation/field.h>
-#include <hpvi/evaluation/residual_estimator.h>
-#include <hpvi/evaluation/resultant.h>
-#include <hpvi/evaluation/true_error.h>
-#include <hpvi/primal/moment_newton.h>
-#include <hpvi/warnings/warnings.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/plane/iterative_refinement.h>
+#include <hpvi/plane/mesh_marks.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/energies.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/residual_estimator.h>
+#include <hpvi/results/resultant.h>
+#include <hpvi/results/true_error.h>
+#include <hpvi/results/warnings/warnings.h>
+#include <hpvi/solvers/coulomb_solver.h>
+#include <hpvi/space/moment_newton.h>
 
 #include <functional>
 #include <limits>

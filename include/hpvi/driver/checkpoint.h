@@ -2,10 +2,10 @@
 #ifndef hpvi_checkpoint_h
 #define hpvi_checkpoint_h
 
-#include <hpvi/adaptivity/finished_loads.h>
-#include <hpvi/backends/backend.h>
 #include <hpvi/base/file_format.h>
-#include <hpvi/warnings/history.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/driver/finished_loads.h>
+#include <hpvi/results/warnings/history.h>
 
 #include <iosfwd>
 #include <optional>

@@ -2,8 +2,8 @@
 #ifndef hpvi_claims_h
 #define hpvi_claims_h
 
-#include <hpvi/adaptivity/step_report.h>
-#include <hpvi/warnings/claim.h>
+#include <hpvi/driver/step_report.h>
+#include <hpvi/results/warnings/claim.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_column_width_h
 #define hpvi_column_width_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 #include <string>
 

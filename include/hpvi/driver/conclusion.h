@@ -2,8 +2,8 @@
 #ifndef hpvi_conclusion_h
 #define hpvi_conclusion_h
 
-#include <hpvi/adaptivity/step_report.h>
-#include <hpvi/warnings/history.h>
+#include <hpvi/driver/step_report.h>
+#include <hpvi/results/warnings/history.h>
 
 namespace hpvi
 {

@@ -2,8 +2,8 @@
 #ifndef hpvi_finished_loads_h
 #define hpvi_finished_loads_h
 
+#include <hpvi/results/warnings/warnings.h>
 #include <hpvi/scene/data_scale.h>
-#include <hpvi/warnings/warnings.h>
 
 namespace hpvi
 {

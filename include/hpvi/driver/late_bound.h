@@ -2,8 +2,8 @@
 #ifndef hpvi_late_bound_h
 #define hpvi_late_bound_h
 
-#include <hpvi/adaptivity/step_report.h>
-#include <hpvi/warnings/history.h>
+#include <hpvi/driver/step_report.h>
+#include <hpvi/results/warnings/history.h>
 
 namespace hpvi
 {

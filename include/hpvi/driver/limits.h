@@ -2,9 +2,9 @@
 #ifndef hpvi_limits_h
 #define hpvi_limits_h
 
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/warnings/history.h>
+#include <hpvi/plane/iterative_refinement.h>
+#include <hpvi/results/energies.h>
+#include <hpvi/results/warnings/history.h>
 
 #include <deal.II/base/types.h>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_load_history_h
 #define hpvi_load_history_h
 
-#include <hpvi/adaptivity/adaptive_solver.h>
+#include <hpvi/driver/adaptive_solver.h>
 
 #include <functional>
 #include <memory>

@@ -2,8 +2,8 @@
 #ifndef hpvi_marking_h
 #define hpvi_marking_h
 
-#include <hpvi/evaluation/legendre_smoothness.h>
-#include <hpvi/evaluation/residual_estimator.h>
+#include <hpvi/results/legendre_smoothness.h>
+#include <hpvi/results/residual_estimator.h>
 
 #include <functional>
 #include <string>

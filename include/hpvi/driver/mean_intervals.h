@@ -2,8 +2,8 @@
 #ifndef hpvi_mean_intervals_h
 #define hpvi_mean_intervals_h
 
-#include <hpvi/adaptivity/step_report.h>
-#include <hpvi/intervals/part_tables.h>
+#include <hpvi/bound/part_tables.h>
+#include <hpvi/driver/step_report.h>
 
 #include <array>
 #include <map>

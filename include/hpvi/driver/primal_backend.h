@@ -2,10 +2,10 @@
 #ifndef hpvi_primal_backend_h
 #define hpvi_primal_backend_h
 
-#include <hpvi/backends/backend.h>
-#include <hpvi/moments/primal_system.h>
-#include <hpvi/primal/friction_iteration.h>
-#include <hpvi/primal/past_state.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/space/friction_iteration.h>
+#include <hpvi/space/past_state.h>
+#include <hpvi/space/primal_system.h>
 
 namespace hpvi
 {

@@ -3,13 +3,13 @@
 #define hpvi_reduced_backend_h
 
 #include <hpvi/algebra/factored_system.h>
-#include <hpvi/backends/backend.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/team.h>
-#include <hpvi/contact/multiplier_trace.h>
-#include <hpvi/evaluation/legendre_smoothness.h>
-#include <hpvi/evaluation/unseen_contact.h>
-#include <hpvi/intervals/resultant_intervals.h>
+#include <hpvi/bound/resultant_intervals.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/plane/multiplier_trace.h>
+#include <hpvi/results/legendre_smoothness.h>
+#include <hpvi/results/unseen_contact.h>
 
 #include <array>
 

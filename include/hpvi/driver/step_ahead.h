@@ -2,7 +2,7 @@
 #ifndef hpvi_step_ahead_h
 #define hpvi_step_ahead_h
 
-#include <hpvi/backends/backend.h>
+#include <hpvi/driver/backend.h>
 
 #include <exception>
 #include <functional>

@@ -2,11 +2,11 @@
 #ifndef hpvi_step_report_h
 #define hpvi_step_report_h
 
-#include <hpvi/adaptivity/finished_loads.h>
-#include <hpvi/backends/backend.h>
-#include <hpvi/evaluation/probe_value.h>
-#include <hpvi/evaluation/resultant.h>
-#include <hpvi/peaks/unbounded_stress.h>
+#include <hpvi/driver/backend.h>
+#include <hpvi/driver/finished_loads.h>
+#include <hpvi/results/probe_value.h>
+#include <hpvi/results/resultant.h>
+#include <hpvi/results/unbounded_stress.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -2,11 +2,11 @@
 #ifndef hpvi_step_stages_h
 #define hpvi_step_stages_h
 
-#include <hpvi/adaptivity/checkpoint.h>
-#include <hpvi/adaptivity/mean_intervals.h>
-#include <hpvi/adaptivity/step_ahead.h>
-#include <hpvi/adaptivity/step_report.h>
 #include <hpvi/base/progress.h>
+#include <hpvi/driver/checkpoint.h>
+#include <hpvi/driver/mean_intervals.h>
+#include <hpvi/driver/step_ahead.h>
+#include <hpvi/driver/step_report.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <functional>

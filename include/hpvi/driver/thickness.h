@@ -2,7 +2,7 @@
 #ifndef hpvi_thickness_h
 #define hpvi_thickness_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 namespace hpvi
 {

@@ -3,8 +3,8 @@
 #define hpvi_axial_force_h
 
 #include <hpvi/base/formatting.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef hpvi_cell_outline_h
 #define hpvi_cell_outline_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 
 #include <vector>
 

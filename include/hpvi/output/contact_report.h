@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_report_h
 #define hpvi_contact_report_h
 
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/peaks/unbounded_stress.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/results/unbounded_stress.h>
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_table_h
 #define hpvi_contact_table_h
 
-#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/results/contact_state.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_picture_h
 #define hpvi_mesh_picture_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 #include <string>
 

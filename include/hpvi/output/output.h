@@ -2,8 +2,8 @@
 #ifndef hpvi_output_h
 #define hpvi_output_h
 
-#include <hpvi/adaptivity/checkpoint.h>
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/checkpoint.h>
+#include <hpvi/driver/step_report.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>

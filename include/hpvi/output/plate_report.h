@@ -2,7 +2,7 @@
 #ifndef hpvi_plate_report_h
 #define hpvi_plate_report_h
 
-#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_probe_table_h
 #define hpvi_probe_table_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 #include <hpvi/output/record.h>
 
 #include <string>

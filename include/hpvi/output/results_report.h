@@ -2,7 +2,7 @@
 #ifndef hpvi_results_report_h
 #define hpvi_results_report_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_step_files_h
 #define hpvi_step_files_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 #include <string>
 #include <utility>

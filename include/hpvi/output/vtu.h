@@ -2,7 +2,7 @@
 #ifndef hpvi_vtu_h
 #define hpvi_vtu_h
 
-#include <hpvi/adaptivity/step_report.h>
+#include <hpvi/driver/step_report.h>
 
 #include <string>
 #include <vector>

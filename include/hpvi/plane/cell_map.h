@@ -6,7 +6,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <hpvi/body/curved_edges.h>
+#include <hpvi/plane/curved_edges.h>
 
 #include <array>
 #include <memory>

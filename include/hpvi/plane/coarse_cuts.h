@@ -5,7 +5,7 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/grid/tria.h>
 #include <hpvi/algebra/cut_rule.h>
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/scene.h>
 
 #include <optional>

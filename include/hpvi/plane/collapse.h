@@ -2,7 +2,7 @@
 #ifndef hpvi_collapse_h
 #define hpvi_collapse_h
 
-#include <hpvi/contact/resistance.h>
+#include <hpvi/plane/resistance.h>
 
 namespace hpvi
 {

@@ -7,8 +7,8 @@
 #include <hpvi/algebra/block_cholesky.h>
 #include <hpvi/algebra/block_factor.h>
 #include <hpvi/algebra/pooled_matrix.h>
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/element_matrices.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/element_matrices.h>
 
 #include <map>
 #include <memory>

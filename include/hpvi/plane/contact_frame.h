@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_frame_h
 #define hpvi_contact_frame_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 
 namespace hpvi
 {

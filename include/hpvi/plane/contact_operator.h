@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_operator_h
 #define hpvi_contact_operator_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 namespace hpvi
 {

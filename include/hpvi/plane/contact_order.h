@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_order_h
 #define hpvi_contact_order_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <vector>
 

@@ -5,11 +5,11 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/cones/friction_cones.h>
-#include <hpvi/contact/contact_frame.h>
-#include <hpvi/contact/friction_rule.h>
-#include <hpvi/contact/pairing.h>
+#include <hpvi/plane/contact_frame.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/friction_rule.h>
+#include <hpvi/plane/pairing.h>
+#include <hpvi/solvers/friction_cones.h>
 
 #include <map>
 #include <string>

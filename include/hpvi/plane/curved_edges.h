@@ -2,7 +2,7 @@
 #ifndef hpvi_curved_edges_h
 #define hpvi_curved_edges_h
 
-#include <hpvi/body/edge_bow.h>
+#include <hpvi/plane/edge_bow.h>
 #include <hpvi/scene/coarse_mesh.h>
 
 #include <deal.II/grid/manifold.h>

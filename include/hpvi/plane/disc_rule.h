@@ -2,7 +2,7 @@
 #ifndef hpvi_disc_rule_h
 #define hpvi_disc_rule_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 
 #include <vector>
 

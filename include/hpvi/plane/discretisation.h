@@ -2,7 +2,7 @@
 #ifndef hpvi_discretisation_h
 #define hpvi_discretisation_h
 
-#include <hpvi/discretisation/rigid_motion.h>
+#include <hpvi/plane/rigid_motion.h>
 
 #include <memory>
 #include <optional>

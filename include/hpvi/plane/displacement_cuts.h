@@ -2,9 +2,9 @@
 #ifndef hpvi_displacement_cuts_h
 #define hpvi_displacement_cuts_h
 
-#include <hpvi/body/coarse_cuts.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/coarse_cuts.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <map>
 #include <memory>

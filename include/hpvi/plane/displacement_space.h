@@ -3,8 +3,8 @@
 #define hpvi_displacement_space_h
 
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/dof_numbering.h>
-#include <hpvi/body/load_rule.h>
+#include <hpvi/plane/dof_numbering.h>
+#include <hpvi/plane/load_rule.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi

@@ -4,8 +4,8 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <hpvi/body/mesh.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #define hpvi_edge_constraints_h
 
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/dof_numbering.h>
+#include <hpvi/plane/dof_numbering.h>
 
 namespace hpvi
 {

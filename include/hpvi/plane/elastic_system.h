@@ -4,9 +4,9 @@
 
 #include <hpvi/algebra/elimination_hints.h>
 #include <hpvi/algebra/symmetric_matrix.h>
-#include <hpvi/body/load_rule.h>
-#include <hpvi/discretisation/condensation.h>
-#include <hpvi/discretisation/unknowns.h>
+#include <hpvi/plane/condensation.h>
+#include <hpvi/plane/load_rule.h>
+#include <hpvi/plane/unknowns.h>
 
 #include <memory>
 #include <vector>

@@ -3,8 +3,8 @@
 #define hpvi_element_matrices_h
 
 #include <deal.II/lac/full_matrix.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>

@@ -2,8 +2,8 @@
 #ifndef hpvi_given_data_h
 #define hpvi_given_data_h
 
-#include <hpvi/body/coarse_cuts.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/coarse_cuts.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <functional>
 #include <string>

@@ -3,10 +3,10 @@
 #define hpvi_initial_stress_h
 
 #include <deal.II/lac/vector.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/element_matrices.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/shape_tables.h>
 
 namespace hpvi
 {

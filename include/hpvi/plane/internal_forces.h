@@ -3,8 +3,8 @@
 #define hpvi_internal_forces_h
 
 #include <deal.II/lac/vector.h>
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/element_matrices.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/element_matrices.h>
 
 namespace hpvi
 {

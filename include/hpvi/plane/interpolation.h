@@ -2,7 +2,7 @@
 #ifndef hpvi_interpolation_h
 #define hpvi_interpolation_h
 
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/solution.h>
 
 namespace hpvi
 {

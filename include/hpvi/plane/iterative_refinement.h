@@ -2,7 +2,7 @@
 #ifndef hpvi_iterative_refinement_h
 #define hpvi_iterative_refinement_h
 
-#include <hpvi/discretisation/reduced_problem.h>
+#include <hpvi/plane/reduced_problem.h>
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <functional>

@@ -3,9 +3,9 @@
 #define hpvi_load_rule_h
 
 #include <deal.II/dofs/dof_handler.h>
-#include <hpvi/body/displacement_cuts.h>
-#include <hpvi/body/given_data.h>
-#include <hpvi/body/load_quadrature.h>
+#include <hpvi/plane/displacement_cuts.h>
+#include <hpvi/plane/given_data.h>
+#include <hpvi/plane/load_quadrature.h>
 
 #include <array>
 #include <map>

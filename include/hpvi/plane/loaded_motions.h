@@ -2,8 +2,8 @@
 #ifndef hpvi_loaded_motions_h
 #define hpvi_loaded_motions_h
 
-#include <hpvi/contact/resistance.h>
-#include <hpvi/discretisation/discretisation.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/plane/resistance.h>
 
 namespace hpvi
 {

@@ -2,8 +2,8 @@
 #ifndef hpvi_matching_h
 #define hpvi_matching_h
 
-#include <hpvi/body/mesh.h>
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
+#include <hpvi/plane/mesh.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_marks_h
 #define hpvi_mesh_marks_h
 
-#include <hpvi/body/mesh.h>
+#include <hpvi/plane/mesh.h>
 
 #include <utility>
 #include <vector>

@@ -2,8 +2,8 @@
 #ifndef hpvi_missed_loads_h
 #define hpvi_missed_loads_h
 
-#include <hpvi/discretisation/discretisation.h>
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/plane/solution.h>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_multiplier_trace_h
 #define hpvi_multiplier_trace_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <optional>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_negligible_solution_h
 #define hpvi_negligible_solution_h
 
-#include <hpvi/discretisation/discretisation.h>
+#include <hpvi/plane/discretisation.h>
 
 namespace hpvi
 {

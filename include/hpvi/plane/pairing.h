@@ -2,7 +2,7 @@
 #ifndef hpvi_pairing_h
 #define hpvi_pairing_h
 
-#include <hpvi/body/displacement_space.h>
+#include <hpvi/plane/displacement_space.h>
 #include <hpvi/scene/edge_path.h>
 
 #include <memory>

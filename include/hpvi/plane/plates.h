@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/body/supports.h>
+#include <hpvi/plane/supports.h>
 #include <hpvi/scene/plate_motion.h>
 
 #include <array>

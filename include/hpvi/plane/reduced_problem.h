@@ -2,8 +2,8 @@
 #ifndef hpvi_reduced_problem_h
 #define hpvi_reduced_problem_h
 
-#include <hpvi/cones/coulomb_solver.h>
-#include <hpvi/discretisation/discretisation.h>
+#include <hpvi/plane/discretisation.h>
+#include <hpvi/solvers/coulomb_solver.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_resistance_h
 #define hpvi_resistance_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 #include <optional>
 #include <string>

@@ -2,8 +2,8 @@
 #ifndef hpvi_rigid_motion_h
 #define hpvi_rigid_motion_h
 
-#include <hpvi/balance/balance_solver.h>
-#include <hpvi/discretisation/elastic_system.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/solvers/balance_solver.h>
 
 namespace hpvi
 {

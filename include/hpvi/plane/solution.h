@@ -3,7 +3,7 @@
 #define hpvi_solution_h
 
 #include <deal.II/lac/vector.h>
-#include <hpvi/discretisation/discretisation.h>
+#include <hpvi/plane/discretisation.h>
 
 namespace hpvi
 {

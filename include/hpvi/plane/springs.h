@@ -2,8 +2,8 @@
 #ifndef hpvi_springs_h
 #define hpvi_springs_h
 
-#include <hpvi/body/displacement_space.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/displacement_space.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <vector>

@@ -3,8 +3,8 @@
 #define hpvi_supports_h
 
 #include <deal.II/lac/affine_constraints.h>
-#include <hpvi/body/dof_numbering.h>
-#include <hpvi/checks/supports.h>
+#include <hpvi/plane/dof_numbering.h>
+#include <hpvi/reader/checks/supports.h>
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_tangential_trace_h
 #define hpvi_tangential_trace_h
 
-#include <hpvi/contact/contact_space.h>
+#include <hpvi/plane/contact_space.h>
 
 namespace hpvi
 {

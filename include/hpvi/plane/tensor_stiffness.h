@@ -2,8 +2,8 @@
 #ifndef hpvi_tensor_stiffness_h
 #define hpvi_tensor_stiffness_h
 
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>

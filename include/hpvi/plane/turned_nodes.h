@@ -2,7 +2,7 @@
 #ifndef hpvi_turned_nodes_h
 #define hpvi_turned_nodes_h
 
-#include <hpvi/discretisation/unknowns.h>
+#include <hpvi/plane/unknowns.h>
 
 #include <array>
 #include <map>

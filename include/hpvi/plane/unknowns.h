@@ -3,7 +3,7 @@
 #define hpvi_unknowns_h
 
 #include <hpvi/algebra/schur_complement.h>
-#include <hpvi/contact/contact_operator.h>
+#include <hpvi/plane/contact_operator.h>
 
 #include <array>
 #include <map>

@@ -2,7 +2,7 @@
 #ifndef hpvi_command_line_h
 #define hpvi_command_line_h
 
-#include <hpvi/input/sweep.h>
+#include <hpvi/reader/input/sweep.h>
 
 #include <string>
 #include <utility>

@@ -2,7 +2,7 @@
 #ifndef hpvi_plate_reader_h
 #define hpvi_plate_reader_h
 
-#include <hpvi/input/expressions.h>
+#include <hpvi/reader/input/expressions.h>
 #include <hpvi/scene/scene.h>
 
 #include <string>

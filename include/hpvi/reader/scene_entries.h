@@ -2,8 +2,8 @@
 #ifndef hpvi_scene_entries_h
 #define hpvi_scene_entries_h
 
-#include <hpvi/input/parameters.h>
 #include <hpvi/reader/free_names.h>
+#include <hpvi/reader/input/parameters.h>
 
 #include <algorithm>
 #include <string>

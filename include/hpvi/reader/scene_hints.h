@@ -2,7 +2,7 @@
 #ifndef hpvi_scene_hints_h
 #define hpvi_scene_hints_h
 
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 
 #include <string>
 #include <vector>

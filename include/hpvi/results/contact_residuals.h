@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_residuals_h
 #define hpvi_contact_residuals_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <functional>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_state_h
 #define hpvi_contact_state_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_traces_h
 #define hpvi_contact_traces_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/evaluation/elastic_strain.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/results/elastic_strain.h>
+#include <hpvi/results/field.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_contact_zones_h
 #define hpvi_contact_zones_h
 
-#include <hpvi/evaluation/contact_state.h>
+#include <hpvi/results/contact_state.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi

@@ -2,7 +2,7 @@
 #ifndef hpvi_elastic_strain_h
 #define hpvi_elastic_strain_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi

@@ -2,8 +2,8 @@
 #ifndef hpvi_energies_h
 #define hpvi_energies_h
 
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/results/field.h>
 
 namespace hpvi
 {

@@ -2,8 +2,8 @@
 #ifndef hpvi_equilibrium_h
 #define hpvi_equilibrium_h
 
-#include <hpvi/discretisation/elastic_system.h>
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/solution.h>
 
 #include <mpi.h>
 

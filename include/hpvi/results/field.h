@@ -4,9 +4,9 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/shape_tables.h>
-#include <hpvi/contact/pairing.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/pairing.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>

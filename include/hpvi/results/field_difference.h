@@ -2,7 +2,7 @@
 #ifndef hpvi_field_difference_h
 #define hpvi_field_difference_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature.h>

@@ -2,7 +2,7 @@
 #ifndef hpvi_graded_boxes_h
 #define hpvi_graded_boxes_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 
 #include <deal.II/base/bounding_box.h>
 

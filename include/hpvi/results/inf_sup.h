@@ -2,7 +2,7 @@
 #ifndef hpvi_inf_sup_h
 #define hpvi_inf_sup_h
 
-#include <hpvi/body/mesh.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi

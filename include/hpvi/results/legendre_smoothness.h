@@ -3,7 +3,7 @@
 #define hpvi_legendre_smoothness_h
 
 #include <deal.II/lac/full_matrix.h>
-#include <hpvi/discretisation/solution.h>
+#include <hpvi/plane/solution.h>
 
 #include <map>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_mean_gradients_h
 #define hpvi_mean_gradients_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <vector>
 

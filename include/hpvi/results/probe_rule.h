@@ -2,7 +2,7 @@
 #ifndef hpvi_probe_rule_h
 #define hpvi_probe_rule_h
 
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/dofs/dof_handler.h>

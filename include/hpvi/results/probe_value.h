@@ -2,8 +2,8 @@
 #ifndef hpvi_probe_value_h
 #define hpvi_probe_value_h
 
-#include <hpvi/evaluation/field.h>
-#include <hpvi/evaluation/interval.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/interval.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>

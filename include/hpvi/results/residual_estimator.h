@@ -2,8 +2,8 @@
 #ifndef hpvi_residual_estimator_h
 #define hpvi_residual_estimator_h
 
-#include <hpvi/evaluation/error_estimate.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/error_estimate.h>
+#include <hpvi/results/field.h>
 
 namespace hpvi
 {

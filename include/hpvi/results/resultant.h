@@ -2,9 +2,9 @@
 #ifndef hpvi_resultant_h
 #define hpvi_resultant_h
 
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/evaluation/interval.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/results/interval.h>
 
 #include <deal.II/base/types.h>
 

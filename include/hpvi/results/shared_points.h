@@ -2,8 +2,8 @@
 #ifndef hpvi_shared_points_h
 #define hpvi_shared_points_h
 
-#include <hpvi/body/cell_map.h>
-#include <hpvi/body/shape_tables.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/shape_tables.h>
 
 #include <vector>
 

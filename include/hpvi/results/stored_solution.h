@@ -2,8 +2,8 @@
 #ifndef hpvi_stored_solution_h
 #define hpvi_stored_solution_h
 
-#include <hpvi/body/mesh.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/results/field.h>
 
 #include <ostream>
 #include <string>

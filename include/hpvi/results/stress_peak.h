@@ -2,7 +2,7 @@
 #ifndef hpvi_stress_peak_h
 #define hpvi_stress_peak_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_true_error_h
 #define hpvi_true_error_h
 
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/evaluation/stored_solution.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/stored_solution.h>
 #include <hpvi/scene/exact_solution.h>
 
 #include <limits>

@@ -2,7 +2,7 @@
 #ifndef hpvi_turned_divergence_h
 #define hpvi_turned_divergence_h
 
-#include <hpvi/discretisation/initial_stress.h>
+#include <hpvi/plane/initial_stress.h>
 #include <hpvi/scene/scene.h>
 
 namespace hpvi

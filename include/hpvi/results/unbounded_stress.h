@@ -2,7 +2,7 @@
 #ifndef hpvi_unbounded_stress_h
 #define hpvi_unbounded_stress_h
 
-#include <hpvi/peaks/stress_peak.h>
+#include <hpvi/results/stress_peak.h>
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 #ifndef hpvi_unseen_contact_h
 #define hpvi_unseen_contact_h
 
-#include <hpvi/body/displacement_cuts.h>
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/evaluation/field.h>
+#include <hpvi/plane/displacement_cuts.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/results/field.h>
 
 #include <vector>
 

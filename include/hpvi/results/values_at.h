@@ -2,7 +2,7 @@
 #ifndef hpvi_values_at_h
 #define hpvi_values_at_h
 
-#include <hpvi/evaluation/field.h>
+#include <hpvi/results/field.h>
 
 #include <optional>
 #include <vector>

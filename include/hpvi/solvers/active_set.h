@@ -2,7 +2,7 @@
 #ifndef hpvi_active_set_h
 #define hpvi_active_set_h
 
-#include <hpvi/quadratic/mprgp.h>
+#include <hpvi/solvers/mprgp.h>
 
 namespace hpvi
 {

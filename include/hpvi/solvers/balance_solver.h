@@ -2,8 +2,8 @@
 #ifndef hpvi_balance_solver_h
 #define hpvi_balance_solver_h
 
-#include <hpvi/balance/equality_constraints.h>
-#include <hpvi/quadratic/mprgp.h>
+#include <hpvi/solvers/equality_constraints.h>
+#include <hpvi/solvers/mprgp.h>
 
 #include <functional>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_cone_iterate_h
 #define hpvi_cone_iterate_h
 
-#include <hpvi/cones/cone_program.h>
-#include <hpvi/quadratic/mprgp.h>
+#include <hpvi/solvers/cone_program.h>
+#include <hpvi/solvers/mprgp.h>
 
 #include <limits>
 

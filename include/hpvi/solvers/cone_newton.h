@@ -2,7 +2,7 @@
 #ifndef hpvi_cone_newton_h
 #define hpvi_cone_newton_h
 
-#include <hpvi/cones/cone_iterate.h>
+#include <hpvi/solvers/cone_iterate.h>
 
 #include <utility>
 #include <vector>

@@ -5,8 +5,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/balance/equality_constraints.h>
-#include <hpvi/cones/friction_cones.h>
+#include <hpvi/solvers/equality_constraints.h>
+#include <hpvi/solvers/friction_cones.h>
 
 namespace hpvi
 {

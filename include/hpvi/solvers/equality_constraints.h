@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/quadratic/feasible_set.h>
+#include <hpvi/solvers/feasible_set.h>
 
 #include <optional>
 

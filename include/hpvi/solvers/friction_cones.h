@@ -3,8 +3,8 @@
 #define hpvi_friction_cones_h
 
 #include <deal.II/lac/vector.h>
-#include <hpvi/quadratic/feasible_set.h>
 #include <hpvi/scene/friction_limit.h>
+#include <hpvi/solvers/feasible_set.h>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_mprgp_h
 #define hpvi_mprgp_h
 
-#include <hpvi/quadratic/quadratic_program.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 namespace hpvi
 {

@@ -2,8 +2,8 @@
 #ifndef hpvi_pressure_iteration_h
 #define hpvi_pressure_iteration_h
 
-#include <hpvi/cones/cone_iterate.h>
-#include <hpvi/quadratic/quadratic_program.h>
+#include <hpvi/solvers/cone_iterate.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
-#include <hpvi/quadratic/feasible_set.h>
+#include <hpvi/solvers/feasible_set.h>
 
 #include <utility>
 #include <vector>

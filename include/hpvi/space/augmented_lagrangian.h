@@ -2,7 +2,7 @@
 #ifndef hpvi_augmented_lagrangian_h
 #define hpvi_augmented_lagrangian_h
 
-#include <hpvi/primal/moment_matrix.h>
+#include <hpvi/space/moment_matrix.h>
 
 #include <algorithm>
 #include <vector>

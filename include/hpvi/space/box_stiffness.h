@@ -2,7 +2,7 @@
 #ifndef hpvi_box_stiffness_h
 #define hpvi_box_stiffness_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <map>
 #include <memory>

@@ -2,7 +2,7 @@
 #ifndef hpvi_box_tables_h
 #define hpvi_box_tables_h
 
-#include <hpvi/body/cell_map.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/material.h>
 
 #include <deal.II/base/point.h>

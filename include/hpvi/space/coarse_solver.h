@@ -3,7 +3,7 @@
 #define hpvi_coarse_solver_h
 
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/multigrid/multigrid_level.h>
+#include <hpvi/space/multigrid_level.h>
 
 namespace hpvi
 {

@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_moment_h
 #define hpvi_contact_moment_h
 
-#include <hpvi/moments/box_tables.h>
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/friction_limit.h>
+#include <hpvi/space/box_tables.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>

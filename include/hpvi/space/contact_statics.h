@@ -2,9 +2,9 @@
 #ifndef hpvi_contact_statics_h
 #define hpvi_contact_statics_h
 
-#include <hpvi/balance/nearest_force.h>
-#include <hpvi/checks/space_motion.h>
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/scene/space_motion.h>
+#include <hpvi/solvers/nearest_force.h>
+#include <hpvi/space/moment_space.h>
 
 #include <optional>
 #include <string>

@@ -2,8 +2,8 @@
 #ifndef hpvi_friction_iteration_h
 #define hpvi_friction_iteration_h
 
-#include <hpvi/cones/anderson.h>
-#include <hpvi/primal/moment_newton.h>
+#include <hpvi/solvers/anderson.h>
+#include <hpvi/space/moment_newton.h>
 
 #include <functional>
 #include <vector>

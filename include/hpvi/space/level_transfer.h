@@ -2,7 +2,7 @@
 #ifndef hpvi_level_transfer_h
 #define hpvi_level_transfer_h
 
-#include <hpvi/multigrid/multigrid_level.h>
+#include <hpvi/space/multigrid_level.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_load_check_h
 #define hpvi_load_check_h
 
-#include <hpvi/evaluation/equilibrium.h>
+#include <hpvi/results/equilibrium.h>
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_load_work_h
 #define hpvi_load_work_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 namespace hpvi
 {

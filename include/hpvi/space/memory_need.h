@@ -2,7 +2,7 @@
 #ifndef hpvi_memory_need_h
 #define hpvi_memory_need_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <string>
 

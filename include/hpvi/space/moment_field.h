@@ -2,8 +2,8 @@
 #ifndef hpvi_moment_field_h
 #define hpvi_moment_field_h
 
-#include <hpvi/evaluation/field.h>
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/results/field.h>
+#include <hpvi/space/moment_space.h>
 
 #include <array>
 #include <memory>

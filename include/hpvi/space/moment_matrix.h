@@ -3,9 +3,9 @@
 #define hpvi_moment_matrix_h
 
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/moments/moment_state.h>
-#include <hpvi/moments/primal_system.h>
-#include <hpvi/multigrid/multigrid.h>
+#include <hpvi/space/moment_state.h>
+#include <hpvi/space/multigrid.h>
+#include <hpvi/space/primal_system.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>

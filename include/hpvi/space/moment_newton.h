@@ -2,7 +2,7 @@
 #ifndef hpvi_moment_newton_h
 #define hpvi_moment_newton_h
 
-#include <hpvi/primal/augmented_lagrangian.h>
+#include <hpvi/space/augmented_lagrangian.h>
 
 #include <functional>
 #include <vector>

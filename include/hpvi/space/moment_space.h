@@ -3,9 +3,9 @@
 #define hpvi_moment_space_h
 
 #include <hpvi/base/processes.h>
-#include <hpvi/moments/box_tables.h>
-#include <hpvi/moments/contact_moment.h>
 #include <hpvi/scene/scene.h>
+#include <hpvi/space/box_tables.h>
+#include <hpvi/space/contact_moment.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/distributed/tria.h>

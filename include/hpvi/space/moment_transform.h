@@ -2,7 +2,7 @@
 #ifndef hpvi_moment_transform_h
 #define hpvi_moment_transform_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <array>
 #include <functional>

@@ -2,9 +2,9 @@
 #ifndef hpvi_mooring_h
 #define hpvi_mooring_h
 
-#include <hpvi/primal/contact_statics.h>
-#include <hpvi/primal/moment_matrix.h>
-#include <hpvi/primal/moment_newton.h>
+#include <hpvi/space/contact_statics.h>
+#include <hpvi/space/moment_matrix.h>
+#include <hpvi/space/moment_newton.h>
 
 #include <functional>
 #include <vector>

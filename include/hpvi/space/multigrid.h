@@ -3,8 +3,8 @@
 #define hpvi_multigrid_h
 
 #include <hpvi/base/processes.h>
-#include <hpvi/multigrid/coarse_solver.h>
-#include <hpvi/multigrid/level_transfer.h>
+#include <hpvi/space/coarse_solver.h>
+#include <hpvi/space/level_transfer.h>
 
 #include <deal.II/lac/precondition.h>
 

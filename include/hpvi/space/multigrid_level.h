@@ -2,10 +2,10 @@
 #ifndef hpvi_multigrid_level_h
 #define hpvi_multigrid_level_h
 
-#include <hpvi/moments/box_stiffness.h>
-#include <hpvi/moments/moment_state.h>
-#include <hpvi/multigrid/cell_operator.h>
-#include <hpvi/multigrid/moment_transform.h>
+#include <hpvi/space/box_stiffness.h>
+#include <hpvi/space/cell_operator.h>
+#include <hpvi/space/moment_state.h>
+#include <hpvi/space/moment_transform.h>
 
 #include <deal.II/base/subscriptor.h>
 

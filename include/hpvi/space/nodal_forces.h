@@ -2,8 +2,8 @@
 #ifndef hpvi_nodal_forces_h
 #define hpvi_nodal_forces_h
 
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/moments/primal_system.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/space/primal_system.h>
 
 #include <vector>
 

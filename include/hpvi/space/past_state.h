@@ -2,9 +2,9 @@
 #ifndef hpvi_past_state_h
 #define hpvi_past_state_h
 
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/evaluation/equilibrium.h>
-#include <hpvi/moments/primal_system.h>
+#include <hpvi/results/energies.h>
+#include <hpvi/results/equilibrium.h>
+#include <hpvi/space/primal_system.h>
 
 #include <memory>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef hpvi_primal_system_h
 #define hpvi_primal_system_h
 
-#include <hpvi/moments/box_stiffness.h>
+#include <hpvi/space/box_stiffness.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_rigid_motions_h
 #define hpvi_rigid_motions_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <vector>
 

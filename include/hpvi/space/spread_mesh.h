@@ -2,7 +2,7 @@
 #ifndef hpvi_spread_mesh_h
 #define hpvi_spread_mesh_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <memory>
 

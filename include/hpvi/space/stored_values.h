@@ -2,7 +2,7 @@
 #ifndef hpvi_stored_values_h
 #define hpvi_stored_values_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <deal.II/lac/vector.h>
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_transfer_h
 #define hpvi_transfer_h
 
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/space/moment_space.h>
 
 #include <vector>
 

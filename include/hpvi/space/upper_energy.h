@@ -2,8 +2,8 @@
 #ifndef hpvi_upper_energy_h
 #define hpvi_upper_energy_h
 
-#include <hpvi/evaluation/energies.h>
-#include <hpvi/moments/moment_space.h>
+#include <hpvi/results/energies.h>
+#include <hpvi/space/moment_space.h>
 
 namespace hpvi
 {

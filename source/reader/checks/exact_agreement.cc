@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/checks/checks.h>
-#include <hpvi/checks/rejection.h>
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/reader/checks/rejection.h>
+#include <hpvi/reader/shapes/shape.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/checks/checks.h>
-#include <hpvi/checks/rejection.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/reader/checks/rejection.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
 

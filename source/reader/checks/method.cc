@@ -2,12 +2,12 @@
 
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/checks/checks.h>
-#include <hpvi/checks/rejection.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/reader/checks/rejection.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/shapes/shape.h>
 
 #include <algorithm>
 #include <array>

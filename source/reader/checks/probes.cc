@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/checks/checks.h>
-#include <hpvi/checks/rejection.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/reader/checks/rejection.h>
 
 #include <algorithm>
 #include <cmath>

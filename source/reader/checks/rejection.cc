@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/checks/rejection.h>
+#include <hpvi/reader/checks/rejection.h>
 
 #include <hpvi/base/text.h>
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
 
 #include <utility>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/checks/rejection.h>
+#include <hpvi/reader/checks/rejection.h>
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/hexahedral_mesh.h>
-#include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/geometry_info.h>
 

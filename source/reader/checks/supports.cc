@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/checks/rejection.h>
-#include <hpvi/checks/supports.h>
+#include <hpvi/reader/checks/rejection.h>
+#include <hpvi/reader/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>

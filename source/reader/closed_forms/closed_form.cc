@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/closed_forms/closed_form.h>
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/closed_forms/partial_slip.h>
-#include <hpvi/closed_forms/smooth.h>
-#include <hpvi/closed_forms/stick_slip.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
+#include <hpvi/reader/closed_forms/smooth.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
 
 #include <deal.II/base/patterns.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/hertz.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/closed_forms/hertz.h>
-#include <hpvi/closed_forms/partial_slip.h>
+#include <hpvi/reader/closed_forms/hertz.h>
+#include <hpvi/reader/closed_forms/partial_slip.h>
 
 #include <algorithm>
 #include <cmath>

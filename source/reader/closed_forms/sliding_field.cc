@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/closed_forms/sliding_field.h>
+#include <hpvi/reader/closed_forms/sliding_field.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/closed_forms/stick_slip.h>
+#include <hpvi/reader/closed_forms/stick_slip.h>
 
 #include <algorithm>
 #include <cmath>

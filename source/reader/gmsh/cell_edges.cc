@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/cell_edges.h>
+#include <hpvi/reader/gmsh/cell_edges.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/element_checks.h>
+#include <hpvi/reader/gmsh/element_checks.h>
 
 #include <algorithm>
 #include <cmath>

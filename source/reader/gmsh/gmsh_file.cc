@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/gmsh_file.h>
-#include <hpvi/gmsh/gmsh_text.h>
+#include <hpvi/reader/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/gmsh_text.h>
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/gmsh_text.h>
+#include <hpvi/reader/gmsh/gmsh_text.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/cell_faces.h>
-#include <hpvi/gmsh/gmsh_file.h>
-#include <hpvi/gmsh/hexahedral_file.h>
-#include <hpvi/gmsh/mesh_groups.h>
+#include <hpvi/reader/gmsh/cell_faces.h>
+#include <hpvi/reader/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/hexahedral_file.h>
+#include <hpvi/reader/gmsh/mesh_groups.h>
 
 #include <deal.II/grid/grid_tools.h>
 

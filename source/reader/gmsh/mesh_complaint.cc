@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/mesh_complaint.h>
+#include <hpvi/reader/gmsh/mesh_complaint.h>
 
 namespace hpvi
 {

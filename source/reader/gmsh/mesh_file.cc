@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/cell_checks.h>
-#include <hpvi/gmsh/element_checks.h>
-#include <hpvi/gmsh/gmsh_file.h>
-#include <hpvi/gmsh/mesh_file.h>
-#include <hpvi/gmsh/mesh_groups.h>
-#include <hpvi/gmsh/quadratic_edge.h>
+#include <hpvi/reader/gmsh/cell_checks.h>
+#include <hpvi/reader/gmsh/element_checks.h>
+#include <hpvi/reader/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/mesh_file.h>
+#include <hpvi/reader/gmsh/mesh_groups.h>
+#include <hpvi/reader/gmsh/quadratic_edge.h>
 
 #include <algorithm>
 #include <cmath>

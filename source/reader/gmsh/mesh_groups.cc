@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/mesh_groups.h>
+#include <hpvi/reader/gmsh/mesh_groups.h>
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/gmsh/quadratic_edge.h>
+#include <hpvi/reader/gmsh/quadratic_edge.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/input/expressions.h>
+#include <hpvi/reader/input/expressions.h>
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>

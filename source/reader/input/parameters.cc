@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/shown_file.h>

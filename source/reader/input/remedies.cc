@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/input/remedies.h>
+#include <hpvi/reader/input/remedies.h>
 
 #include <deal.II/base/utilities.h>
 

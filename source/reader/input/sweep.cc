@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
-#include <hpvi/input/sweep.h>
+#include <hpvi/reader/input/sweep.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/reader/shapes/curve_fit.h>
 #include <hpvi/scene/spline.h>
-#include <hpvi/shapes/curve_fit.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/shapes/half_disc.h>
+#include <hpvi/reader/shapes/half_disc.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/hexahedral_file.h>
-#include <hpvi/shapes/curve_fit.h>
-#include <hpvi/shapes/hexahedra_from_file.h>
-#include <hpvi/shapes/mesh_from_file.h>
+#include <hpvi/reader/gmsh/hexahedral_file.h>
+#include <hpvi/reader/shapes/curve_fit.h>
+#include <hpvi/reader/shapes/hexahedra_from_file.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
-#include <hpvi/gmsh/mesh_file.h>
-#include <hpvi/gmsh/quadratic_edge.h>
-#include <hpvi/shapes/curve_fit.h>
-#include <hpvi/shapes/mesh_from_file.h>
+#include <hpvi/reader/gmsh/mesh_file.h>
+#include <hpvi/reader/gmsh/quadratic_edge.h>
+#include <hpvi/reader/shapes/curve_fit.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/shapes/plate_with_hole.h>
+#include <hpvi/reader/shapes/plate_with_hole.h>
 
 #include <deal.II/base/numbers.h>
 

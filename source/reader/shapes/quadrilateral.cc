@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/shapes/quadrilateral.h>
+#include <hpvi/reader/shapes/quadrilateral.h>
 
 #include <cmath>
 

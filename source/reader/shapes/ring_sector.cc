@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/shapes/ring_sector.h>
+#include <hpvi/reader/shapes/ring_sector.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -2,15 +2,15 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
+#include <hpvi/reader/shapes/box.h>
+#include <hpvi/reader/shapes/half_disc.h>
+#include <hpvi/reader/shapes/hexahedra_from_file.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
+#include <hpvi/reader/shapes/plate_with_hole.h>
+#include <hpvi/reader/shapes/quadrilateral.h>
+#include <hpvi/reader/shapes/ring_sector.h>
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/hexahedral_mesh.h>
-#include <hpvi/shapes/box.h>
-#include <hpvi/shapes/half_disc.h>
-#include <hpvi/shapes/hexahedra_from_file.h>
-#include <hpvi/shapes/mesh_from_file.h>
-#include <hpvi/shapes/plate_with_hole.h>
-#include <hpvi/shapes/quadrilateral.h>
-#include <hpvi/shapes/ring_sector.h>
-#include <hpvi/shapes/shape.h>
 
 #include <deal.II/base/utilities.h>
 

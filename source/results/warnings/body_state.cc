@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/body/cell_map.h>
-#include <hpvi/evaluation/unseen_contact.h>
-#include <hpvi/warnings/body_state.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/results/unseen_contact.h>
+#include <hpvi/results/warnings/body_state.h>
 
 #include <deal.II/base/mpi.h>
 

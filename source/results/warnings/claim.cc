@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/warnings/claim.h>
+#include <hpvi/results/warnings/claim.h>
 
 #include <map>
 

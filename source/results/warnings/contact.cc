@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/results/warnings/line.h>
+#include <hpvi/results/warnings/warnings.h>
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
-#include <hpvi/warnings/line.h>
-#include <hpvi/warnings/warnings.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/warnings/line.h>
-#include <hpvi/warnings/warnings.h>
+#include <hpvi/results/warnings/line.h>
+#include <hpvi/results/warnings/warnings.h>
 
 #include <cmath>
 

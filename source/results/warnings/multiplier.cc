@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/cones/coulomb_solver.h>
-#include <hpvi/contact/collapse.h>
-#include <hpvi/quadratic/quadratic_program.h>
-#include <hpvi/warnings/line.h>
-#include <hpvi/warnings/warnings.h>
+#include <hpvi/plane/collapse.h>
+#include <hpvi/results/warnings/line.h>
+#include <hpvi/results/warnings/warnings.h>
+#include <hpvi/solvers/coulomb_solver.h>
+#include <hpvi/solvers/quadratic_program.h>
 
 #include <algorithm>
 #include <cmath>

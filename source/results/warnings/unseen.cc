@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/discretisation/missed_loads.h>
-#include <hpvi/evaluation/unseen_contact.h>
-#include <hpvi/warnings/line.h>
-#include <hpvi/warnings/warnings.h>
+#include <hpvi/plane/missed_loads.h>
+#include <hpvi/results/unseen_contact.h>
+#include <hpvi/results/warnings/line.h>
+#include <hpvi/results/warnings/warnings.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef hpvi_closed_form_h
 #define hpvi_closed_form_h
 
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/exact_solution.h>
 
 #include <functional>

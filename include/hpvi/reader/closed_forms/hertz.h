@@ -2,8 +2,8 @@
 #ifndef hpvi_hertz_h
 #define hpvi_hertz_h
 
-#include <hpvi/closed_forms/closed_form.h>
-#include <hpvi/closed_forms/sliding_field.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/closed_forms/sliding_field.h>
 
 #include <complex>
 #include <vector>

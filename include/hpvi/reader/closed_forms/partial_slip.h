@@ -2,8 +2,8 @@
 #ifndef hpvi_partial_slip_h
 #define hpvi_partial_slip_h
 
-#include <hpvi/closed_forms/closed_form.h>
-#include <hpvi/closed_forms/sliding_field.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/closed_forms/sliding_field.h>
 
 #include <vector>
 

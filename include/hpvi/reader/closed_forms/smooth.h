@@ -2,8 +2,8 @@
 #ifndef hpvi_smooth_h
 #define hpvi_smooth_h
 
-#include <hpvi/closed_forms/closed_form.h>
-#include <hpvi/closed_forms/sliding_field.h>
+#include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/closed_forms/sliding_field.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_cell_checks_h
 #define hpvi_cell_checks_h
 
-#include <hpvi/gmsh/cell_edges.h>
+#include <hpvi/reader/gmsh/cell_edges.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_cell_edges_h
 #define hpvi_cell_edges_h
 
-#include <hpvi/gmsh/mesh_complaint.h>
+#include <hpvi/reader/gmsh/mesh_complaint.h>
 #include <hpvi/scene/coarse_mesh.h>
 
 namespace hpvi

@@ -2,7 +2,7 @@
 #ifndef hpvi_cell_faces_h
 #define hpvi_cell_faces_h
 
-#include <hpvi/gmsh/mesh_complaint.h>
+#include <hpvi/reader/gmsh/mesh_complaint.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <map>

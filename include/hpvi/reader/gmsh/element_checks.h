@@ -2,8 +2,8 @@
 #ifndef hpvi_element_checks_h
 #define hpvi_element_checks_h
 
-#include <hpvi/gmsh/gmsh_file.h>
-#include <hpvi/gmsh/mesh_complaint.h>
+#include <hpvi/reader/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/mesh_complaint.h>
 #include <hpvi/scene/coarse_mesh.h>
 
 namespace hpvi

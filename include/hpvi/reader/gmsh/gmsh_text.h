@@ -2,7 +2,7 @@
 #ifndef hpvi_gmsh_text_h
 #define hpvi_gmsh_text_h
 
-#include <hpvi/gmsh/mesh_complaint.h>
+#include <hpvi/reader/gmsh/mesh_complaint.h>
 
 #include <cstdint>
 #include <map>

@@ -2,8 +2,8 @@
 #ifndef hpvi_mesh_groups_h
 #define hpvi_mesh_groups_h
 
-#include <hpvi/gmsh/cell_edges.h>
-#include <hpvi/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/cell_edges.h>
+#include <hpvi/reader/gmsh/gmsh_file.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_expressions_h
 #define hpvi_expressions_h
 
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/point.h>

@@ -2,7 +2,7 @@
 #ifndef hpvi_parameters_h
 #define hpvi_parameters_h
 
-#include <hpvi/input/remedies.h>
+#include <hpvi/reader/input/remedies.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>

@@ -2,7 +2,7 @@
 #ifndef hpvi_box_h
 #define hpvi_box_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

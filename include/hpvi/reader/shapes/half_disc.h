@@ -2,7 +2,7 @@
 #ifndef hpvi_half_disc_h
 #define hpvi_half_disc_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

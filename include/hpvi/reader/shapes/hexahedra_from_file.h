@@ -2,8 +2,8 @@
 #ifndef hpvi_hexahedra_from_file_h
 #define hpvi_hexahedra_from_file_h
 
+#include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/hexahedral_mesh.h>
-#include <hpvi/shapes/shape.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_mesh_from_file_h
 #define hpvi_mesh_from_file_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_plate_with_hole_h
 #define hpvi_plate_with_hole_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

@@ -2,7 +2,7 @@
 #ifndef hpvi_quadrilateral_h
 #define hpvi_quadrilateral_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

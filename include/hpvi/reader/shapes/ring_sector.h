@@ -2,7 +2,7 @@
 #ifndef hpvi_ring_sector_h
 #define hpvi_ring_sector_h
 
-#include <hpvi/shapes/shape.h>
+#include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {

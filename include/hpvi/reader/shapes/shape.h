@@ -2,7 +2,7 @@
 #ifndef hpvi_shape_h
 #define hpvi_shape_h
 
-#include <hpvi/input/parameters.h>
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/geometry.h>
 
 #include <functional>

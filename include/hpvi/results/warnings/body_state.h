@@ -2,8 +2,8 @@
 #ifndef hpvi_body_state_h
 #define hpvi_body_state_h
 
-#include <hpvi/evaluation/field.h>
-#include <hpvi/stresses/mean_gradients.h>
+#include <hpvi/results/field.h>
+#include <hpvi/results/mean_gradients.h>
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #ifndef hpvi_history_h
 #define hpvi_history_h
 
-#include <hpvi/peaks/stress_peak.h>
-#include <hpvi/warnings/claim.h>
+#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/warnings/claim.h>
 
 #include <limits>
 #include <string>

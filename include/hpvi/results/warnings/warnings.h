@@ -2,11 +2,11 @@
 #ifndef hpvi_warnings_h
 #define hpvi_warnings_h
 
-#include <hpvi/discretisation/iterative_refinement.h>
-#include <hpvi/discretisation/solution.h>
-#include <hpvi/evaluation/contact_state.h>
-#include <hpvi/warnings/body_state.h>
-#include <hpvi/warnings/history.h>
+#include <hpvi/plane/iterative_refinement.h>
+#include <hpvi/plane/solution.h>
+#include <hpvi/results/contact_state.h>
+#include <hpvi/results/warnings/body_state.h>
+#include <hpvi/results/warnings/history.h>
 
 #include <string>
 #include <vector>
