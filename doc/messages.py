@@ -30,30 +30,31 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
 PASSED_ON = {
     "base/parameter_file:", "base/parameter_file:fail", "base/processes:together", "base/file_format:reject", "checks/rejection:reject",
     "checks/rejection:check_value", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
-    "checks/shape:check_materials", "adaptivity/load_history:run", "adaptivity/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
+    "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
-    "backends/primal_backend:reach_loads", "backends/reduced_backend:discretise", "program/sweep_run:naming_values",
+    "driver/primal_backend:reach_loads", "driver/reduced_backend:discretise", "program/sweep_run:naming_values",
     "output/vtu_reader:require", "program/tell_of_run:report_of"}
 # Functions that return what is refused: section and entry.
 RETURNED = {"scene/orthotropy:flaw": ("Material NAME", "Poisson's ratios")}
 # What wrappers add to what they are given: where, and a literal that is there.
-ENDINGS = {"adaptivity/": "; go on with the scene of that run, or begin a new one", "base/file_format": "; then what to make anew",
-           "evaluation/stored_solution": "; make the reference solution anew from a scene of the same problem with the same coarse mesh",
+ENDINGS = {**{f"driver/{noun}": "; go on with the scene of that run, or begin a new one"
+              for noun in ("adaptive_solver", "checkpoint", "load_history", "step_stages")}, "base/file_format": "; then what to make anew",
+           "results/stored_solution": "; make the reference solution anew from a scene of the same problem with the same coarse mesh",
            "output/": "; choose another one with --output", "program/sweep_run": "; choose another one with --output"}
 # Sections that a source is about where they are no literals.
 SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary NAME", "reader/boundary_reader": "Boundary NAME",
             "reader/plate_reader": "Boundary NAME", "reader/probe_reader": "Probe NAME", "checks/probes": "Probe NAME",
             "reader/pair_sides": "Contact NAME", "reader/bodies_reader": "Contact NAME", "reader/body_reader": "Material NAME",
-            "reader/strain_reader": "Material NAME", "scene/elasticity": "Material NAME", "checks/supports": "Boundary NAME",
+            "reader/strain_reader": "Material NAME", "reader/material_reader": "Material NAME", "checks/supports": "Boundary NAME",
             "checks/parts": "Boundary NAME", "checks/method": "Boundary NAME", "checks/exact_agreement": "Boundary NAME",
-            "closed_forms/closed_form": "Boundary NAME", "contact/contact_numbering": "Boundary NAME", "moments/moment_space": "Boundary NAME",
+            "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/moment_space": "Boundary NAME",
             "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Body force", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
 SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/free_names"),
             "Expressions": ("input/expressions",), "Mesh files": ("gmsh/", "shapes/mesh_from_file"),
-            "Files of earlier runs": ("base/file_format", "adaptivity/", "evaluation/stored_solution", "output/tables"),
-            "The directory of results": ("output/",), "Scenes made by code": ("body/mesh", "scene/scene", "backends/backend")}
+            "Files of earlier runs": ("base/file_format", "driver/checkpoint", "driver/load_history", "driver/adaptive_solver", "driver/step_stages", "results/stored_solution", "output/tables"),
+            "The directory of results": ("output/",), "Scenes made by code": ("plane/mesh", "scene/scene", "driver/backend")}
 NUMBERS = {"to_string", "text", "labelled", "bytes_text", "size", "n", "degrees"}
 NAMES = {"name", "mention", "name_of", "listed", "what", "in_words", "words", "path", "printable", "checksum", "where", "section",
          "origin", "direction", "describe", "in_quotes"}
@@ -524,7 +525,7 @@ def reasons(sources):
     for function in ("no_error_bound", "flaw", "cause_of_imbalance"):
         for noun, begin, end in sources.functions[function]:
             code = sources.code[noun]
-            if function != "flaw" or noun == "equilibration/error_bound":
+            if function != "flaw" or noun == "bound/error_bound":
                 found += [tidy(text) for k in range(begin, end) if code[k].text == "return"
                           for text in split(sources.text(statement(code, k + 1), noun, k)) if has_words(text)]
     return "\n".join(f"- {escaped(text)}" for text in dict.fromkeys(found)) + "\n"

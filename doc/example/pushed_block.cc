@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A block lies on a plane and is pushed to the right; friction alone holds it.
 #include <hpvi/driver/adaptive_solver.h>
+#include <hpvi/reader/checks/checks.h>
 
 #include <exception>
 #include <iomanip>
@@ -20,7 +21,7 @@ try
   bottom.contact = Contact::bilateral;
   bottom.friction.bound = expression<2>([](const dealii::Point<2> &x) { return 0.1 * (1 + x[0]); });
   scene.adaptivity.tolerance = 0.01;
-  scene.check();
+  check(scene);
 
   AdaptiveSolver<2>(scene).run(
       [](const StepReport<2> &step)

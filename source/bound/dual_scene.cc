@@ -109,6 +109,7 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
   result.probes.clear();
   result.loading = {};
   result.parameters.reset();
+  result.file.clear();
   for (BoundaryCondition<2> &boundary : result.boundaries)
     forget_data(boundary);
   forget_pairs(result);

@@ -12,6 +12,7 @@
 #include <hpvi/driver/step_stages.h>
 #include <hpvi/driver/thickness.h>
 #include <hpvi/driver/threads.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
 
 namespace hpvi
@@ -27,7 +28,7 @@ void check_one_problem(const Scene<dim> &scene)
   if (scene.has_load_history())
     throw InputError(scene.origin() + ": Loading/Steps: asks for a history, of which this is one "
                                       "load step only; run it by LoadHistory, or remove it");
-  scene.check();
+  check(scene);
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 #include <hpvi/driver/checkpoint.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 #include <charconv>
@@ -235,7 +236,7 @@ template <int dim>
 std::vector<std::string> RunState<dim>::entries_of(const Scene<dim> &scene,
                                                    const unsigned int n_processes)
 {
-  std::vector<std::string> result = hpvi::entries_of(scene.effective_parameters(), decides);
+  std::vector<std::string> result = hpvi::entries_of(effective_parameters(scene), decides);
   // Several processes name the path that one finds by itself.
   std::replace(result.begin(), result.end(), std::string("Solver/Path = auto"),
                std::string("Solver/Path = ") +

@@ -7,6 +7,7 @@
 #include <hpvi/plane/initial_stress.h>
 #include <hpvi/plane/interpolation.h>
 #include <hpvi/plane/tangential_trace.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/data_scale.h>
 
@@ -76,7 +77,7 @@ LoadHistory<dim>::Evolution::Evolution(const Scene<dim> &scene, MPI_Comm communi
 {
   if (scene.has_load_history())
   {
-    scene.check();
+    check(scene);
     begin(1);
   }
   else
@@ -107,7 +108,7 @@ void LoadHistory<dim>::Evolution::go_on_after(const RunState<dim> &state)
   if (number >= scene.loading.steps)
     RunState<dim>::format().reject(state.name, "there is nothing to go on with after load step " +
                                                    std::to_string(number) + ", the last one");
-  scene.check();
+  check(scene);
   const auto last = std::make_shared<Scene<dim>>(load_step(scene, number, finished.past_data));
   last->past_data = finished.data;
   current = last;

@@ -2,6 +2,7 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/finished_run.h>
+#include <hpvi/reader/scene_reader.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS // as the parser still does; silences its note
 #include <boost/property_tree/json_parser.hpp>
@@ -41,7 +42,7 @@ template <int dim>
 std::vector<std::string> input_files_of(const Scene<dim> &scene)
 {
   std::vector<std::string> result =
-      entries_of(scene.effective_parameters(), [](const std::string &, const std::string &entry)
+      entries_of(effective_parameters(scene), [](const std::string &, const std::string &entry)
                  { return entry == "File" || entry == "Reference solution"; });
   const auto is_empty = [](const std::string &entry)
   { return entry.find(" = content ") == std::string::npos; };

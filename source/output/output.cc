@@ -10,6 +10,7 @@
 #include <hpvi/output/vtu.h>
 #include <hpvi/output/written_names.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/scene_reader.h>
 #include <hpvi/results/stored_solution.h>
 
 #include <deal.II/base/mpi.h>
@@ -64,8 +65,7 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
 {
   directory = std::make_unique<ResultDirectory>(
       path, names_written(scene, n_processes),
-      std::vector<std::string>{scene.parameters && n_steps == 0 ? scene.parameters->file_name()
-                                                                : "",
+      std::vector<std::string>{scene.parameters && n_steps == 0 ? scene.file : "",
                                scene.reference_solution});
   summary.processes = n_processes;
   summary.input_files = input_files_of(scene);
@@ -81,7 +81,7 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
     if (scene.parameters)
     {
       announce({"scene.prm"});
-      write("scene.prm", scene.effective_parameters());
+      write("scene.prm", effective_parameters(scene));
     }
     write_summary(); // a run that was done stays so until its scene has the limits with which it goes on
   }
@@ -177,8 +177,7 @@ void Output<dim>::check(const std::string &name, const std::error_code &error) c
 template <int dim>
 std::string Output<dim>::replaced_scene() const
 {
-  return directory ? directory->other_scene(scene.parameters ? scene.parameters->file_name() : "")
-                   : "";
+  return directory ? directory->other_scene(scene.file) : "";
 }
 
 template <int dim>

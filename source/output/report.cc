@@ -11,6 +11,7 @@
 #include <hpvi/output/scene_listing.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
 #include <functional>
@@ -206,7 +207,7 @@ std::string field_part(const Scene<dim> &scene, const RunFiles &files)
 template <int dim>
 std::string source_part(const Scene<dim> &scene, const JsonTree &summary)
 {
-  const std::string file = scene.effective_parameters(), processes = words_of(summary, "processes");
+  const std::string file = effective_parameters(scene), processes = words_of(summary, "processes");
   if (file.empty())
     return element("p", "The scene was built by a program: there is no file of it.") + "\n";
   const std::string first = words_of(summary, "scene_file");

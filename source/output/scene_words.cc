@@ -10,7 +10,6 @@
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/space/load_check.h>
 
@@ -122,7 +121,7 @@ std::string temperature_in_words(const Scene<dim> &scene)
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material)
 {
-  std::string words = elasticity_in_words(material, unit_name(scene.stress_unit));
+  std::string words = material.elasticity_in_words(unit_name(scene.stress_unit));
   if (dim == 2)
     words += scene.is_axisymmetric()                ? ", axisymmetric, forces of the full turn"
              : material.plane == PlaneModel::stress ? ", plane stress"

@@ -161,7 +161,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"message", words_or_null(message)},
       {"scene", json_string(began_elsewhere ? fs::path(scene_file).stem().string() : scene.name)},
       {"scene_file", words_or_null(began_elsewhere    ? scene_file
-                                   : scene.parameters ? scene.parameters->file_name()
+                                   : scene.parameters ? scene.file
                                                       : "")},
       {"title", json_string(scene.title)},
       {"program", json_string("hpvi " + version())},

@@ -35,7 +35,7 @@ Spaces<dim>::Spaces(const Scene<dim> &scene,
 template <int dim>
 std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 {
-  if (const std::string why = scene.no_error_bound(); !why.empty())
+  if (const std::string why = hpvi::no_error_bound(scene); !why.empty())
     return why;
   return past.empty() ? unmatched_joint(contact_space)
                       : "friction acts on increments after the first load step";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/plane/matching.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,47 @@ std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const uns
 }
 } // namespace
 
+namespace
+{
+/** The first boundary whose contact is along another direction than the normal; null: there is none. */
+template <int dim>
+const BoundaryCondition<dim> *oblique_contact(const Scene<dim> &scene)
+{
+  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
+                   [](const BoundaryCondition<dim> &b)
+                   { return b.contact_direction && b.has_contact(); }))
+    return nullptr;
+  const std::vector<Side<dim>> sides = sides_of(scene);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    for (const Point<dim> &x : sides[boundary.id].sample())
+      if (const Tensor<1, dim> n = sides[boundary.id].normal(x); boundary.held_direction(n) != n)
+        return &boundary;
+  return nullptr;
+}
+} // namespace
+
+template <int dim>
+std::string no_error_bound(const Scene<dim> &scene)
+{
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.has_contact() && boundary.friction.knows_pressure())
+      return boundary.friction.name() + " minimises no energy";
+  if (const BoundaryCondition<dim> *const oblique = oblique_contact(scene))
+    return "contact of " + printable(oblique->name) +
+           " acts along its Contact direction, which is not the normal";
+  if (scene.is_axisymmetric())
+    return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
+  if (scene.adaptivity.start_degree < 2)
+    return "cells have degree 1";
+  if (scene.geometry.has_curves())
+    return "cells have curved edges, and stresses in equilibrium are known on straight ones";
+  if (!scene.bound_on_distorted_cells && scene.geometry.has_mesh() && scene.geometry.bodies.empty())
+    return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
+  if (!scene.bound_on_distorted_cells && !scene.geometry.has_affine_cells())
+    return "cells are no parallelograms, and Error/Bound on distorted cells is false";
+  return {};
+}
+
 template <int dim>
 void match_nested(const Scene<dim> &scene, const ShapeTables<dim> &tables,
                   Triangulation<dim> &triangulation, Degrees &degrees)
@@ -107,7 +149,7 @@ void match_nested(const Scene<dim> &scene, const ShapeTables<dim> &tables,
         nested_cells(ContactSpace<dim>(scene, space, tables), triangulation.n_active_cells()),
         degrees};
   };
-  bool matches = !scene.has_pairs() || !scene.error_bound || !scene.no_error_bound().empty();
+  bool matches = !scene.has_pairs() || !scene.error_bound || !no_error_bound(scene).empty();
   while (!matches)
   {
     const Refinement refinement = next();
@@ -162,6 +204,8 @@ void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<d
 template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
+template std::string no_error_bound(const Scene<2> &);
+template std::string no_error_bound(const Scene<3> &);
 template void match_nested(const Scene<2> &, const ShapeTables<2> &, Triangulation<2> &, Degrees &);
 template void keep_matching(const ContactSpace<2> &, const Triangulation<2> &, Refinement &);
 } // namespace hpvi

@@ -13,8 +13,7 @@ namespace hpvi
 void draw_scene(const Scene<2> &scene, const std::string &directory)
 {
   const std::string name = "scene.svg", picture = scene_picture(scene); // first: it may be refused
-  const ResultDirectory results(directory, results::picture,
-                                {scene.parameters ? scene.parameters->file_name() : ""});
+  const ResultDirectory results(directory, results::picture, {scene.file});
   if (const std::error_code error = results.write(name, picture))
     throw OutputFailure(results.name() + ": " + name + " cannot be written: " + error.message());
   std::cout << "picture in " << printable(directory, 400) << '/' << name << std::endl;

@@ -7,6 +7,7 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/plane/matching.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
@@ -33,7 +34,7 @@ template <int dim>
 bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
 {
   return !is_primal && scene.error_bound &&
-         (scene.has_load_history() || scene.no_error_bound().empty());
+         (scene.has_load_history() || no_error_bound(scene).empty());
 }
 
 /** The true error has a column only where there is something to compare with, time in a history. */
@@ -118,7 +119,7 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
              is_wanted = step.scene.error_bound && !step.primal;
   if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
-  const bool has_none = step.load.number == 0 && !step.scene.no_error_bound().empty();
+  const bool has_none = step.load.number == 0 && !no_error_bound(step.scene).empty();
   return "\nno bound of the error" + (has_none ? "" : " in step " + text(step.number)) + ": " +
          step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n" +
          (is_in_its_place ? "Adaptivity/Tolerance was compared with the indicator in its place, "

@@ -205,7 +205,7 @@ void Sweep<dim>::look_for_results()
   for (std::size_t k = 0; k < swept.size(); ++k)
   {
     const std::string scene = content_of(directory_of(k) + "/scene.prm");
-    if (!scene.empty() && scene != scenes[k]->effective_parameters())
+    if (!scene.empty() && scene != effective_parameters(*scenes[k]))
       reject("its " + printable(swept[k].directory) + " has results of another scene");
     runs[k].was_done = !scene.empty() && is_finished_run(directory_of(k));
     if (!runs[k].was_done)

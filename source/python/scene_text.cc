@@ -104,7 +104,7 @@ std::string SceneText::picture() const
 
 std::string SceneText::print() const
 {
-  return ask_scene(*this, [](const auto &scene) { return scene.effective_parameters(); });
+  return ask_scene(*this, [](const auto &scene) { return effective_parameters(scene); });
 }
 
 std::string SceneText::title() const

@@ -3,6 +3,7 @@
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
@@ -106,7 +107,7 @@ Scene<2> single_body(const Parameters &parameters, const std::string &name)
       !single.parameters->text("Geometry", "Surfaces").empty())
     single.parameters->reject("Geometry", "Surfaces",
                               "are those of a mesh file; set Shape = file or remove it");
-  single.check_body();
+  check_body(single);
   return single;
 }
 

@@ -2,14 +2,15 @@
 #include <hpvi/base/text.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/material_reader.h>
 #include <hpvi/reader/shapes/hexahedra_from_file.h>
 #include <hpvi/reader/shapes/mesh_from_file.h>
 #include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/elasticity.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/numbers.h>
@@ -206,10 +207,10 @@ void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> 
       lay_on_axis(scene.geometry);
   const std::vector<Material> materials = scene.materials;
   scene.materials.resize(1); // the shape must be sound before functions are tried on it
-  scene.check_body();
+  check_body(scene);
   scene.materials = materials;
   place_materials(parameters, scene);
-  scene.check_body();
+  check_body(scene);
   for (const std::string &part : names.parts)
     read_part(parameters, part, scene);
 }

@@ -3,6 +3,7 @@
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/material_reader.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/shapes/mesh_from_file.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/scene_reader.h>
 #include <hpvi/reader/shapes/mesh_from_file.h>
 #include <hpvi/reader/shapes/shape.h>
@@ -226,6 +227,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
 {
   Scene<dim> scene;
   scene.parameters = parameters;
+  scene.file = parameters->file_name();
   scene.name = name;
   scene.title = parameters->text("", "Title");
   scene.length_unit = parameters->text("Units", "Length");
@@ -340,7 +342,7 @@ Scene<dim> read_scene(const std::string &file,
   settle_normal_contact(*parameters, scene);
   scene.loading = loading;
   scene.adaptivity.is_default_tolerance = is_default_tolerance;
-  scene.check(use);
+  check(scene, use);
   return scene;
 }
 

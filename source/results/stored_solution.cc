@@ -2,6 +2,7 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/plane/curved_edges.h>
+#include <hpvi/reader/scene_reader.h>
 #include <hpvi/results/stored_solution.h>
 
 #include <deal.II/base/mpi.h>
@@ -101,7 +102,7 @@ StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &
 {
   std::istringstream content(content_of(file));
   const std::vector<std::string> problem = read_problem(content, file, energy_value);
-  format.check_entries(file, problem, entries_of(scene.effective_parameters(), belongs_to_problem));
+  format.check_entries(file, problem, entries_of(effective_parameters(scene), belongs_to_problem));
   const std::map<std::string, CellRecord> records = read_records(content, file, dim);
   make_mesh(scene, mesh);
   // Bisect every cell that is not in the file until all active cells are.
@@ -138,7 +139,7 @@ void write_solution(std::ostream &out, const Field<dim> &field, const double ene
   if (rank_of(field.communicator()) == 0)
   {
     for (const std::string &entry :
-         entries_of(field.scene.effective_parameters(), belongs_to_problem))
+         entries_of(effective_parameters(field.scene), belongs_to_problem))
       content << entry << '\n';
     content << "J(u) = " << energy << '\n';
   }

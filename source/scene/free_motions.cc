@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/reader/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>

@@ -2,8 +2,6 @@
 #include <hpvi/scene/scene.h>
 
 #include <hpvi/base/text.h>
-#include <hpvi/reader/input/parameters.h>
-#include <hpvi/scene/boundary_parts.h>
 
 #include <algorithm>
 #include <limits>
@@ -95,6 +93,24 @@ Tensor<1, dim> BoundaryCondition<dim>::held_direction(const Tensor<1, dim> &norm
   return (*contact_direction - normal).norm() <= same_direction ? normal : *contact_direction;
 }
 
+template <int dim>
+std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
+                                               const Tensor<1, dim> &normal, const bool slides,
+                                               const Point<dim> &point)
+{
+  std::vector<PointCondition<dim>> conditions;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (boundary.displacement[d] != nullptr)
+    {
+      Tensor<1, dim> direction;
+      direction[d] = 1.;
+      conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
+    }
+  if (slides)
+    conditions.push_back({boundary.held_direction(normal), 0., boundary.id});
+  return conditions;
+}
+
 unsigned int own_start_degree(const Method method)
 {
   switch (method)
@@ -181,7 +197,7 @@ BoundaryCondition<dim> &Scene<dim>::boundary(const std::string &wanted)
 template <int dim>
 std::string Scene<dim>::origin() const
 {
-  return parameters && !parameters->file_name().empty() ? parameters->file_name() : name;
+  return file.empty() ? name : file;
 }
 
 template <int dim>
@@ -302,47 +318,6 @@ bool Scene<dim>::has_friction() const
                      [](const BoundaryCondition<dim> &b) { return b.has_contact() && b.friction; });
 }
 
-namespace
-{
-/** The first boundary whose contact is along another direction than the normal; null: there is none. */
-template <int dim>
-const BoundaryCondition<dim> *oblique_contact(const Scene<dim> &scene)
-{
-  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
-                   [](const BoundaryCondition<dim> &b)
-                   { return b.contact_direction && b.has_contact(); }))
-    return nullptr;
-  const std::vector<Side<dim>> sides = sides_of(scene);
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    for (const Point<dim> &x : sides[boundary.id].sample())
-      if (const Tensor<1, dim> n = sides[boundary.id].normal(x); boundary.held_direction(n) != n)
-        return &boundary;
-  return nullptr;
-}
-} // namespace
-
-template <int dim>
-std::string Scene<dim>::no_error_bound() const
-{
-  for (const BoundaryCondition<dim> &boundary : boundaries)
-    if (boundary.has_contact() && boundary.friction.knows_pressure())
-      return boundary.friction.name() + " minimises no energy";
-  if (const BoundaryCondition<dim> *const oblique = oblique_contact(*this))
-    return "contact of " + printable(oblique->name) +
-           " acts along its Contact direction, which is not the normal";
-  if (is_axisymmetric())
-    return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
-  if (adaptivity.start_degree < 2)
-    return "cells have degree 1";
-  if (geometry.has_curves())
-    return "cells have curved edges, and stresses in equilibrium are known on straight ones";
-  if (!bound_on_distorted_cells && geometry.has_mesh() && geometry.bodies.empty())
-    return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
-  if (!bound_on_distorted_cells && !geometry.has_affine_cells())
-    return "cells are no parallelograms, and Error/Bound on distorted cells is false";
-  return {};
-}
-
 template <int dim>
 bool Scene<dim>::has_pressure() const
 {
@@ -376,16 +351,14 @@ NormalContact Scene<dim>::normal_contact() const
   return has_nodes ? NormalContact::nodes : NormalContact::multiplier;
 }
 
-template <int dim>
-std::string Scene<dim>::effective_parameters() const
-{
-  return parameters ? parameters->print(false) : "";
-}
-
 template struct Spring<2>;
 template struct Spring<3>;
 template struct BoundaryCondition<2>;
 template struct BoundaryCondition<3>;
+template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &,
+                                                      const Tensor<1, 2> &, bool, const Point<2> &);
+template std::vector<PointCondition<3>> conditions_at(const BoundaryCondition<3> &,
+                                                      const Tensor<1, 3> &, bool, const Point<3> &);
 template struct Loading<2>;
 template struct Loading<3>;
 template struct Scene<2>;

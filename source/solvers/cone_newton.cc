@@ -13,7 +13,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int maximum_steps = 150;      ///< with or without line search
+constexpr unsigned int most_newton_steps = 150;  ///< with or without line search
 constexpr unsigned int maximum_all_steps = 3000; ///< of all runs together
 
 /** Beside -1, 0 and 1: a tangential component without pressure, which is zero. */
@@ -98,7 +98,7 @@ bool ConeNewton::step_on_from(State state)
   std::set<Key> known;
   double last = std::numeric_limits<double>::infinity();
   give = 1.;
-  for (unsigned int steps_left = maximum_steps; steps_left > 0; --steps_left)
+  for (unsigned int steps_left = most_newton_steps; steps_left > 0; --steps_left)
   {
     if (known.count(key_of(state)) > 0 || !follow(state))
       break;
@@ -115,7 +115,7 @@ bool ConeNewton::step_on_from(State state)
 
 bool ConeNewton::search_lines()
 {
-  for (unsigned int steps_left = maximum_steps; steps_left > 0; --steps_left)
+  for (unsigned int steps_left = most_newton_steps; steps_left > 0; --steps_left)
   {
     const ConeIterate::Point old = point;
     const double old_merit = iterate.merit();

@@ -26,8 +26,8 @@ std::vector<std::array<unsigned int, dim>> numbers_of(const FiniteElement<dim> &
 }
 
 template <int dim>
-BoxTable<dim> tabulate(const FiniteElement<dim> &fe, const std::vector<Point<dim>> &points,
-                       const std::vector<double> &weights)
+BoxTable<dim> box_table(const FiniteElement<dim> &fe, const std::vector<Point<dim>> &points,
+                        const std::vector<double> &weights)
 {
   BoxTable<dim> table;
   table.points = points;
@@ -59,14 +59,14 @@ BoxTable<dim> tabulate_face(const FiniteElement<dim> &fe, const Quadrature<dim -
     for (unsigned int s = 0; s < dim - 1; ++s)
       points[q][axes[s]] = rule.point(q)[s];
   }
-  return tabulate(fe, points, rule.get_weights());
+  return box_table(fe, points, rule.get_weights());
 }
 
 template <int dim>
 BoxTable<dim> tabulate_cell(const FiniteElement<dim> &fe, const unsigned int n_gauss)
 {
   const QGauss<dim> rule(n_gauss);
-  return tabulate(fe, rule.get_points(), rule.get_weights());
+  return box_table(fe, rule.get_points(), rule.get_weights());
 }
 } // namespace
 

@@ -4,6 +4,7 @@
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/output/scene_picture.h>
+#include <hpvi/reader/checks/checks.h>
 
 #include <map>
 
@@ -116,7 +117,7 @@ std::string refusal(const std::function<void(Scene<2> &)> &spoil)
   spoil(scene);
   try
   {
-    scene.check();
+    check(scene);
   }
   catch (const InputError &error)
   {

@@ -3,6 +3,7 @@
 #include "opening_contact.h"
 
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/results/solution_field.h>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ std::string failure_of(const Scene<2> &scene)
 Outcome expect_field(const Scene<2> &scene, const Turned &body,
                      const std::function<Tensor<1, 2>(const Point<2> &)> &field)
 {
-  scene.check();
+  check(scene);
   const RandomMesh mesh(scene, 8, 2);
   const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();

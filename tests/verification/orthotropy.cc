@@ -3,6 +3,8 @@
 #include "discretisation.h"
 
 #include <hpvi/driver/backend.h>
+#include <hpvi/reader/checks/checks.h>
+#include <hpvi/reader/scene_reader.h>
 #include <hpvi/results/true_error.h>
 
 #include <limits>
@@ -370,7 +372,7 @@ std::string refusal(const Scene<dim> &scene)
 {
   try
   {
-    scene.check();
+    check(scene);
   }
   catch (const InputError &error)
   {
@@ -426,10 +428,10 @@ TEST(Orthotropy, ScenePrmIsTheSameScene)
                                                       {"Material rim/Poisson's ratio", "0.2"}});
   const auto file = std::filesystem::path(::testing::TempDir()) /
                     ("hpvi-" + std::to_string(std::random_device()()) + ".prm");
-  std::ofstream(file) << scene.effective_parameters();
+  std::ofstream(file) << effective_parameters(scene);
   const Scene<2> again = read_scene<2>(file.string(), {});
   std::filesystem::remove(file);
-  EXPECT_EQ(again.effective_parameters(), scene.effective_parameters());
+  EXPECT_EQ(effective_parameters(again), effective_parameters(scene));
   ASSERT_EQ(again.materials.size(), 3u);
   const std::array<double, 2> angles{{-12.5, 40}};
   for (unsigned int m = 0; m < 2; ++m)

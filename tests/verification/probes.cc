@@ -9,6 +9,7 @@
 #include <hpvi/output/tables.h>
 #include <hpvi/plane/disc_rule.h>
 #include <hpvi/plane/mesh.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/results/probe_rule.h>
 #include <hpvi/results/values_at.h>
 
@@ -275,13 +276,13 @@ TEST(Probes, AreNotCalledLikeColumns)
   {
     scene.probes.assign(1, Probe<2>());
     scene.probes[0].name = name;
-    EXPECT_THROW(scene.check(), InputError) << name;
+    EXPECT_THROW(check(scene), InputError) << name;
   }
   scene.probes[0].name = "tip";
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.probes.push_back(scene.probes[0]);
   scene.probes[1].name = "tip_mises";
-  EXPECT_THROW(scene.check(), InputError);
+  EXPECT_THROW(check(scene), InputError);
 }
 
 /** Columns of a probe stand at the end, in the order of its own list. */

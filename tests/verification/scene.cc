@@ -4,9 +4,11 @@
 
 #include <hpvi/base/text.h>
 #include <hpvi/output/output.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/closed_forms/stick_slip.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_hints.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <cmath>
 #include <limits>
@@ -273,11 +275,11 @@ class WrongScene : public ::testing::TestWithParam<Mistake>
 TEST_P(WrongScene, IsRefused)
 {
   Scene<2> scene = pushed_block();
-  ASSERT_NO_THROW(scene.check());
+  ASSERT_NO_THROW(check(scene));
   try
   {
     GetParam().make(scene);
-    scene.check();
+    check(scene);
     ADD_FAILURE() << "is accepted";
   }
   catch (const InputError &error)
@@ -405,7 +407,7 @@ Mistake unilateral(const std::string &words, const std::function<void(Scene<2> &
   return {words, [make](Scene<2> &s)
           {
             s.boundary("bottom").contact = Contact::unilateral;
-            s.check();
+            check(s);
             make(s);
           }};
 }
@@ -536,7 +538,7 @@ TEST(SceneByCode, HasGapsAsFromAFile)
   bottom.contact = Contact::unilateral;
   bottom.gap = expression<2>([](const Point<2> &x) { return x[0] <= 1 ? -0.25 : 0.5 * x[0]; });
   code.solver.normal_contact = NormalContact::multiplier;
-  EXPECT_NO_THROW(code.check());
+  EXPECT_NO_THROW(check(code));
   const Scene<2> file = shipped_scene("han-6-12", {{"Boundary bottom/Contact", "unilateral"},
                                                    {"Boundary bottom/Gap", "if(x<=1,-0.25,0.5*x)"},
                                                    {"Solver/Normal contact", "multiplier"}});
@@ -581,7 +583,7 @@ TEST(NormalContactOf, AScene)
     EXPECT_EQ(scene.normal_contact(), kind);
     const std::regex line(std::string("set Normal contact += ") +
                           (kind == Kind::nodes ? "nodes" : "multiplier"));
-    EXPECT_TRUE(std::regex_search(scene.effective_parameters(), line));
+    EXPECT_TRUE(std::regex_search(effective_parameters(scene), line));
   }
   Scene<2> code = pushed_block();
   BoundaryCondition<2> &bottom = code.boundary("bottom");
@@ -589,9 +591,9 @@ TEST(NormalContactOf, AScene)
   EXPECT_EQ(code.normal_contact(), Kind::nodes);
   bottom.friction = {nullptr, expression<2>(0.3)};
   EXPECT_EQ(code.normal_contact(), Kind::multiplier);
-  EXPECT_NO_THROW(code.check());
+  EXPECT_NO_THROW(check(code));
   code.solver.normal_contact = Kind::nodes;
-  EXPECT_THROW(code.check(), InputError);
+  EXPECT_THROW(check(code), InputError);
   EXPECT_EQ(Scene<3>().normal_contact(), Kind::multiplier);
 }
 
@@ -603,26 +605,26 @@ TEST(SceneByCode, MayMeetItsGapAtACorner)
   for (const double u_y : {0., 0.1})
   {
     scene.boundary("right").displacement[1] = expression<2>(u_y);
-    EXPECT_NO_THROW(scene.check());
+    EXPECT_NO_THROW(check(scene));
   }
   scene.boundary("right").displacement[1] = expression<2>(0.);
   scene.boundary("bottom").gap = // whose round-off is that of its values elsewhere
       expression<2>([](const Point<2> &x) { return 0.1 * (4 - x[0]) - 1e-13; });
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.boundary("right").displacement[1] = expression<2>(-0.1); // u_n = 0.1 = u_0 by round-off
   scene.boundary("bottom").gap = expression<2>(0.1 - 1e-13);
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.boundary("bottom").gap = expression<2>(0.1 - 1e-8);
-  EXPECT_THROW(scene.check(), InputError);
+  EXPECT_THROW(check(scene), InputError);
   scene.boundary("bottom").gap = expression<2>(-1.);
   scene.boundary("right").displacement[1] = nullptr;
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.boundary("top").contact = Contact::unilateral;
   for (const Contact contact : {Contact::unilateral, Contact::bilateral})
   {
     scene.boundary("left").traction = {};
     scene.boundary("left").contact = contact;
-    EXPECT_NO_THROW(scene.check());
+    EXPECT_NO_THROW(check(scene));
   }
 }
 
@@ -633,11 +635,11 @@ TEST(SceneByCode, MayStartAtDegreeOneWhereNodesTouch)
   scene.boundary("bottom").contact = Contact::unilateral;
   scene.boundary("bottom").friction = {};
   scene.adaptivity.start_degree = 1;
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.solver.multiplier_offset = 0;
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   scene.boundary("bottom").friction.bound = expression<2>(1.);
-  EXPECT_THROW(scene.check(), InputError);
+  EXPECT_THROW(check(scene), InputError);
 }
 
 /** Contact that opens holds a body up and against turning; it resists no motion along itself. */
@@ -647,13 +649,13 @@ TEST(SceneByCode, LeavesMotionsToContact)
   scene.body_force[1] = expression<2>(-1.);
   BoundaryCondition<2> &bottom = scene.boundary("bottom");
   bottom.contact = Contact::unilateral;
-  EXPECT_NO_THROW(scene.check()); // nothing pushes it along: its place is not unique
+  EXPECT_NO_THROW(check(scene)); // nothing pushes it along: its place is not unique
   bottom.friction.bound = expression<2>(1.);
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   EXPECT_EQ(scene.free_motions().size(), 3U);
   scene.boundary("left").displacement[0] = expression<2>(0.);
   bottom.friction = {};
-  EXPECT_NO_THROW(scene.check());
+  EXPECT_NO_THROW(check(scene));
   const auto motions = scene.free_motions();
   ASSERT_EQ(motions.size(), 1U);
   EXPECT_EQ(motions[0].at(Point<2>(1, 1)), (Tensor<1, 2>({0., 1.})));
@@ -669,11 +671,11 @@ TEST(SceneByCode, IsComparedWithHertzsContact)
   {
     Scene<2> scene = shipped_scene(name);
     scene.parameters = nullptr;
-    scene.check();
+    check(scene);
     make(scene);
     try
     {
-      scene.check();
+      check(scene);
       return std::string("accepted");
     }
     catch (const InputError &error)
@@ -711,7 +713,7 @@ TEST(SceneByCode, MayHaveTooManyMultipliersToMeasureThem)
 {
   Scene<2> scene = pushed_block();
   scene.solver.multiplier_offset = 0;
-  EXPECT_NO_THROW(scene.check(SceneUse::measure));
+  EXPECT_NO_THROW(check(scene, SceneUse::measure));
   EXPECT_THROW(AdaptiveSolver<2>{scene}, InputError);
 }
 /** Between the points where check() looks, at a Gauss point of the multiplier. */
@@ -723,7 +725,7 @@ TEST(SceneByCode, IsRefusedWhereItsBoundIsNegative)
   {
     scene.boundary("bottom").friction.bound = expression<2>(
         [=](const Point<2> &x) { return std::abs(x[0] - gauss_point) < 1e-9 ? wrong : 4.5; });
-    ASSERT_NO_THROW(scene.check());
+    ASSERT_NO_THROW(check(scene));
     try
     {
       AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});

@@ -7,6 +7,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/driver/limits.h>
 #include <hpvi/driver/load_history.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/results/solution_field.h>
 #include <hpvi/results/unseen_contact.h>
 
@@ -146,7 +147,7 @@ TEST(Thresholds, SupportsMayNotMoveANodeThroughTheFoundation)
     scene.boundary("left").displacement = {{expression<2>(0.), expression<2>(-u_n)}};
     const auto build = [&]
     {
-      scene.check();
+      check(scene);
       CoarseSpaces(scene, 2);
     };
     if (u_n < 0.01)

@@ -2,6 +2,7 @@
 // Contact that may open where the answer is known: patch tests, press fits, separation.
 #include "opening_contact.h"
 
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/results/solution_field.h>
 
 namespace
@@ -108,7 +109,7 @@ TEST_P(UnilateralPatch, IsExact)
   const PatchScene &given = GetParam();
   const Patch &patch = given.patch;
   const Scene<2> scene = make_scene(given);
-  scene.check();
+  check(scene);
   const RandomMesh mesh(scene, 1 + given.first, 2, 2, 7);
   const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
@@ -254,7 +255,7 @@ protected:
   void expect_uniform(const Scene<2> &scene, const std::array<double, 2> &strain,
                       const Tensor<1, 2> &origin, const std::vector<double> &pressures) const
   {
-    scene.check();
+    check(scene);
     const RandomMesh mesh(scene, 6, 2);
     const Laboratory discrete(scene, mesh);
     const Solution<2> solution = discrete.solve();

@@ -78,7 +78,7 @@ class ErrorBounds
 {
 public:
   /**
-   * Scene::no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p own_stress:
+   * no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p own_stress:
    * ErrorBound::own_stress of the step before.
    */
   ErrorBound compute(const Solution<2> &solution, const Discretisation<2> &discretisation,

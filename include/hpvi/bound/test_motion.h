@@ -2,7 +2,6 @@
 #ifndef hpvi_test_motion_h
 #define hpvi_test_motion_h
 
-#include <hpvi/reader/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/scene.h>
 

@@ -27,7 +27,7 @@ public:
   using Announce = std::function<void(const Progress &)>;
 
   /**
-   * Throws InputError where the scene does not pass Scene::check(), is not for the path that it asks for, or has a
+   * Throws InputError where the scene does not pass check(), is not for the path that it asks for, or has a
    * load history, which is for LoadHistory.
    */
   explicit AdaptiveSolver(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
@@ -51,7 +51,7 @@ public:
 
   /**
    * The beginning of run(), up to the last that the first step asks the functions of the scene for. Throws
-   * InputError where they are no good between the points at which Scene::check() has tried them.
+   * InputError where they are no good between the points at which check() has tried them.
    */
   void prepare(const Announce &about_to = [](const Progress &) {});
 

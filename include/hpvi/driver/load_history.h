@@ -23,7 +23,7 @@ template <int dim>
 class LoadHistory
 {
 public:
-  /** Throws InputError where the scene or that of a load step does not pass Scene::check(). */
+  /** Throws InputError where the scene or that of a load step does not pass check(). */
   explicit LoadHistory(const Scene<dim> &scene, MPI_Comm communicator = MPI_COMM_SELF);
 
   /** Goes on as AdaptiveSolver does, in a history of loads after its last finished load step. Throws InputError likewise. */

@@ -40,6 +40,10 @@ struct FaceDofs
   }
 };
 
+/** Why no ErrorBound of @p scene is guaranteed, whatever its mesh, in words; empty where one is. */
+template <int dim>
+std::string no_error_bound(const Scene<dim> &scene);
+
 /** Where faces of two bodies do not match, vertex to vertex and with equal degrees: one such place in words; else empty. */
 template <int dim>
 std::string unmatched_joint(const ContactSpace<dim> &contact_space);

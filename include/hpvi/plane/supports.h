@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <hpvi/plane/dof_numbering.h>
-#include <hpvi/reader/checks/supports.h>
+#include <hpvi/scene/scene.h>
 
 #include <array>
 #include <vector>

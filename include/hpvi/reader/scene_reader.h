@@ -2,6 +2,7 @@
 #ifndef hpvi_scene_reader_h
 #define hpvi_scene_reader_h
 
+#include <hpvi/reader/input/parameters.h>
 #include <hpvi/scene/scene.h>
 
 #include <string>
@@ -28,6 +29,13 @@ Scene<dim> read_scene(const std::string &file,
  */
 int scene_dimension(const std::string &file,
                     const std::vector<std::pair<std::string, std::string>> &overrides);
+
+/** The text of scene.prm, every entry with its value; empty for a scene that was built by code. */
+template <int dim>
+std::string effective_parameters(const Scene<dim> &scene)
+{
+  return scene.parameters ? scene.parameters->print(false) : "";
+}
 
 /** All entries of a plane scene with defaults and documentation, as a parameter file. */
 std::string default_parameters();

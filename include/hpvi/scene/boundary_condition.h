@@ -13,6 +13,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hpvi
 {
@@ -82,6 +83,21 @@ struct BoundaryCondition
   /** Along which contact and symmetry measure u_n, where the body has @p normal. */
   dealii::Tensor<1, dim> held_direction(const dealii::Tensor<1, dim> &normal) const;
 };
+
+/** `direction . u = value` at one point, said by one boundary. */
+template <int dim>
+struct PointCondition
+{
+  dealii::Tensor<1, dim> direction; ///< unit vector
+  double value;                     ///< [length]
+  unsigned int boundary;
+};
+
+/** What a boundary with outer @p normal prescribes at @p point: displacements, and `u_n = 0` where it @p slides. */
+template <int dim>
+std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
+                                               const dealii::Tensor<1, dim> &normal, bool slides,
+                                               const dealii::Point<dim> &point);
 } // namespace hpvi
 
 #endif

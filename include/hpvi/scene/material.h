@@ -14,9 +14,6 @@
 
 namespace hpvi
 {
-struct Entry;
-class Parameters;
-
 /** Which plane problem Section 2.1.3 of the thesis reduces Hooke's law to. */
 enum class PlaneModel
 {
@@ -76,6 +73,9 @@ struct Material
   /** For messages: "Young's modulus 210000". */
   std::string stiffness_in_words() const;
 
+  /** As in "Young's modulus 200 MPa, Poisson's ratio 0.3"; for @p unit "" without. */
+  std::string elasticity_in_words(const std::string &unit) const;
+
   /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress] and the initial strain e33 across it: in an
    * axisymmetric body less its hoop strain. */
   double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma, double e33 = 0) const;
@@ -114,13 +114,6 @@ struct Material
 
 /** `Material` where @p name is empty, else `Material NAME`. */
 std::string section_of_material(const std::string &name);
-
-/** Of the entry `Plane`. */
-PlaneModel plane_model(const std::string &word);
-
-/** That section of a body in so many dimensions, and what it says: a named one inherits what it leaves out. */
-std::vector<Entry> material_entries(int dim, const std::string &name);
-Material read_material(const Parameters &parameters, int dim, const std::string &name);
 
 /**
  * Hooke's law of one material, with its moduli at hand for loops over points and unknowns. The

@@ -244,14 +244,8 @@ struct Scene
 
   std::vector<std::string> remarks; ///< what its reader has changed: lines for users
 
-  /** The file, for messages and scene.prm; null: the scene was built by code. */
-  std::shared_ptr<const Parameters> parameters;
-
-  /** Throws InputError, one line with entry, value and remedy, for what no stage could make sense of. */
-  void check(SceneUse use = SceneUse::solve) const;
-
-  /** Of check() the part on which functions rely that are tried on the body: its shape and materials. */
-  void check_body() const;
+  std::string file; ///< as the user named it, for messages; empty: the scene was built by code
+  std::shared_ptr<const Parameters> parameters; ///< what it says, for its reader; likewise null
 
   /** That of a coarse cell with this centre and, of a mesh, this number. */
   dealii::types::material_id material_of_coarse_cell(const dealii::Point<dim> &centre,
@@ -264,9 +258,6 @@ struct Scene
 
   /** Throws InputError where there is none of this name. */
   BoundaryCondition<dim> &boundary(const std::string &name);
-
-  /** The text of scene.prm, every entry with its value; empty for a scene that was built by code. */
-  std::string effective_parameters() const;
 
   std::string
   origin() const; ///< the file as the user named it, or the name: messages begin with it
@@ -342,9 +333,6 @@ struct Scene
   bool has_unilateral_contact() const;
   /** What SolverSettings::normal_contact asks for; automatic: nodes, but multiplier for Coulomb's law and on the primal path. */
   NormalContact normal_contact() const;
-  /** Why no ErrorBound is guaranteed, in words; empty where one is. */
-  std::string no_error_bound() const;
-
   bool has_pressure() const; ///< has T_n of any contact boundary a multiplier of its own?
 
   /**

@@ -54,12 +54,12 @@ void check_load_history(const Scene<dim> &scene, const SceneUse use)
                    [&](const unsigned int step)
                    {
                      const Scene<dim> next = load_step(scene, step, past);
-                     next.check(use);
+                     check(next, use);
                      past = data_scale(next);
                    });
   if (past.stress == 0) // without data, or with none that is large enough to be squared
     check_load_steps(scene,
-                     [&](const unsigned int step) { loading.at(loading.time(step)).check(use); });
+                     [&](const unsigned int step) { check(loading.at(loading.time(step)), use); });
 }
 
 template void check_load_history(const Scene<2> &, SceneUse);

@@ -2,7 +2,6 @@
 #include <hpvi/base/text.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
-#include <hpvi/reader/checks/supports.h>
 
 #include <fstream>
 
@@ -38,28 +37,28 @@ void check_space(const Scene<3> &scene, const SceneUse use)
 } // namespace
 
 template <int dim>
-void Scene<dim>::check(const SceneUse use) const
+void check(const Scene<dim> &scene, const SceneUse use)
 {
   if constexpr (dim == 3)
-    check_space(*this, use);
-  if (has_load_history())
-    check_load_history(*this, use);
-  check_bodies(*this);
-  check_body();
-  check_material_places(*this);
-  check_axisymmetry(*this);
-  check_boundaries(*this);
-  check_supports(*this);
-  free_motions();
-  check_exact_solution(*this);
-  check_reference(*this);
-  check_probes(*this);
-  check_tolerance_column(*this);
-  check_method(*this, use);
-  if (solver.path == SolutionPath::primal && use == SceneUse::solve)
-    check_primal_path(*this);
+    check_space(scene, use);
+  if (scene.has_load_history())
+    check_load_history(scene, use);
+  check_bodies(scene);
+  check_body(scene);
+  check_material_places(scene);
+  check_axisymmetry(scene);
+  check_boundaries(scene);
+  check_supports(scene);
+  scene.free_motions();
+  check_exact_solution(scene);
+  check_reference(scene);
+  check_probes(scene);
+  check_tolerance_column(scene);
+  check_method(scene, use);
+  if (scene.solver.path == SolutionPath::primal && use == SceneUse::solve)
+    check_primal_path(scene);
 }
 
-template void Scene<2>::check(SceneUse) const;
-template void Scene<3>::check(SceneUse) const;
+template void check(const Scene<2> &, SceneUse);
+template void check(const Scene<3> &, SceneUse);
 } // namespace hpvi

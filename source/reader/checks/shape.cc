@@ -172,12 +172,12 @@ void check_materials(const Scene<dim> &scene)
 } // namespace
 
 template <int dim>
-void Scene<dim>::check_body() const
+void check_body(const Scene<dim> &scene)
 {
-  check_geometry(*this);
-  check_materials(*this);
+  check_geometry(scene);
+  check_materials(scene);
 }
 
-template void Scene<2>::check_body() const;
-template void Scene<3>::check_body() const;
+template void check_body(const Scene<2> &);
+template void check_body(const Scene<3> &);
 } // namespace hpvi

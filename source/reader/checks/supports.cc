@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
-#include <hpvi/reader/checks/supports.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/hexahedral_mesh.h>
@@ -12,24 +12,6 @@
 namespace hpvi
 {
 using namespace dealii;
-
-template <int dim>
-std::vector<PointCondition<dim>> conditions_at(const BoundaryCondition<dim> &boundary,
-                                               const Tensor<1, dim> &normal, const bool slides,
-                                               const Point<dim> &point)
-{
-  std::vector<PointCondition<dim>> conditions;
-  for (unsigned int d = 0; d < dim; ++d)
-    if (boundary.displacement[d] != nullptr)
-    {
-      Tensor<1, dim> direction;
-      direction[d] = 1.;
-      conditions.push_back({direction, boundary.displacement[d]->value(point), boundary.id});
-    }
-  if (slides)
-    conditions.push_back({boundary.held_direction(normal), 0., boundary.id});
-  return conditions;
-}
 
 namespace
 {
@@ -221,10 +203,6 @@ void check_supports(const Scene<dim> &scene)
     }
 }
 
-template std::vector<PointCondition<2>> conditions_at(const BoundaryCondition<2> &,
-                                                      const Tensor<1, 2> &, bool, const Point<2> &);
-template std::vector<PointCondition<3>> conditions_at(const BoundaryCondition<3> &,
-                                                      const Tensor<1, 3> &, bool, const Point<3> &);
 template void check_supports(const Scene<2> &);
 template void check_supports(const Scene<3> &);
 } // namespace hpvi

@@ -6,7 +6,13 @@
 
 namespace hpvi
 {
-// What Scene::check() asks, by subject. Each throws InputError, one line with entry, value and remedy.
+/** Throws InputError, one line with entry, value and remedy, for what no stage could make sense of: all that follows. */
+template <int dim>
+void check(const Scene<dim> &scene, SceneUse use = SceneUse::solve);
+
+/** Of check() the part on which functions rely that are tried on the body: its shape and materials. */
+template <int dim>
+void check_body(const Scene<dim> &scene);
 
 /**
  * Loads, displacements, gaps and friction are finite, can be squared and stand where they mean something.
@@ -14,6 +20,10 @@ namespace hpvi
  */
 template <int dim>
 void check_boundaries(const Scene<dim> &scene);
+
+/** Where two boundaries meet their conditions can hold together, and `u_n <= u_0` with them. */
+template <int dim>
+void check_supports(const Scene<dim> &scene);
 
 /** Parts of sides are made of whole faces of the coarse mesh, of one at least, and do not overlap. */
 template <int dim>
@@ -27,7 +37,7 @@ void check_material_places(const Scene<dim> &scene);
 template <int dim>
 void check_exact_solution(const Scene<dim> &scene);
 
-/** Scene::check() of each load step of a history, and what a history cannot have. */
+/** check() of each load step of a history, and what a history cannot have. */
 template <int dim>
 void check_load_history(const Scene<dim> &scene, SceneUse use);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/reader/input/parameters.h>
-#include <hpvi/scene/elasticity.h>
+#include <hpvi/reader/material_reader.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -16,6 +14,38 @@ namespace
 {
 const std::string isotropic = "isotropic", orthotropic = "orthotropic", moduli = "Young's moduli",
                   ratios = "Poisson's ratios", shear_moduli = "Shear moduli";
+const std::string plane_stress = "stress", plane_strain = "strain",
+                  axisymmetric = "axisymmetric", range = "from 1e-100 to 1e100",
+                  number_words = "a number E > 0 (a stress) " + range;
+const Patterns::Double young_pattern(1e-100, 1e100);
+
+using Pattern = std::shared_ptr<const Patterns::PatternBase>;
+
+/** An entry of a named material may be left out: it is that of the unnamed one then. */
+struct Inheritance
+{
+  bool is_named;
+
+  std::string value(const std::string &value) const
+  {
+    return is_named ? "" : value;
+  }
+
+  std::string words(const std::string &words) const
+  {
+    return words + (is_named ? ", or nothing" : "");
+  }
+
+  std::string documentation(const std::string &text) const
+  {
+    return is_named ? text + " Empty: as of the unnamed Material." : text;
+  }
+
+  Pattern pattern(const Patterns::PatternBase &wanted) const
+  {
+    return is_named ? word_or("", wanted) : Pattern(wanted.clone());
+  }
+};
 
 /** The section of one material. */
 class SectionReader
@@ -72,8 +102,8 @@ private:
   const Parameters &parameters;
   const std::string section, needed_by;
 };
-} // namespace
 
+/** Of orthotropy in the plane, without section. */
 std::vector<Entry> elasticity_entries()
 {
   const auto list = [](const double least, const double most, const unsigned int fewest)
@@ -97,6 +127,7 @@ std::vector<Entry> elasticity_entries()
       {"", "Angle", "", word_or("", Patterns::Double(-360, 360)), "degrees from -360 to 360",
        "Of axis 1 of an orthotropic material against x, counterclockwise [degrees]; empty: 0."}};
 }
+} // namespace
 
 void read_elasticity(const Parameters &parameters, Material &material)
 {
@@ -125,21 +156,85 @@ void read_elasticity(const Parameters &parameters, Material &material)
   material.orthotropy = result;
 }
 
-std::string elasticity_in_words(const Material &material, const std::string &unit)
+std::vector<Entry> material_entries(const int dim, const std::string &name)
 {
-  const std::string stress = unit.empty() ? "" : " " + unit;
-  if (!material.orthotropy)
-    return "Young's modulus " + to_string(material.young) + stress + ", Poisson's ratio " +
-           text(material.poisson, 6);
-  const Orthotropy &own = *material.orthotropy;
-  const bool is_strain = material.plane == PlaneModel::strain;
-  std::string words = orthotropic;
-  for (unsigned int i = 0; i < (is_strain ? 3 : 2); ++i)
-    words += ", E" + std::to_string(i + 1) + " = " + text(own.young[i], 6);
-  words += ", G12 = " + text(own.shear, 6) + stress;
-  const char *const symbols[] = {"nu12", "nu13", "nu23"};
-  for (unsigned int i = 0; i < (is_strain ? 3 : 1); ++i)
-    words += std::string(", ") + symbols[i] + " = " + text(own.poisson[i], 6);
-  return words + ", axis 1 at " + text(own.angle, 6) + " degrees";
+  const Inheritance inherited{!name.empty()};
+  std::vector<Entry> entries;
+  const auto add = [&](const std::string &entry, const std::string &value,
+                       const Patterns::PatternBase &pattern, const std::string &words,
+                       const std::string &documentation)
+  {
+    entries.push_back({section_of_material(name), entry, inherited.value(value),
+                       inherited.pattern(pattern), inherited.words(words),
+                       inherited.documentation(documentation)});
+  };
+  if (inherited.is_named)
+    entries.push_back({section_of_material(name), "Where", "",
+                       std::make_shared<Patterns::Anything>(), "one expression of x and y",
+                       "Positive where the body is made of this material, at the centre of each "
+                       "cell of the coarse mesh; materials are tried in the order of the file, the "
+                       "unnamed one is the rest. A box gets a grid line where a side of the "
+                       "material has none."});
+  // Nothing, as scene.prm has them, is for orthotropic materials alone.
+  const auto number_or_nothing = [dim](const Patterns::Double &number)
+  { return dim == 2 ? word_or("", number) : Pattern(number.clone()); };
+  add("Young's modulus", "1", *number_or_nothing(young_pattern), number_words,
+      "E > 0 [stress]; constant E in expressions.");
+  add("Poisson's ratio", "0.3", *number_or_nothing(Patterns::Double()),
+      "a number nu with -1 < nu < 1/2",
+      "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu)).");
+  add("Density", "0", Patterns::Double(0), "a number >= 0",
+      "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
+  if (dim == 2)
+  {
+    add("Initial strain", "", Patterns::Anything(), "e1; e2; e12 or e1; e2; e12; e33 or nothing",
+        "Strain eps_0 that carries no stress: tensor components (e12 is half the angle) as "
+        "expressions of x and y; "
+        "the fourth, across the plane, presses in plane strain. Stresses are C : (eps - eps_0).");
+    add("Thermal expansion", "0", Patterns::Double(), "a number",
+        "Coefficient of expansion alpha, in all three directions: Temperature/Expression times it "
+        "is added to "
+        "eps_0 [1/temperature].");
+    add("Plane", plane_strain,
+        Patterns::Selection(plane_stress + '|' + plane_strain + '|' + axisymmetric),
+        plane_stress + ", " + plane_strain + " or " + axisymmetric,
+        "Plane stress or plane strain (thesis, Section 2.1.3), or a body of revolution: x >= 0 is "
+        "the radius, y the axis, forces and energies are those of the full turn. One for the whole "
+        "body.");
+    add("Thickness", "1", Patterns::Double(1e-100, 1e100), "a number > 0 from 1e-100 to 1e100",
+        "Thickness b of the body [length], one for the whole of it: forces, moments, works and "
+        "energies are b times those of a unit, norms and bounds of the error b^(1/2) times; "
+        "tractions, stresses and relative errors stay.");
+    for (const Entry &entry : elasticity_entries())
+      add(entry.name, entry.default_value, *entry.pattern, entry.wanted, entry.documentation);
+  }
+  return entries;
 }
+
+Material read_material(const Parameters &parameters, const int dim, const std::string &name)
+{
+  const auto section_with = [&](const std::string &entry)
+  {
+    return parameters.text(section_of_material(name), entry).empty() ? section_of_material("")
+                                                                     : section_of_material(name);
+  };
+  const auto value_of = [&](const std::string &entry)
+  { return parameters.number(section_with(entry), entry); };
+  Material material;
+  material.name = name;
+  material.young = value_of("Young's modulus");
+  material.poisson = value_of("Poisson's ratio");
+  material.density = value_of("Density");
+  if (dim == 2)
+    material.plane = plane_model(parameters.text(section_with("Plane"), "Plane"));
+  return material;
+}
+
+PlaneModel plane_model(const std::string &word)
+{
+  return word == plane_stress   ? PlaneModel::stress
+         : word == axisymmetric ? PlaneModel::axisymmetric
+                                : PlaneModel::strain;
+}
+
 } // namespace hpvi
