@@ -14,8 +14,8 @@ namespace
 {
 const std::string isotropic = "isotropic", orthotropic = "orthotropic", moduli = "Young's moduli",
                   ratios = "Poisson's ratios", shear_moduli = "Shear moduli";
-const std::string plane_stress = "stress", plane_strain = "strain",
-                  axisymmetric = "axisymmetric", range = "from 1e-100 to 1e100",
+const std::string plane_stress = "stress", plane_strain = "strain", axisymmetric = "axisymmetric",
+                  range = "from 1e-100 to 1e100",
                   number_words = "a number E > 0 (a stress) " + range;
 const Patterns::Double young_pattern(1e-100, 1e100);
 
