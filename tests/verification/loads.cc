@@ -281,6 +281,42 @@ TEST(LoadRules, AreMadeAnewWhereAMeshSeesMore)
       [](const Progress &) {});
 }
 
+/** Strips that lie between all samples, until a point of the fourth mesh meets them: a warning has both sums. */
+TEST(MissedData, AreToldWhereAFinerMeshSeesThem)
+{
+  const std::vector<std::pair<std::string, verification::Overrides>> data = {
+      {"stresses of initial strains sum to",
+       {{"Boundary top/Traction", "0.001; 0"},
+        {"Material/Initial strain",
+         "0; if(abs(x - 0.24109851031341528) < 4e-4 && abs(y - 0.5) < 0.03, 1, 0); 0"}}},
+      {"friction bounds sum to",
+       {{"Boundary left/Traction", "1; 0"},
+        {"Boundary top/Contact", "bilateral"},
+        {"Boundary top/Friction bound", "0.1 + if(abs(x - 1.0121133235568793) < 4e-4, 1000, 0)"}}}};
+  for (const auto &[words, entries] : data)
+  {
+    verification::Overrides all = {{"Geometry/Upper corner", "1.289696343729227, 1"},
+                                   {"Geometry/Subdivisions", "2, 3"},
+                                   {"Material/Young's modulus", "1000"},
+                                   {"Boundary bottom/Displacement", "0; 0"},
+                                   {"Adaptivity/Method", "hup2"},
+                                   {"Adaptivity/Start degree", "2"},
+                                   {"Adaptivity/Maximum steps", "4"},
+                                   {"Adaptivity/Tolerance", "0"}};
+    all.insert(all.end(), entries.begin(), entries.end());
+    std::string told;
+    AdaptiveSolver<2>(verification::scene_of(all))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              for (const Warning &warning : step.warnings)
+                if (warning.text.find("steps before knew nothing") != std::string::npos)
+                  told = warning.text;
+            });
+    EXPECT_EQ(told.find(words), 0U) << words << ": " << told;
+  }
+}
+
 // ---------------------------------------------------------------- runs
 
 template <class Take>
