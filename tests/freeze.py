@@ -246,7 +246,7 @@ class Freeze:
             second = []
         done = subprocess.run(["bash", ROOT / "tests/bad_input" / script, self.program, *second], cwd=ROOT, text=True,
                               capture_output=True, env={**self.environment, "HPVI_ROWS": str(lines)}, check=False)
-        text = re.sub(r"/tmp/tmp\.\w+", "TEMPORARY", lines.read_text(encoding="utf-8", errors="backslashreplace"))
+        text = re.sub(re.escape(tempfile.gettempdir()) + r"/tmp\.\w+", "TEMPORARY", lines.read_text(encoding="utf-8", errors="backslashreplace"))
         text = re.sub(r"[\d.]+ \wB are left", f"{MASK} are left", text)  # of memory
         self.write(f"bad_input/{script}.txt", masked(text, {str(self.program): "HPVI", str(ROOT): "ROOT"}) +
                    f"status {done.returncode}\n")
