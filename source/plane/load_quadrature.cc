@@ -47,23 +47,26 @@ struct Sample
   }
 };
 
+/** Round-off of the load itself can be above that of its moments, as in 1 - x near x = 1: more points stop where they no longer help. */
 template <int d, class Load>
 unsigned int points_for(unsigned int n, const unsigned int most, const Load &load,
                         const ShapeTables<2> &tables)
 {
+  double before = 1e300;
   for (Sample here = Sample::take<d>(tables.gauss(n), load);
        here.largest != here.smallest && n < most;)
   {
     const unsigned int more = std::min(n + 4, most);
     const Sample there = Sample::take<d>(tables.gauss(more), load);
     const double scale = std::max(std::abs(there.largest), std::abs(there.smallest));
-    bool same = true;
+    double change = 0;
     for (unsigned int k = 0; k < here.moments.size(); ++k)
-      same = same && std::abs(here.moments[k] - there.moments[k]) <= 1e-15 * scale;
-    if (same)
+      change = std::max(change, std::abs(here.moments[k] - there.moments[k]) / scale);
+    if (change <= 1e-15 || (change <= 1e-12 && change >= before / 2))
       break;
     n = more;
     here = there;
+    before = change;
   }
   return n;
 }
