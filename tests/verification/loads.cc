@@ -169,6 +169,18 @@ TEST(LoadRules, LeaveSmoothLoadsAlone)
   }
 }
 
+/** Near its zero the round-off of (1 - y)^2 is large beside its values: it takes no more points than elsewhere. */
+TEST(LoadRules, SpendNoPointsOnRoundOff)
+{
+  Scene<2> scene = body({1., 1.}, {{1, 1}});
+  scene.body_force[0] =
+      expression<2>([](const Point<2> &x) { return -2e-3 * std::pow(1 - x[1], 2); });
+  Mesh mesh(scene);
+  mesh.bisect({{0.01, 0.999999}}, 14);
+  for (const auto &cell : mesh.mesh.active_cell_iterators())
+    EXPECT_LE(mesh.rules.body_force(cell, 4).most_points, 14U) << cell->center();
+}
+
 TEST(LoadRules, CutCellsAtJumpsAlongTheirAxes)
 {
   const Function load = [](const Point<2> &x) { return x[0] < 31.7 && x[1] > 4.2 ? x[1] : 0.; };
@@ -292,7 +304,10 @@ TEST(MissedData, AreToldWhereAFinerMeshSeesThem)
       {"friction bounds sum to",
        {{"Boundary left/Traction", "1; 0"},
         {"Boundary top/Contact", "bilateral"},
-        {"Boundary top/Friction bound", "0.1 + if(abs(x - 1.0121133235568793) < 4e-4, 1000, 0)"}}}};
+        {"Boundary top/Friction bound", "0.1 + if(abs(x - 1.0121133235568793) < 4e-4, 1000, 0)"}}},
+      {"stiffnesses of springs sum to",
+       {{"Boundary left/Traction", "1; 0"},
+        {"Boundary right/Spring", "5 + if(abs(y - 0.5414124727934966) < 3e-4, 1000, 0); 0"}}}};
   for (const auto &[words, entries] : data)
   {
     verification::Overrides all = {{"Geometry/Upper corner", "1.289696343729227, 1"},

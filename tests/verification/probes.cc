@@ -242,6 +242,48 @@ TEST(Probes, AreMeansWhereCellsMeet)
       });
 }
 
+/** Stresses jump where a temperature does: the part of a disc, or of a side, that is beyond a line inside cells is exact. */
+TEST(Probes, AreCutWhereTemperaturesJump)
+{
+  std::mt19937 random(7);
+  const auto in = [&](const double low, const double high)
+  { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (unsigned int row = 0; row < 12; ++row)
+  {
+    const unsigned int d = row % 2;
+    const double at = in(0.25, 0.75), R = in(0.1, 0.2), level = at + in(-0.9, 0.9) * R;
+    const std::string axis = d == 0 ? "x" : "y", place = verification::text(at),
+                      jump = "if(" + axis + " > " + verification::text(level) + ", 30, 10)";
+    const Overrides datum =
+        row % 3 == 0
+            ? Overrides{{"Material/Initial strain", "0; 1e-5*" + jump + "; 0"}}
+            : Overrides{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", jump}};
+    const Scene<2> scene = scene_of(
+        joined(joined(held, datum), {{"Geometry/Upper corner", "1, 1"},
+                                     {"Geometry/Subdivisions", row % 4 < 2 ? "2, 3" : "3, 1"},
+                                     {"Adaptivity/Maximum steps", "1"},
+                                     {"Probe disc/At", place + ", " + place},
+                                     {"Probe disc/Size", verification::text(R)},
+                                     {"Probe side/On", d == 0 ? "top" : "right"}}));
+    const double c = (level - at) / R; // a segment of the circle is beyond
+    const std::array<double, 2> wanted{{(std::acos(c) - c * std::sqrt(1 - c * c)) / pi, 1 - level}};
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          for (unsigned int k = 0; k < 2; ++k)
+          {
+            double beyond = 0;
+            for (const WeightedPoints<2> &part :
+                 probe_rule(scene.probes[k], scene, step.field.dof_handler, step.field.tables))
+              for (unsigned int q = 0; q < part.points.size(); ++q)
+                beyond +=
+                    map_of<2>(part.cell).point(part.points[q])[d] > level ? part.weights[q] : 0.;
+            EXPECT_NEAR(beyond, wanted[k], 1e-12) << "row " << row << ", probe " << k;
+          }
+        });
+  }
+}
+
 /** A side is itself and its parts, a part is one alone; weights are lengths. */
 TEST(Probes, GoAlongSidesAndTheirParts)
 {
