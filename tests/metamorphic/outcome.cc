@@ -48,6 +48,9 @@ StepOutcome outcome_of(const StepReport<2> &step, const Frame &frame)
   result.misses_load =
       std::any_of(step.warnings.begin(), step.warnings.end(),
                   [](const Warning &warning) { return warning.kind == WarningKind::load; });
+  const Spaces<2> &spaces = *step.solution().spaces;
+  for (const UnresolvedLoad<2> &load : spaces.loads->unresolved(*spaces.mesh))
+    result.missed += load.part;
   result.t = step.load.t;
   if (step.load.number > 0 && !step.stopped_by.empty())
   {
@@ -207,7 +210,8 @@ void compare_energies(const StepOutcome &one, const StepOutcome &other, const do
                       Comparison &comparison)
 {
   // Jumps inside cells that are no parallelograms are cut along straight lines of the reference cell, which depend on the frame.
-  const double factor = one.misses_load || other.misses_load ? 100 : 1,
+  const double factor = (one.misses_load || other.misses_load ? 100 : 1) +
+                        10 * std::max(one.missed, other.missed) / tolerances.energy,
                energy = factor * tolerances.energy * norm * norm;
   comparison.near(place + "energy", one.energy, other.energy, tolerances.friction * norm * norm);
   comparison.near(place + "Lagrangian", one.lagrangian, other.lagrangian, energy);

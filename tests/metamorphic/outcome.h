@@ -40,6 +40,7 @@ struct StepOutcome
   double bound = unknown, low = unknown, high = unknown; ///< where it is guaranteed
   double mises = unknown, across = unknown;              ///< of the mean stress over a disc
   double t = 0, work = unknown, dissipated = unknown;    ///< of a load history
+  double missed = 0; ///< of its loads, by what its rule and a finer one differ
   bool misses_load =
       false; ///< does it warn, as a last step, of a datum that its rule does not resolve?
 };

@@ -10,12 +10,6 @@ namespace
 {
 using namespace space;
 
-Overrides joined(Overrides first, const Overrides &second)
-{
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 /** Laws that know the pressure, each on a contact that has one. */
 const std::vector<Overrides> laws{
     {{"Boundary bottom/Friction bound", ""}, {"Boundary bottom/Friction coefficient", "0.6"}},
@@ -29,10 +23,10 @@ const std::vector<Overrides> laws{
 Scene<2> plane(const Overrides &overrides)
 {
   Scene<2> scene =
-      read_scene<2>("prm/han-6-12-unilateral.prm", joined({{"Solver/Normal contact", "multiplier"},
-                                                           {"Adaptivity/Method", "hap3"},
-                                                           {"Adaptivity/Maximum steps", "3"}},
-                                                          overrides));
+      read_scene<2>("prm/han-6-12-unilateral.prm", with({{"Solver/Normal contact", "multiplier"},
+                                                         {"Adaptivity/Method", "hap3"},
+                                                         {"Adaptivity/Maximum steps", "3"}},
+                                                        overrides));
   scene.solver.primal_tolerance = 1e-12;
   return scene;
 }
@@ -41,18 +35,18 @@ TEST(Coulomb, BothPathsAgreeInThePlane)
 {
   for (const Overrides &law : laws) // the reduced path bisects edges with a kink of the limit, too
     for (const char *const contact : {"unilateral", "bilateral"})
-      expect_reduced_path(plane(joined(law, {{"Boundary bottom/Contact", contact},
-                                             {"Adaptivity/Method", "hup3"},
-                                             {"Adaptivity/Maximum steps", "2"}})));
+      expect_reduced_path(plane(with(law, {{"Boundary bottom/Contact", contact},
+                                           {"Adaptivity/Method", "hup3"},
+                                           {"Adaptivity/Maximum steps", "2"}})));
   for (const char *const method : {"hap2", "hap3", "hap4"})
-    expect_reduced_path(plane(joined(laws[0], {{"Adaptivity/Method", method}})));
+    expect_reduced_path(plane(with(laws[0], {{"Adaptivity/Method", method}})));
 }
 
 /** prm/slab.prm under a law, as thick as one layer or in full. */
 Scene<3> rubbing_slab(const Overrides &overrides)
 {
-  return slab(joined({{"Boundary bottom/Contact", "unilateral"}, {"Adaptivity/Maximum steps", "2"}},
-                     overrides));
+  return slab(with({{"Boundary bottom/Contact", "unilateral"}, {"Adaptivity/Maximum steps", "2"}},
+                   overrides));
 }
 
 /** Plane strain: a slab of one layer with u_z = 0 on both sides has its energy, and at first its indicator. */
@@ -62,22 +56,22 @@ TEST(Coulomb, SlabIsPlaneStrain)
     for (const char *const contact : {"unilateral", "bilateral"})
     {
       const Overrides both =
-          joined(law, {{"Boundary bottom/Contact", contact},
-                       {"Adaptivity/Method", &law == &laws[0] ? "hup3" : "hup2"},
-                       {"Adaptivity/Maximum steps", &law == &laws[0] ? "1" : "2"}});
+          with(law, {{"Boundary bottom/Contact", contact},
+                     {"Adaptivity/Method", &law == &laws[0] ? "hup3" : "hup2"},
+                     {"Adaptivity/Maximum steps", &law == &laws[0] ? "1" : "2"}});
       std::vector<std::array<double, 3>> flat;
-      AdaptiveSolver<2>(plane(joined(both, {{"Material/Plane", "strain"}})))
+      AdaptiveSolver<2>(plane(with(both, {{"Material/Plane", "strain"}})))
           .run(
               [&](const StepReport<2> &step) {
                 flat.push_back(
                     {{step.energies.lagrangian, step.energies.energy, step.norms.total}});
               });
-      const auto thick = steps_of<3>(
-          rubbing_slab(joined(both, {{"Geometry/Subdivisions", "4, 4, 1"},
-                                     {"Geometry/Upper corner", "4, 4, 0.75"},
-                                     {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
-                                     {"Boundary front/Displacement", "free; free; 0"},
-                                     {"Boundary back/Displacement", "free; free; 0"}})));
+      const auto thick =
+          steps_of<3>(rubbing_slab(with(both, {{"Geometry/Subdivisions", "4, 4, 1"},
+                                               {"Geometry/Upper corner", "4, 4, 0.75"},
+                                               {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
+                                               {"Boundary front/Displacement", "free; free; 0"},
+                                               {"Boundary back/Displacement", "free; free; 0"}})));
       ASSERT_EQ(thick.size(), flat.size());
       for (unsigned int k = 0; k < flat.size(); ++k)
       {
@@ -223,7 +217,7 @@ TEST(Coulomb, WithoutAFixedPointItFails)
 /** Where no tolerance is named, what the fixed point leaves is small beside the indicator. */
 TEST(Coulomb, StopsWhereTheEstimatedErrorSaysSo)
 {
-  Scene<3> scene = rubbing_slab(joined(laws[0], {{"Geometry/Subdivisions", "2, 2, 1"}}));
+  Scene<3> scene = rubbing_slab(with(laws[0], {{"Geometry/Subdivisions", "2, 2, 1"}}));
   const auto exact = steps_of<3>(scene);
   scene.solver.primal_tolerance = 0;
   unsigned int k = 0;

@@ -11,18 +11,12 @@ namespace
 {
 using namespace space;
 
-Overrides joined(Overrides first, const Overrides &second)
-{
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
 /** The block of prm/block-space.prm, 2 x 1 x 2 with the weight 4, solved until Newton's method stands still. */
 Scene<3> block(const Overrides &overrides)
 {
   Scene<3> scene = read_scene<3>(
       "prm/block-space.prm",
-      joined({{"Geometry/Subdivisions", "2, 1, 2"}, {"Adaptivity/Maximum steps", "2"}}, overrides));
+      with({{"Geometry/Subdivisions", "2, 1, 2"}, {"Adaptivity/Maximum steps", "2"}}, overrides));
   scene.solver.primal_tolerance = 1e-11;
   return scene;
 }
@@ -31,7 +25,7 @@ const Overrides frictionless{{"Boundary bottom/Friction coefficient", ""}};
 
 Overrides tresca(const std::string &bound)
 {
-  return joined(frictionless, {{"Boundary bottom/Friction bound", bound}});
+  return with(frictionless, {{"Boundary bottom/Friction bound", bound}});
 }
 
 Overrides body_force(const std::string &force)
@@ -84,7 +78,7 @@ struct Held
 };
 
 const std::vector<Held> held{
-    {"weight on a smooth floor", joined(frictionless, body_force("0; -1; 0")),
+    {"weight on a smooth floor", with(frictionless, body_force("0; -1; 0")),
      Tensor<1, 3>({0, 4, 0})},
     {"weight on a rough floor", body_force("0; -1; 0"), Tensor<1, 3>({0, 4, 0})},
     {"a slope", {}, Tensor<1, 3>({-2, 4, 0})},
@@ -92,7 +86,7 @@ const std::vector<Held> held{
      {{"Boundary bottom/Friction coefficient", "0.5002"}},
      Tensor<1, 3>({-2, 4, 0})},
     {"a slope aslant", body_force("0.3; -1; -0.4"), Tensor<1, 3>({-1.2, 4, 1.6})},
-    {"Tresca's friction", joined(tresca("0.6"), body_force("0.5; -1; 0.2")),
+    {"Tresca's friction", with(tresca("0.6"), body_force("0.5; -1; 0.2")),
      Tensor<1, 3>({-2, 4, -0.8})},
     {"limited friction",
      {{"Boundary bottom/Friction bound", "0.55"},
@@ -105,9 +99,9 @@ const std::vector<Held> held{
       {"Boundary bottom/Friction coefficient", "0.45"}},
      Tensor<1, 3>({-2, 4, 0})},
     {"friction alone",
-     joined(tresca("1"), {{"Boundary bottom/Contact", "tangential"},
-                          {"Boundary top/Displacement", "free; 0; free"},
-                          {"Body force/Expression", "0.5; 0; 0.2"}}),
+     with(tresca("1"), {{"Boundary bottom/Contact", "tangential"},
+                        {"Boundary top/Displacement", "free; 0; free"},
+                        {"Body force/Expression", "0.5; 0; 0.2"}}),
      Tensor<1, 3>({-2, 0, -0.8})},
     {"a floor that pulls",
      {{"Boundary bottom/Contact", "bilateral"}, {"Body force/Expression", "0.2; -1; 0.2"}},
@@ -116,12 +110,12 @@ const std::vector<Held> held{
      {{"Boundary bottom/Contact", "bilateral"}, {"Body force/Expression", "0; 1; 0"}},
      Tensor<1, 3>({0, -4, 0})},
     {"a smooth slope with a support beside it",
-     joined(frictionless, {{"Boundary left/Displacement", "0; free; free"},
-                           {"Boundary front/Displacement", "free; free; 0"}}),
+     with(frictionless, {{"Boundary left/Displacement", "0; free; free"},
+                         {"Boundary front/Displacement", "free; free; 0"}}),
      Tensor<1, 3>({0, 4, 0})},
     {"a resultant between the last Gauss point and the edge",
-     joined(tresca("4"),
-            {{"Body force/Expression", "1.8; -1; 0"}, {"Adaptivity/Maximum steps", "1"}}),
+     with(tresca("4"),
+          {{"Body force/Expression", "1.8; -1; 0"}, {"Adaptivity/Maximum steps", "1"}}),
      Tensor<1, 3>({-7.2, 4, 0})}};
 
 TEST(HeldByContact, ForcesAndMomentsBalance)
@@ -152,7 +146,7 @@ TEST(HeldByContact, ForcesBalanceOnCoarseMeshes)
 /** Whatever solves the linear systems. */
 TEST(HeldByContact, AllSolversAgree)
 {
-  for (const Overrides &entries : {Overrides(), joined(tresca("0.51"), {})})
+  for (const Overrides &entries : {Overrides(), with(tresca("0.51"), {})})
   {
     std::vector<double> energies;
     for (const LinearMethod linear :
@@ -197,15 +191,15 @@ TEST(HeldByContact, PressingIsExact)
   for (const bool is_supported : {true, false})
     for (const char *const method : {"hap2", "hap3"})
     {
-      Overrides entries = joined(frictionless, {{"Body force/Expression", ""},
-                                                {"Boundary top/Traction", "0; -2.5; 0"},
-                                                {"Geometry/Graded towards", "0, 0, 0"},
-                                                {"Geometry/Grading levels", "1"},
-                                                {"Adaptivity/Method", method},
-                                                {"Adaptivity/Maximum steps", "1"}});
+      Overrides entries = with(frictionless, {{"Body force/Expression", ""},
+                                              {"Boundary top/Traction", "0; -2.5; 0"},
+                                              {"Geometry/Graded towards", "0, 0, 0"},
+                                              {"Geometry/Grading levels", "1"},
+                                              {"Adaptivity/Method", method},
+                                              {"Adaptivity/Maximum steps", "1"}});
       if (is_supported)
-        entries = joined(entries, {{"Boundary left/Displacement", "0; free; free"},
-                                   {"Boundary front/Symmetry", "true"}});
+        entries = with(entries, {{"Boundary left/Displacement", "0; free; free"},
+                                 {"Boundary front/Symmetry", "true"}});
       steps_of<3>(block(entries),
                   [&](const StepReport<3> &step)
                   {
@@ -222,22 +216,22 @@ TEST(HeldByContact, PressingIsExact)
 /** prm/resting.prm by degree two, with a law and a way to load it. */
 Overrides resting(const Overrides &law)
 {
-  return joined({{"Material/Young's modulus", "100"},
-                 {"Solver/Normal contact", "multiplier"},
-                 {"Adaptivity/Method", "hup2"},
-                 {"Adaptivity/Start degree", "2"},
-                 {"Adaptivity/Maximum steps", "2"}},
-                law);
+  return with({{"Material/Young's modulus", "100"},
+               {"Solver/Normal contact", "multiplier"},
+               {"Adaptivity/Method", "hup2"},
+               {"Adaptivity/Start degree", "2"},
+               {"Adaptivity/Maximum steps", "2"}},
+              law);
 }
 
 Scene<3> layer(const Overrides &law)
 {
-  return block(joined(joined(frictionless, {{"Geometry/Upper corner", "2, 2, 0.5"},
-                                            {"Geometry/Subdivisions", "4, 4, 1"},
-                                            {"Body force/Expression", "0; -1; 0"},
-                                            {"Boundary front/Displacement", "free; free; 0"},
-                                            {"Boundary back/Displacement", "free; free; 0"}}),
-                      resting(law)));
+  return block(with(with(frictionless, {{"Geometry/Upper corner", "2, 2, 0.5"},
+                                        {"Geometry/Subdivisions", "4, 4, 1"},
+                                        {"Body force/Expression", "0; -1; 0"},
+                                        {"Boundary front/Displacement", "free; free; 0"},
+                                        {"Boundary back/Displacement", "free; free; 0"}}),
+                    resting(law)));
 }
 
 const std::vector<Overrides> plane_laws{
@@ -251,7 +245,7 @@ TEST(HeldByContact, ALayerIsPlaneStrain)
     std::vector<double> flat;
     AdaptiveSolver<2>(read_scene<2>("prm/resting.prm", resting(law)))
         .run([&](const StepReport<2> &step) { flat.push_back(step.energies.lagrangian); });
-    const auto thick = steps_of<3>(layer(joined(law, {{"Boundary left/Traction", "1; 0; 0"}})));
+    const auto thick = steps_of<3>(layer(with(law, {{"Boundary left/Traction", "1; 0; 0"}})));
     ASSERT_EQ(thick.size(), flat.size());
     for (unsigned int k = 0; k < flat.size(); ++k)
       EXPECT_NEAR(thick[k].lagrangian / 0.5, flat[k], 1e-8 * std::abs(flat[k]));
@@ -280,11 +274,11 @@ TEST(HeldByContact, ALoadHistoryIsThatOfThePlane)
   for (const Overrides &law : plane_laws)
   {
     const Overrides entries =
-        joined(law, {{"Loading/Steps", "4"}, {"Adaptivity/Maximum steps", "1"}});
+        with(law, {{"Loading/Steps", "4"}, {"Adaptivity/Maximum steps", "1"}});
     const auto flat = energies_of<2>(read_scene<2>(
-        "prm/resting.prm", joined(resting(entries), {{"Boundary left/Traction", push("")}})));
+        "prm/resting.prm", with(resting(entries), {{"Boundary left/Traction", push("")}})));
     const auto thick =
-        energies_of<3>(layer(joined(entries, {{"Boundary left/Traction", push("; 0")}})));
+        energies_of<3>(layer(with(entries, {{"Boundary left/Traction", push("; 0")}})));
     ASSERT_EQ(flat.size(), thick.size());
     for (unsigned int k = 0; k < flat.size(); ++k)
       for (unsigned int i = 0; i < 4; ++i)
@@ -310,17 +304,17 @@ TEST(HeldByContact, WhatSetsInIsNamedWithItsForces)
       {body_force("0; 1; 0"),
        "no equilibrium: lifting off: the loads push the body along (0, 1, 0) with 4, "
        "contact can resist with 0"},
-      {joined(body_force("3; -1; 0"), {{"Boundary bottom/Friction coefficient", "5"}}),
+      {with(body_force("3; -1; 0"), {{"Boundary bottom/Friction coefficient", "5"}}),
        topples + "(0, 0, -1) through (2, 0, "},
-      {joined(body_force("0; -1; -2.2"), {{"Boundary bottom/Friction coefficient", "5"}}),
+      {with(body_force("0; -1; -2.2"), {{"Boundary bottom/Friction coefficient", "5"}}),
        topples + "(-1, 0, 0) through ("},
       {body_force("3*(z - 1); -1; 0"), "no equilibrium: sliding: the loads turn the body about an "
                                        "axis along (0, 1, 0) through (1"},
       // Beyond the last Gauss point of the finest of these meshes, and before the edge.
-      {joined(body_force("1.999; -1; 0"), {{"Boundary bottom/Friction coefficient", "5"}}),
+      {with(body_force("1.999; -1; 0"), {{"Boundary bottom/Friction coefficient", "5"}}),
        "no equilibrium on this mesh, whose pressures act inside of its faces: toppling: "},
-      {joined(frictionless, {{"Boundary left/Displacement", "0; free; free"},
-                             {"Body force/Expression", "0.5; -1; 0.1"}}),
+      {with(frictionless, {{"Boundary left/Displacement", "0; free; free"},
+                           {"Body force/Expression", "0.5; -1; 0.1"}}),
        "no equilibrium: sliding: the loads push the body along (0, 0, 1) with 0.4, contact can "
        "resist with 0"}};
   for (const auto &[overrides, words] : rows)

@@ -2,6 +2,8 @@
 #ifndef hpvi_space_runs_h
 #define hpvi_space_runs_h
 
+#include "../overrides.h"
+
 #include <gtest/gtest.h>
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
@@ -17,7 +19,7 @@ namespace space
 using namespace dealii;
 using namespace hpvi;
 
-using Overrides = std::vector<std::pair<std::string, std::string>>;
+using ::Overrides;
 
 /** prm/slab.prm, solved until Newton's method stands still. */
 inline Scene<3> slab(const Overrides &overrides = {})

@@ -19,7 +19,7 @@ struct Row
   std::string stopped_by;
 };
 
-std::vector<Row> run(const Scene<2> &scene)
+std::vector<Row> rows_of(const Scene<2> &scene)
 {
   std::vector<Row> rows;
   AdaptiveSolver<2>(scene).run(
@@ -49,13 +49,13 @@ TEST(TrueError, UniformBisectionIsLimitedByTheTransition)
 {
   // u ~ r^{3/2} at the transition: rate 3/4 in N for every degree
   for (const std::string method : {"hup2", "hup3"})
-    EXPECT_NEAR(last_rate(run(shipped_scene("stick-slip", adaptivity(method, 5)))), 0.75, 0.05)
+    EXPECT_NEAR(last_rate(rows_of(shipped_scene("stick-slip", adaptivity(method, 5)))), 0.75, 0.05)
         << method;
 }
 
 TEST(TrueError, NormOfTheExactSolution)
 {
-  const auto rows = run(shipped_scene("stick-slip", adaptivity("hup2", 2)));
+  const auto rows = rows_of(shipped_scene("stick-slip", adaptivity("hup2", 2)));
   EXPECT_NEAR(rows.back().errors.energy_norm, std::sqrt(0.37710185557), 1e-9);
 }
 
@@ -122,7 +122,7 @@ TEST(TrueError, OfTheTransitionIsADistance)
 
 TEST(TrueError, PureDegreeConvergesExponentiallyOnASmoothField)
 {
-  const auto rows = run(shipped_scene("smooth"));
+  const auto rows = rows_of(shipped_scene("smooth"));
   ASSERT_GE(rows.size(), 9U);
   for (unsigned int k = 1; k < 8; ++k) // each degree brings at least a factor 4
     EXPECT_LT(rows[k].errors.energy, rows[k - 1].errors.energy / 4) << "step " << k + 1;
@@ -135,7 +135,7 @@ TEST(TrueError, HpAdaptivityIsExponentialWhereverTheTransitionLies)
     Overrides overrides = adaptivity("hpa3", 60);
     overrides.emplace_back("Adaptivity/Maximum unknowns", "9000");
     overrides.emplace_back("Exact solution/Transition", transition);
-    const auto rows = run(shipped_scene("stick-slip", overrides));
+    const auto rows = rows_of(shipped_scene("stick-slip", overrides));
     bool reached = false;
     for (const Row &row : rows)
       reached = reached || (row.errors.energy <= 1e-6 && row.n < 6000);
@@ -147,7 +147,7 @@ TEST(TrueError, HpAdaptivityIsExponentialWhereverTheTransitionLies)
 
 TEST(TrueError, FewUnknownsForAMillionth)
 {
-  for (const Row &row : run(shipped_scene("stick-slip")))
+  for (const Row &row : rows_of(shipped_scene("stick-slip")))
     if (row.errors.energy <= 1e-6)
     {
       EXPECT_LT(row.n, 4500U);
@@ -185,7 +185,7 @@ TEST(TrueError, EnergyTendsToThatOfTheExactSolution)
 /** Far below what users ask for: no stage may lose digits that its successors need. */
 TEST(TrueError, FallsToRoundOffWithTheIndicator)
 {
-  const auto rows = run(shipped_scene(
+  const auto rows = rows_of(shipped_scene(
       "stick-slip", {{"Adaptivity/Maximum degree", "14"}, {"Adaptivity/Maximum steps", "20"}}));
   EXPECT_LT(rows.back().errors.energy, 2e-10 * rows.back().errors.energy_norm);
   for (unsigned int k = 8; k < rows.size(); ++k)
@@ -197,7 +197,7 @@ TEST(TrueError, FallsToRoundOffWithTheIndicator)
 
 TEST(TrueError, EffectivityIsNearlyConstant)
 {
-  for (const Row &row : run(shipped_scene("stick-slip", adaptivity("hpa3", 14))))
+  for (const Row &row : rows_of(shipped_scene("stick-slip", adaptivity("hpa3", 14))))
   {
     EXPECT_GT(row.scaled / row.errors.energy, 1.);
     EXPECT_LT(row.scaled / row.errors.energy, 10.);
@@ -211,7 +211,7 @@ TEST(StoredSolution, ASolutionHasNoDistanceFromItself)
   const ReferenceFile file(shipped_scene("han-6-12", adaptivity("hpa2", 6)));
   Overrides overrides = adaptivity("hpa2", 6);
   overrides.emplace_back("Error/Reference solution", file.path);
-  const auto rows = run(shipped_scene("han-6-12", overrides));
+  const auto rows = rows_of(shipped_scene("han-6-12", overrides));
   EXPECT_LT(rows.back().errors.energy, 1e-12 * rows.back().errors.energy_norm);
   EXPECT_GT(rows.front().errors.energy, 1e-3);
   EXPECT_EQ(rows.back().errors.reference_energy, rows.back().energy);
@@ -220,14 +220,14 @@ TEST(StoredSolution, ASolutionHasNoDistanceFromItself)
 TEST(StoredSolution, MeasuresWhatTheExactSolutionMeasures)
 {
   const ReferenceFile file(shipped_scene("stick-slip", adaptivity("hpa3", 16)));
-  const auto exact = run(shipped_scene("stick-slip", adaptivity("hup3", 4)));
+  const auto exact = rows_of(shipped_scene("stick-slip", adaptivity("hup3", 4)));
   // Without the exact solution's section the scene would need its boundary data: keep it, and
   // compare the stored field directly.
   const Scene<2> scene = shipped_scene("stick-slip", adaptivity("hup3", 4));
   Scene<2> other = scene;
   other.exact_solution = nullptr;
   other.reference_solution = file.path;
-  const auto stored = run(other);
+  const auto stored = rows_of(other);
   for (unsigned int k = 0; k < exact.size(); ++k)
   {
     EXPECT_NEAR(stored[k].errors.energy, exact[k].errors.energy, 1e-3 * exact[k].errors.energy);
@@ -273,7 +273,7 @@ TEST(StoredSolution, KeepsCellsOfAnyDepth)
   Scene<2> scene = shipped_scene("stick-slip", overrides);
   scene.exact_solution = nullptr;
   scene.reference_solution = file.path;
-  const auto rows = run(scene);
+  const auto rows = rows_of(scene);
   EXPECT_GT(rows.back().errors.energy_norm, 0.6);
   EXPECT_LT(rows.back().errors.energy, 1e-12);
 }
@@ -296,7 +296,7 @@ TEST(StoredSolution, RejectsWhatDoesNotFit)
 TEST(Limits, EachStopsTheRunAndSaysSo)
 {
   const auto stop = [](const Overrides &overrides)
-  { return run(shipped_scene("han-6-12", overrides)); };
+  { return rows_of(shipped_scene("han-6-12", overrides)); };
 
   auto rows = stop({{"Adaptivity/Maximum steps", "3"}});
   EXPECT_EQ(rows.size(), 3U);

@@ -14,12 +14,6 @@ namespace
 constexpr double pi = numbers::PI, young = 10, poisson = 0.3, mu = young / 2.6,
                  lambda = young * 0.3 / (1.3 * 0.4);
 
-Overrides operator+(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 const Overrides turned = {{"Material/Young's modulus", "10"},
                           {"Material/Poisson's ratio", "0.3"},
                           {"Material/Plane", "axisymmetric"},
@@ -165,9 +159,10 @@ TEST(Axisymmetric, SleeveInARing)
     const double K = sticks ? -mu * sleeve.W / std::log(2.) : sleeve.K,
                  s = -2 * lambda * sleeve.u_i / 3;
     const auto traction = [&](const double sign)
-    { return text(sign * K) + "/x; " + text(sign * s); };
+    { return in_digits(sign * K) + "/x; " + in_digits(sign * s); };
     const std::vector<Step> steps = steps_of(
-        ring + Overrides{{"Boundary left/Displacement", text(sleeve.u_i) + "; " + text(sleeve.W)},
+        ring + Overrides{{"Boundary left/Displacement",
+                          in_digits(sleeve.u_i) + "; " + in_digits(sleeve.W)},
                          {"Boundary right/Contact", "bilateral"},
                          {"Boundary right/Friction " + sleeve.friction, sticks ? "0.2" : "0.3"},
                          {"Boundary top/Traction", traction(1)},
@@ -223,7 +218,7 @@ TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
   constexpr double radius = 2e5;
   const auto steps = [&](const std::string &plane, const std::string &friction)
   {
-    const std::string x = "(x - " + text(radius) + ")";
+    const std::string x = "(x - " + in_digits(radius) + ")";
     std::vector<std::vector<double>> result;
     AdaptiveSolver<2>(scene_of({{"Material/Young's modulus", "10"},
                                 {"Material/Poisson's ratio", "0.3"},
@@ -231,8 +226,8 @@ TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
                                 {"Material/Density", "0.1"},
                                 {"Material/Initial strain", "0; 0; 0.02*" + x + "^2; 0.01*y"},
                                 {"Body force/Gravity", "0; -1"},
-                                {"Geometry/Lower corner", text(radius) + ", 0"},
-                                {"Geometry/Upper corner", text(radius + 2) + ", 1"},
+                                {"Geometry/Lower corner", in_digits(radius) + ", 0"},
+                                {"Geometry/Upper corner", in_digits(radius + 2) + ", 1"},
                                 {"Geometry/Subdivisions", "4, 2"},
                                 {"Boundary left/Displacement", "0; free"},
                                 {"Boundary right/Spring", "2; 1"},
@@ -265,7 +260,7 @@ TEST(Axisymmetric, ScaledAndMirrored)
 {
   const auto energies = [](const double length, const double up)
   {
-    const std::string x = "(x/" + text(length) + ")", y = "(y/" + text(up * length) + ")";
+    const std::string x = "(x/" + in_digits(length) + ")", y = "(y/" + in_digits(up * length) + ")";
     const std::string base = up > 0 ? "bottom" : "top", roof = up > 0 ? "top" : "bottom";
     std::vector<double> result;
     AdaptiveSolver<2>(
@@ -274,10 +269,11 @@ TEST(Axisymmetric, ScaledAndMirrored)
                   {"Material/Plane", "axisymmetric"},
                   {"Material/Thermal expansion", "0.01"},
                   {"Temperature/Expression", x + "^2 + " + y},
-                  {"Geometry/Lower corner", "0, " + text(up > 0 ? 0. : -length)},
-                  {"Geometry/Upper corner", text(2 * length) + ", " + text(up > 0 ? length : 0.)},
+                  {"Geometry/Lower corner", "0, " + in_digits(up > 0 ? 0. : -length)},
+                  {"Geometry/Upper corner",
+                   in_digits(2 * length) + ", " + in_digits(up > 0 ? length : 0.)},
                   {"Geometry/Subdivisions", "4, 2"},
-                  {"Boundary right/Spring", text(2 / length) + "; " + text(1 / length)},
+                  {"Boundary right/Spring", in_digits(2 / length) + "; " + in_digits(1 / length)},
                   {"Boundary " + roof + "/Pressure", "1 + " + x + "^2"},
                   {"Boundary " + base + "/Contact", "unilateral"},
                   {"Boundary " + base + "/Friction coefficient", "0.1"},
@@ -309,8 +305,8 @@ std::string cylinder_file(const std::array<double, 2> &axis)
   std::ofstream(file)
       << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"left\"\n1 2 "
          "\"bottom\"\n1 3 \"right\"\n2 4 \"body\"\n$EndPhysicalNames\n$Nodes\n6\n1 "
-      << text(axis[0]) << " 0 0\n2 1 0 0\n3 1 1 0\n4 " << text(axis[1]) << " 1 0\n5 1 2 0\n6 "
-      << text(axis[0])
+      << in_digits(axis[0]) << " 0 0\n2 1 0 0\n3 1 1 0\n4 " << in_digits(axis[1])
+      << " 1 0\n5 1 2 0\n6 " << in_digits(axis[0])
       << " 2 0\n$EndNodes\n$Elements\n7\n1 1 2 1 1 1 4\n2 1 2 1 1 4 6\n3 1 2 2 2 1 2\n"
          "4 1 2 3 3 2 3\n5 1 2 3 3 3 5\n6 3 2 4 4 1 2 3 4\n7 3 2 4 4 4 3 5 6\n$EndElements\n";
   return file.string();

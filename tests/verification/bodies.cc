@@ -64,7 +64,7 @@ struct Patch
   {
     std::string result;
     for (const Point<2> &x : {place(0, lower), place(2, lower), place(2, upper), place(0, upper)})
-      result += (result.empty() ? "" : "; ") + text(x[0]) + ", " + text(x[1]);
+      result += (result.empty() ? "" : "; ") + in_digits(x[0]) + ", " + in_digits(x[1]);
     return result;
   }
 
@@ -79,7 +79,8 @@ struct Patch
     const Tensor<1, 2> b = R * own.b;
     std::string result;
     for (const unsigned int c : {0, 1})
-      result += (c == 0 ? "" : "; ") + text(G[c][0]) + "*x+" + text(G[c][1]) + "*y+" + text(b[c]);
+      result += (c == 0 ? "" : "; ") + in_digits(G[c][0]) + "*x+" + in_digits(G[c][1]) + "*y+" +
+                in_digits(b[c]);
     return result;
   }
 
@@ -94,13 +95,13 @@ struct Patch
                       {"Body upper/Material", "other"},
                       {"Material/Young's modulus", "10"},
                       {"Material/Poisson's ratio", "0.3"},
-                      {"Material other/Young's modulus", text(upper_modulus)},
+                      {"Material other/Young's modulus", in_digits(upper_modulus)},
                       {"Material other/Poisson's ratio", "0.2"},
                       {"Contact joint/Between", "upper.bottom, lower.top"},
                       {"Contact joint/Law", law},
                       {"Contact joint/Slave", slave}};
     if (shear > 0 && law != "tied")
-      entries.emplace_back("Contact joint/Friction bound", text(shear));
+      entries.emplace_back("Contact joint/Friction bound", in_digits(shear));
     for (const char *const side : {"left", "right", "bottom"})
       entries.emplace_back("Boundary lower." + std::string(side) + "/Displacement",
                            displacement(false));
@@ -372,8 +373,8 @@ TEST(Bodies, RubAsCattaneoSays)
                                {"Body lower/Material", "other"},
                                {"Material/Young's modulus", "200"},
                                {"Material/Poisson's ratio", "0.3"},
-                               {"Material other/Young's modulus", text(known.lower_modulus)},
-                               {"Material other/Poisson's ratio", text(known.lower_ratio)},
+                               {"Material other/Young's modulus", in_digits(known.lower_modulus)},
+                               {"Material other/Poisson's ratio", in_digits(known.lower_ratio)},
                                {"Contact line/Between", "upper.bottom, lower.top"},
                                {"Contact line/Friction coefficient", "0.3"},
                                {"Boundary upper.top/Displacement", "0; 0"},
@@ -434,14 +435,6 @@ Overrides box(const std::string &name, const std::string &lower, const std::stri
           {"Body " + name + "/Material", name},
           {"Material " + name + "/Young's modulus", E},
           {"Material " + name + "/Poisson's ratio", nu}};
-}
-
-Overrides joined(const std::vector<Overrides> &all)
-{
-  Overrides result;
-  for (const Overrides &some : all)
-    result.insert(result.end(), some.begin(), some.end());
-  return result;
 }
 
 /** O1 to O4: two other discretisations agree on these digits (matching nodes, moments through meshes that do not match). */
@@ -660,7 +653,7 @@ TEST(Bodies, SayWhereTheirGapIsSteep)
                   {"Body lower/Upper corner", "1, 0"},
                   {"Body lower/Subdivisions", "4, 3"},
                   {"Contact line/Between", "lower.top, upper.bottom"},
-                  {"Contact line/Gap", "if(x < 0.5, 0, " + text(slope) + "*(x - 0.5))"},
+                  {"Contact line/Gap", "if(x < 0.5, 0, " + in_digits(slope) + "*(x - 0.5))"},
                   {"Boundary upper.top/Displacement", "0; -0.5"},
                   {"Boundary lower.bottom/Displacement", "0; 0"},
                   {"Adaptivity/Maximum steps", "1"}}))
@@ -893,7 +886,7 @@ std::string file_of(const std::vector<DrawnBlock> &blocks)
         const auto other = known.find(x);
         own.push_back(block.shares_nodes && other != known.end() ? other->second : ++n_nodes);
         if (own.back() == n_nodes)
-          nodes << n_nodes << " " << text(x[0]) << " " << text(x[1]) << " 0\n";
+          nodes << n_nodes << " " << in_digits(x[0]) << " " << in_digits(x[1]) << " 0\n";
         known.emplace(x, own.back());
       }
     const auto node = [&, nx = nx](const unsigned int i, const unsigned int j)
@@ -976,7 +969,8 @@ TEST(Bodies, OfOneFileHaveNodesOfTheirOwn)
     for (const DrawnBlock &block : blocks)
       if (block.name != "third")
       {
-        const auto comma = [](const double x, const double y) { return text(x) + ", " + text(y); };
+        const auto comma = [](const double x, const double y)
+        { return in_digits(x) + ", " + in_digits(y); };
         const std::string body = "Body " + block.name;
         drawn = joined({drawn,
                         {{body + "/Shape", "file"},

@@ -16,7 +16,7 @@ namespace
 using namespace verification;
 
 /** All digits of what a step leaves, times aside. */
-std::string digits(const StepReport<2> &step)
+std::string digits_of(const StepReport<2> &step)
 {
   std::ostringstream out;
   out << std::hexfloat << step.number << ' ' << step.estimate.total() << ' '
@@ -85,7 +85,7 @@ TEST_P(BrokenOff, GoesOnToTheLastBit)
   AdaptiveSolver<2>(whole).run(
       [&](const StepReport<2> &step)
       {
-        expected.push_back(digits(step));
+        expected.push_back(digits_of(step));
         bounds.push_back(step.bound ? step.bound->total : 0.);
       });
   ASSERT_EQ(expected.size(), 6U);
@@ -97,7 +97,7 @@ TEST_P(BrokenOff, GoesOnToTheLastBit)
           [&](const StepReport<2> &step)
           {
             ASSERT_LT(k, 6U);
-            EXPECT_TRUE(digits(step) == expected[k]) << "step " << k + 1; // pages of digits
+            EXPECT_TRUE(digits_of(step) == expected[k]) << "step " << k + 1; // pages of digits
             // Which of some congruent patches is solved for all of them is not kept.
             EXPECT_NEAR(step.bound ? step.bound->total : 0., bounds[k],
                         1e-9 * bounds[k] + 1e-13 * step.energies.norm);

@@ -15,12 +15,6 @@ namespace
 {
 using namespace verification;
 
-Overrides with(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 // ---------------------------------------------------------------- the rule of one edge
 
 FrictionRule rule_of(const std::function<double(double)> &g, const unsigned int p)
@@ -256,7 +250,7 @@ Scene<2> free_strip(const std::string &bound, const double force, const Override
   return scene_of(with({{"Geometry/Upper corner", "4, 1"},
                         {"Geometry/Subdivisions", "4, 1"},
                         {"Material/Young's modulus", "1"},
-                        {"Boundary left/Traction", text(force) + "; 0"},
+                        {"Boundary left/Traction", in_digits(force) + "; 0"},
                         {"Boundary bottom/Contact", "bilateral"},
                         {"Boundary bottom/Friction bound", bound},
                         {"Adaptivity/Method", "hpa3"},
@@ -304,7 +298,7 @@ TEST(FreeBody, BalancesItsLoadsByABump)
   for (const double a : {0.93, 1.31, 2., 2.49})
   {
     double resultant = 0;
-    AdaptiveSolver<2>(free_strip("if(abs(x - " + text(a) + ") < 0.05, 10, 0)", 0.7,
+    AdaptiveSolver<2>(free_strip("if(abs(x - " + in_digits(a) + ") < 0.05, 10, 0)", 0.7,
                                  {{"Geometry/Subdivisions", "80, 10"}}))
         .run([&](const StepReport<2> &step) { resultant = step.contact.at(0).friction_resultant; });
     EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
@@ -634,20 +628,20 @@ struct LoadedFoot
 
   Scene<2> scene(const double slip, const double bound, const Overrides &more = {}) const
   {
-    return scene_of(
-        with({{"Geometry/Upper corner", "2, 1"},
-              {"Geometry/Subdivisions", "2, 1"},
-              {"Material/Young's modulus", "1"},
-              {"Material/Poisson's ratio", "0"},
-              {"Boundary top/Displacement", text(slip + 2 * tau) + "; " + text(-pressure)},
-              {"Boundary left/Traction", "0; " + text(-tau)},
-              {"Boundary right/Traction", "0; " + text(tau)},
-              {"Boundary bottom/Contact", "bilateral"},
-              {"Boundary bottom/Friction bound", text(bound)},
-              {"Boundary bottom/Traction", text(along) + "; " + text(up)},
-              {"Adaptivity/Method", "hup3"},
-              {"Adaptivity/Maximum steps", "1"}},
-             more));
+    return scene_of(with(
+        {{"Geometry/Upper corner", "2, 1"},
+         {"Geometry/Subdivisions", "2, 1"},
+         {"Material/Young's modulus", "1"},
+         {"Material/Poisson's ratio", "0"},
+         {"Boundary top/Displacement", in_digits(slip + 2 * tau) + "; " + in_digits(-pressure)},
+         {"Boundary left/Traction", "0; " + in_digits(-tau)},
+         {"Boundary right/Traction", "0; " + in_digits(tau)},
+         {"Boundary bottom/Contact", "bilateral"},
+         {"Boundary bottom/Friction bound", in_digits(bound)},
+         {"Boundary bottom/Traction", in_digits(along) + "; " + in_digits(up)},
+         {"Adaptivity/Method", "hup3"},
+         {"Adaptivity/Maximum steps", "1"}},
+        more));
   }
 };
 

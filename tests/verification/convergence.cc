@@ -56,13 +56,13 @@ public:
                       C = "cos(x - 2*y)";
     // -mu Laplace u - (lambda + mu) grad div u
     entries.emplace_back("Body force/Expression",
-                         text(5 * mu) + "*" + s + " + " + text(lambda + mu) + "*(4*" + s + " - 2*" +
-                             C + "); " + text(5 * mu) + "*" + C + " + " + text(lambda + mu) +
-                             "*(2*" + s + " + 4*" + C + ")");
+                         in_digits(5 * mu) + "*" + s + " + " + in_digits(lambda + mu) + "*(4*" + s +
+                             " - 2*" + C + "); " + in_digits(5 * mu) + "*" + C + " + " +
+                             in_digits(lambda + mu) + "*(2*" + s + " + 4*" + C + ")");
     // sigma e_x
-    entries.emplace_back("Boundary right/Traction", text(2 * lambda) + "*(" + c + " + " + S +
-                                                        ") + " + text(4 * mu) + "*" + c + "; " +
-                                                        text(mu) + "*(" + c + " - " + S + ")");
+    entries.emplace_back("Boundary right/Traction",
+                         in_digits(2 * lambda) + "*(" + c + " + " + S + ") + " + in_digits(4 * mu) +
+                             "*" + c + "; " + in_digits(mu) + "*(" + c + " - " + S + ")");
     scene = std::make_unique<const Scene<2>>(scene_of(entries));
   }
 
@@ -321,21 +321,21 @@ TEST(ExponentialConvergence, OfTheSecondMethodIsThatOfTheThesis)
   }
 }
 
-using Table = std::vector<std::map<unsigned int, unsigned int>>;
+using DegreeTable = std::vector<std::map<unsigned int, unsigned int>>;
 
-/** Table 5.1 of the thesis, Example 5.2: elements of degree 3, 4, ..., as far as a reading goes. */
-const Table table_5_1 = {{{3, 16}}, {{3, 28}}, {{3, 42}, {4, 1}}, {{3, 58}, {4, 6}}};
+/** DegreeTable 5.1 of the thesis, Example 5.2: elements of degree 3, 4, ..., as far as a reading goes. */
+const DegreeTable table_5_1 = {{{3, 16}}, {{3, 28}}, {{3, 42}, {4, 1}}, {{3, 58}, {4, 6}}};
 const std::vector<unsigned int> elements_5_1 = {16,  28,  43,  64,  85,  97,  127, 157,
                                                 196, 226, 271, 319, 358, 418, 472};
 
-/** Table 5.2, Example 5.3. */
-const Table table_5_2 = {{{3, 4}},  {{3, 7}},          {{3, 13}},        {{3, 22}},
-                         {{3, 37}}, {{3, 57}, {4, 1}}, {{3, 78}, {4, 7}}};
+/** DegreeTable 5.2, Example 5.3. */
+const DegreeTable table_5_2 = {{{3, 4}},  {{3, 7}},          {{3, 13}},        {{3, 22}},
+                               {{3, 37}}, {{3, 57}, {4, 1}}, {{3, 78}, {4, 7}}};
 const std::vector<unsigned int> elements_5_2 = {4,   7,   13,  22,  37,  58,  85, 124,
                                                 175, 226, 280, 331, 400, 502, 580};
 
 /** The first @p n_rows exactly. */
-void expect_table(const History &history, const Table &table, const unsigned int n_rows)
+void expect_table(const History &history, const DegreeTable &table, const unsigned int n_rows)
 {
   for (unsigned int step = 0; step < n_rows; ++step)
     EXPECT_EQ(history.degrees[step], table[step]) << "row " << step + 1;

@@ -18,12 +18,6 @@ namespace
 {
 using namespace verification;
 
-Overrides with(Overrides entries, const Overrides &others)
-{
-  entries.insert(entries.end(), others.begin(), others.end());
-  return entries;
-}
-
 Overrides ring(const Overrides &others)
 {
   return with({{"Geometry/Shape", "ring sector"},
@@ -178,7 +172,7 @@ TEST(Curves, MeetTwoRingsInARigidOne)
        {TwoRings{"Friction bound", "0.2", 0.02, -0.2759572266, 0},
         TwoRings{"Friction coefficient", "0.3", 0.04, -4 * 0.3 * p, 0.0496401945}})
   {
-    const std::string U = text(row.turn);
+    const std::string U = in_digits(row.turn);
     const Scene<2> scene =
         scene_of({{"Geometry/Shape", "ring sector"},
                   {"Geometry/Radii", "1, 2"},
@@ -417,15 +411,16 @@ TEST(Curves, HaveTheEffectivityOfStraightCells)
                                             {"Boundary end/Symmetry", "true"},
                                             {"Boundary inner/Pressure", "1"}}),
                                       -(U + V) * numbers::PI / 4);
-    const auto straight = effectivities({{"Geometry/Lower corner", "1, 0"},
-                                         {"Geometry/Upper corner", "2, " + text(length)},
-                                         {"Geometry/Subdivisions", subdivisions},
-                                         {"Boundary bottom/Symmetry", "true"},
-                                         {"Boundary top/Symmetry", "true"},
-                                         {"Boundary right/Displacement", "0; free"},
-                                         {"Boundary left/Traction", text(M * (V - U)) + "; 0"},
-                                         {"Body force/Expression", text(-2 * M * V) + "/x^3; 0"}},
-                                        -length * M / 2 * (U * U - U * V + 7 * V * V / 24));
+    const auto straight =
+        effectivities({{"Geometry/Lower corner", "1, 0"},
+                       {"Geometry/Upper corner", "2, " + in_digits(length)},
+                       {"Geometry/Subdivisions", subdivisions},
+                       {"Boundary bottom/Symmetry", "true"},
+                       {"Boundary top/Symmetry", "true"},
+                       {"Boundary right/Displacement", "0; free"},
+                       {"Boundary left/Traction", in_digits(M * (V - U)) + "; 0"},
+                       {"Body force/Expression", in_digits(-2 * M * V) + "/x^3; 0"}},
+                      -length * M / 2 * (U * U - U * V + 7 * V * V / 24));
     ASSERT_EQ(curved.size(), 5U);
     ASSERT_EQ(straight.size(), 5U);
     for (unsigned int k = 0; k < curved.size(); ++k)

@@ -593,7 +593,7 @@ struct Block
   /** The local y of a point, as an expression of the global x and y. */
   std::string height() const
   {
-    return "(" + text(-std::sin(angle)) + "*x + " + text(std::cos(angle)) + "*y)";
+    return "(" + in_digits(-std::sin(angle)) + "*x + " + in_digits(std::cos(angle)) + "*y)";
   }
 
   std::string corner_text() const
@@ -602,7 +602,7 @@ struct Block
     for (const Point<2> &corner : corners)
     {
       const Tensor<1, 2> x = turned(corner);
-      result += (result.empty() ? "" : "; ") + text(x[0]) + ", " + text(x[1]);
+      result += (result.empty() ? "" : "; ") + in_digits(x[0]) + ", " + in_digits(x[1]);
     }
     return result;
   }
@@ -628,17 +628,17 @@ Scene<2> shear_scene(const Block &block, const Shear &shear)
   Overrides entries = {{"Geometry/Shape", "quadrilateral"},
                        {"Geometry/Corners", block.corner_text()},
                        {"Geometry/Subdivisions", "2, 2"},
-                       {"Material/Young's modulus", text(young)},
-                       {"Material/Poisson's ratio", text(poisson)},
+                       {"Material/Young's modulus", in_digits(young)},
+                       {"Material/Poisson's ratio", in_digits(poisson)},
                        {"Boundary bottom/Contact", "bilateral"},
-                       {"Boundary bottom/Friction bound", text(shear.friction_bound)}};
+                       {"Boundary bottom/Friction bound", in_digits(shear.friction_bound)}};
   std::vector<std::tuple<std::string, int, int>> loaded = {{"right", 1, 2}, {"left", 3, 0}};
   const Tensor<1, 2> along = block.turned(Point<2>(1., 0.));
   const std::string u =
-      "(" + text(shear.foot) + " + " + text(shear.strain) + "*" + block.height() + ")";
+      "(" + in_digits(shear.foot) + " + " + in_digits(shear.strain) + "*" + block.height() + ")";
   if (shear.top_is_held)
     entries.emplace_back("Boundary top/Displacement",
-                         text(along[0]) + "*" + u + "; " + text(along[1]) + "*" + u);
+                         in_digits(along[0]) + "*" + u + "; " + in_digits(along[1]) + "*" + u);
   else
     loaded.emplace_back("top", 2, 3);
   const double tau = shear_modulus * shear.strain;
@@ -648,7 +648,7 @@ Scene<2> shear_scene(const Block &block, const Shear &shear)
     const Tensor<1, 2> n = Point<2>(edge[1], -edge[0]) / edge.norm();
     const Tensor<1, 2> traction = block.turned(Point<2>(tau * n[1], tau * n[0]));
     entries.emplace_back("Boundary " + side + "/Traction",
-                         text(traction[0]) + "; " + text(traction[1]));
+                         in_digits(traction[0]) + "; " + in_digits(traction[1]));
   }
   return scene_of(entries);
 }
@@ -791,8 +791,8 @@ Scene<2> turned_square(const double angle)
   const std::string pressure = "(1.5*(5 - " + block.height() + "))";
   const auto component = [&](const unsigned int c)
   {
-    return pressure + "*" + text(block.turned(Point<2>(1., 0.))[c]) + " - 0.75*" +
-           text(block.turned(Point<2>(0., 1.))[c]);
+    return pressure + "*" + in_digits(block.turned(Point<2>(1., 0.))[c]) + " - 0.75*" +
+           in_digits(block.turned(Point<2>(0., 1.))[c]);
   };
   return shipped_scene("han-6-12",
                        {{"Geometry/Shape", "quadrilateral"},
@@ -839,7 +839,7 @@ std::pair<unsigned int, unsigned int> default_mesh(const double angle, Overrides
                    {{"Geometry/Shape", "quadrilateral"},
                     {"Geometry/Corners", block.corner_text()},
                     {"Geometry/Subdivisions", "2, 1"},
-                    {"Boundary top/Displacement", text(shear[0]) + "; " + text(shear[1])},
+                    {"Boundary top/Displacement", in_digits(shear[0]) + "; " + in_digits(shear[1])},
                     {"Boundary bottom/Contact", "bilateral"},
                     {"Boundary bottom/Friction bound", "0.005"},
                     {"Adaptivity/Maximum steps", "6"}});

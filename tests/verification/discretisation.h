@@ -2,6 +2,8 @@
 #ifndef hpvi_verification_discretisation_h
 #define hpvi_verification_discretisation_h
 
+#include "../overrides.h"
+
 #include <gtest/gtest.h>
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/plane/internal_forces.h>
@@ -27,10 +29,10 @@ namespace verification
 using namespace dealii;
 using namespace hpvi;
 
-using Overrides = std::vector<std::pair<std::string, std::string>>;
+using ::Overrides;
 
 /** All digits of a number, for entries and expressions. */
-inline std::string text(const double value)
+inline std::string in_digits(const double value)
 {
   std::ostringstream out;
   out << std::setprecision(17) << value;

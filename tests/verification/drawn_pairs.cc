@@ -16,21 +16,6 @@ using namespace verification;
 
 constexpr double degree = numbers::PI / 180;
 
-/** Of an entry that is said twice the last value. */
-Overrides joined(const std::vector<Overrides> &parts)
-{
-  Overrides result;
-  for (const Overrides &part : parts)
-    for (const auto &entry : part)
-    {
-      result.erase(std::remove_if(result.begin(), result.end(),
-                                  [&](const auto &one) { return one.first == entry.first; }),
-                   result.end());
-      result.push_back(entry);
-    }
-  return result;
-}
-
 /** Cells, and edges of the boundary with the names of the sides that they belong to. */
 struct Drawing
 {
@@ -63,7 +48,7 @@ struct Drawing
       out << "1 " << group(side) << " \"" << side << "\"\n";
     out << "2 9 \"all\"\n$EndPhysicalNames\n$Nodes\n" << points.size() << "\n";
     for (unsigned int k = 0; k < points.size(); ++k)
-      out << k + 1 << " " << text(points[k][0]) << " " << text(points[k][1]) << " 0\n";
+      out << k + 1 << " " << in_digits(points[k][0]) << " " << in_digits(points[k][1]) << " 0\n";
     out << "$EndNodes\n$Elements\n" << n << "\n" << elements.str() << "$EndElements\n";
     const auto path = std::filesystem::path(::testing::TempDir()) /
                       ("hpvi-" + name + "-" + std::to_string(getpid()) + ".msh");
@@ -136,7 +121,7 @@ constexpr double fit = (9. / 4 - 1) / (9 - 1);
 Overrides ring_shape(const std::string &body, const double inner, const unsigned int n)
 {
   return {{"Body " + body + "/Shape", "ring sector"},
-          {"Body " + body + "/Radii", text(inner) + ", " + text(inner + 1)},
+          {"Body " + body + "/Radii", in_digits(inner) + ", " + in_digits(inner + 1)},
           {"Body " + body + "/Angles", "0, 90"},
           {"Body " + body + "/Subdivisions", "1, " + std::to_string(n)}};
 }
@@ -336,8 +321,8 @@ TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
                         face = body == 0 ? "outer" : "inner";
       const Overrides ring{{"Geometry/Shape", "file"},
                            {"Geometry/File", file},
-                           {"Material/Young's modulus", text(E)},
-                           {"Material/Poisson's ratio", text(nu)},
+                           {"Material/Young's modulus", in_digits(E)},
+                           {"Material/Poisson's ratio", in_digits(nu)},
                            {"Boundary inner/Curve", "circle"},
                            {"Boundary outer/Curve", "circle"},
                            {"Boundary start/Symmetry", "true"},
@@ -350,12 +335,13 @@ TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
       Overrides on_circle =
           joined({ring,
                   {{"Boundary " + face + "/Contact", "unilateral"},
-                   {"Boundary " + face + "/Gap", text(body == 0 ? u(2) : -u(2))}}});
+                   {"Boundary " + face + "/Gap", in_digits(body == 0 ? u(2) : -u(2))}}});
       if (body == 1)
         on_circle = joined({on_circle, {{"Boundary inner/Pressure", "0"}}});
       rings[body].push_back(
           {file,
-           {fit_errors(joined({ring, {{"Boundary " + face + "/Pressure", text(fit)}}}), -work / 2)
+           {fit_errors(joined({ring, {{"Boundary " + face + "/Pressure", in_digits(fit)}}}),
+                       -work / 2)
                 .energy,
             fit_errors(on_circle, 0).pressure}});
     }
@@ -395,12 +381,12 @@ TEST(DrawnPairs, EndWithCellsThatHangOverAltogether)
       longer.back() += over;
       const std::vector<double> other = angles(8, [] { return 0.; });
       const Point<2> end = arc({0, 0}, 2, longer).back();
-      Overrides entries =
-          joined({fitted("unilateral", of_pin ? "pin.outer" : "sheet.inner", 3),
-                  ring_file("pin", 1, of_pin ? longer : other, curve),
-                  ring_file("sheet", 2, of_pin ? other : longer, curve),
-                  {{"Body " + slave + "/Graded towards", text(end[0]) + ", " + text(end[1])},
-                   {"Body " + slave + "/Grading levels", std::to_string(levels)}}});
+      Overrides entries = joined(
+          {fitted("unilateral", of_pin ? "pin.outer" : "sheet.inner", 3),
+           ring_file("pin", 1, of_pin ? longer : other, curve),
+           ring_file("sheet", 2, of_pin ? other : longer, curve),
+           {{"Body " + slave + "/Graded towards", in_digits(end[0]) + ", " + in_digits(end[1])},
+            {"Body " + slave + "/Grading levels", std::to_string(levels)}}});
       double mean = 0;
       AdaptiveSolver<2>(scene_of(entries))
           .run([&](const StepReport<2> &step)
@@ -499,8 +485,8 @@ TEST(DrawnPairs, TakeSplinesForOneCurve)
                             {"Boundary upper.outer/Pressure", "1"},
                             {"Contact joint/Between", "upper.inner, lower.inner"},
                             {"Contact joint/Law", "tied"},
-                            {"Material/Young's modulus", text(E)},
-                            {"Material/Poisson's ratio", text(nu)},
+                            {"Material/Young's modulus", in_digits(E)},
+                            {"Material/Poisson's ratio", in_digits(nu)},
                             {"Adaptivity/Method", "pu"},
                             {"Adaptivity/Start degree", "4"},
                             {"Adaptivity/Maximum steps", "1"}};
@@ -543,14 +529,14 @@ Overrides half_disc(const std::string &body, const std::string &centre, const do
 {
   return {{"Body " + body + "/Shape", "half disc"},
           {"Body " + body + "/Centre", centre},
-          {"Body " + body + "/Radius", text(radius)},
-          {"Body " + body + "/Angle", text(angle)}};
+          {"Body " + body + "/Radius", in_digits(radius)},
+          {"Body " + body + "/Angle", in_digits(angle)}};
 }
 
 Overrides bar(const double half_length)
 {
-  return {{"Body bar/Lower corner", text(-half_length) + ", -10"},
-          {"Body bar/Upper corner", text(half_length) + ", 0"},
+  return {{"Body bar/Lower corner", in_digits(-half_length) + ", -10"},
+          {"Body bar/Upper corner", in_digits(half_length) + ", 0"},
           {"Body bar/Subdivisions", "12, 1"},
           {"Boundary bar.bottom/Displacement", "0; 0"}};
 }

@@ -732,18 +732,18 @@ Scene<2> told(const ToldScene &scene, const Tensor<2, 2> &turn, const double shi
   {
     const unsigned int side = (is_mirrored ? first + 3 - k : first + k) % 4;
     const Tensor<1, 2> corner = turn * scene.corners[(side + (is_mirrored ? 1 : 0)) % 4];
-    corners += (k == 0 ? "" : "; ") + text(corner[0] + shift) + ", " + text(corner[1]);
+    corners += (k == 0 ? "" : "; ") + in_digits(corner[0] + shift) + ", " + in_digits(corner[1]);
     for (auto [entry, value] : scene.sides[side])
     {
       if (const auto X = value.find('X'); X != std::string::npos)
         value.replace(X, 1,
-                      "(" + text(turn[0][0]) + "*(x - " + text(shift) + ") + " + text(turn[1][0]) +
-                          "*y)");
+                      "(" + in_digits(turn[0][0]) + "*(x - " + in_digits(shift) + ") + " +
+                          in_digits(turn[1][0]) + "*y)");
       entries.emplace_back("Boundary " + names[k] + "/" + entry, value);
     }
     if (const Tensor<1, 2> u = turn * scene.displacements[side]; u.norm() > 0)
       entries.emplace_back("Boundary " + names[k] + "/Displacement",
-                           text(u[0]) + "; " + text(u[1]));
+                           in_digits(u[0]) + "; " + in_digits(u[1]));
   }
   const unsigned int along = first % 2 == (is_mirrored ? 0 : 1);
   entries.emplace_back("Geometry/Corners", corners);

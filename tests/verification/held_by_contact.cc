@@ -464,7 +464,7 @@ TEST(EccentricLoads, AreHeldUpToTheEndOfTheFoundation)
                             {0.9, 1, 2, 0},
                             {0.03, 1, 3, 0}})
     {
-      SCOPED_TRACE(text(row.x) + (coulomb ? " Coulomb" : " Tresca"));
+      SCOPED_TRACE(in_digits(row.x) + (coulomb ? " Coulomb" : " Tresca"));
       const Outcome last = run(wall(row.x, row.columns, row.degree, coulomb, row.angle));
       EXPECT_NEAR(last.contact.at(0).normal_resultant, -2, 1e-8);
       EXPECT_NEAR(std::abs(last.contact.at(0).friction_resultant), std::abs(row.x - 0.5), 1e-8);
@@ -596,7 +596,7 @@ TEST(HeldByContactTurned, DoesNotDependOnTheAxes)
                            {"Solver/Normal contact", normal}};
     const double c = std::cos(numbers::PI / 6), s = std::sin(numbers::PI / 6);
     const auto vector = [&](const double x, const double y, const std::string &separator)
-    { return text(c * x - s * y) + separator + text(s * x + c * y); };
+    { return in_digits(c * x - s * y) + separator + in_digits(s * x + c * y); };
     Overrides turned = few;
     turned.insert(turned.end(),
                   {{"Geometry/Shape", "quadrilateral"},

@@ -14,12 +14,6 @@ namespace
 {
 using namespace verification;
 
-Overrides operator+(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 /** What is left of a run. */
 struct Result
 {
@@ -209,10 +203,10 @@ TEST(ZeroStrain, HasANorm)
 /** Stresses by @p factor, a power of 2: the same problem in another unit. */
 Overrides in_units(const double factor)
 {
-  return {{"Material/Young's modulus", verification::text(15 * factor)},
+  return {{"Material/Young's modulus", in_digits(15 * factor)},
           {"Boundary left/Traction",
-           verification::text(1.5 * factor) + "*(5 - y); " + verification::text(-0.75 * factor)},
-          {"Boundary bottom/Friction bound", verification::text(4.5 * factor)},
+           in_digits(1.5 * factor) + "*(5 - y); " + in_digits(-0.75 * factor)},
+          {"Boundary bottom/Friction bound", in_digits(4.5 * factor)},
           {"Adaptivity/Maximum steps", "8"}};
 }
 

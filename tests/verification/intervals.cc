@@ -216,7 +216,7 @@ TEST(Intervals, CountWhatRoundOffLeavesOfRigidMotions)
                            {"Geometry/Corners", "0, 0; 1.4, 0; 1.17, 0.032; 0.049, 0.028"},
                            {"Geometry/Subdivisions", "3, 1"},
                            {"Material/Young's modulus", "19"},
-                           {"Body force/Expression", "0.12; " + text(fy)},
+                           {"Body force/Expression", "0.12; " + in_digits(fy)},
                            {"Boundary bottom/Contact", "tangential"},
                            {"Boundary bottom/Friction bound", "0.15"},
                            {"Boundary right/Displacement", "0; 0"},

@@ -106,17 +106,17 @@ Jenkins jenkins(const Path &path, const unsigned int steps, const unsigned int l
 Scene<2> block(const Path &path, const std::string &contact, const unsigned int steps,
                const double t)
 {
-  const std::string p = text(path.pressure(t)),
-                    tau = text(jenkins(path, steps, std::lround(t * steps)).tau);
-  return scene_of({{"Geometry/Upper corner", text(width) + ", 1"},
+  const std::string p = in_digits(path.pressure(t)),
+                    tau = in_digits(jenkins(path, steps, std::lround(t * steps)).tau);
+  return scene_of({{"Geometry/Upper corner", in_digits(width) + ", 1"},
                    {"Geometry/Subdivisions", "2, 1"},
-                   {"Material/Young's modulus", text(young)},
+                   {"Material/Young's modulus", in_digits(young)},
                    {"Material/Poisson's ratio", "0"},
                    {"Boundary bottom/Contact", contact},
                    path.coefficient > 0 ? std::make_pair("Boundary bottom/Friction coefficient",
-                                                         text(path.coefficient))
+                                                         in_digits(path.coefficient))
                                         : std::make_pair("Boundary bottom/Friction bound", p),
-                   {"Boundary top/Displacement", text(path.displacement(t)) + "; free"},
+                   {"Boundary top/Displacement", in_digits(path.displacement(t)) + "; free"},
                    {"Boundary top/Traction", "0; -" + p},
                    {"Boundary right/Traction", "0; " + tau},
                    {"Boundary left/Traction", "0; -(" + tau + ")"},
@@ -294,12 +294,12 @@ Scene<2> bar(const unsigned int steps, const std::string &displacement, const Ov
 /** At n load steps of each straight piece from one corner to the next, all of the same duration. */
 std::string zigzag(const std::vector<double> &corners)
 {
-  std::string result = text(corners.back()), s = text(corners.size()) + "*t";
+  std::string result = in_digits(corners.back()), s = in_digits(corners.size()) + "*t";
   for (unsigned int k = corners.size(); k-- > 0;)
   {
     const double from = k == 0 ? 0. : corners[k - 1];
-    result = "if(" + s + " <= " + text(k + 1 + 1e-9) + ", " + text(from) + " + (" + s + " - " +
-             text(k) + ")*" + text(corners[k] - from) + ", " + result + ")";
+    result = "if(" + s + " <= " + in_digits(k + 1 + 1e-9) + ", " + in_digits(from) + " + (" + s +
+             " - " + in_digits(k) + ")*" + in_digits(corners[k] - from) + ", " + result + ")";
   }
   return result;
 }
@@ -881,33 +881,28 @@ TEST_P(Balance, HoldsInEachLoadStep)
 const Overrides shears = {
     {"Boundary top/Displacement", "0.1*sin(6*t); -0.01*t + 0.003*x*t*sin(9*t)"}};
 
-Overrides with(const Overrides &more)
-{
-  Overrides result = shears;
-  result.insert(result.end(), more.begin(), more.end());
-  return result;
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Contacts, Balance,
     ::testing::Values(
-        History{"bilateral", with({{"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.02*(1 + t)*(1 + x)"}})},
-        History{"tangential", with({{"Boundary bottom/Contact", "tangential"},
-                                    {"Boundary bottom/Friction bound", "0.1"},
-                                    {"Body force/Expression", "0; -0.1*t"}})},
-        History{"nodes", with({{"Boundary bottom/Contact", "unilateral"},
-                               {"Boundary bottom/Friction bound", "0.05*(2 - t)"},
-                               {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
-        History{"multiplier", with({{"Boundary bottom/Contact", "unilateral"},
-                                    {"Boundary bottom/Friction bound", "0.05"},
-                                    {"Boundary bottom/Gap", "0.002*x - 0.01*t^2"},
-                                    {"Solver/Normal contact", "multiplier"}})},
-        History{"coulomb", with({{"Boundary bottom/Contact", "unilateral"},
-                                 {"Boundary bottom/Friction coefficient", "0.3"},
-                                 {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
-        History{"coulomb_bilateral", with({{"Boundary bottom/Contact", "bilateral"},
-                                           {"Boundary bottom/Friction coefficient", "0.3"}})},
+        History{"bilateral",
+                with(shears, {{"Boundary bottom/Contact", "bilateral"},
+                              {"Boundary bottom/Friction bound", "0.02*(1 + t)*(1 + x)"}})},
+        History{"tangential", with(shears, {{"Boundary bottom/Contact", "tangential"},
+                                            {"Boundary bottom/Friction bound", "0.1"},
+                                            {"Body force/Expression", "0; -0.1*t"}})},
+        History{"nodes", with(shears, {{"Boundary bottom/Contact", "unilateral"},
+                                       {"Boundary bottom/Friction bound", "0.05*(2 - t)"},
+                                       {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
+        History{"multiplier", with(shears, {{"Boundary bottom/Contact", "unilateral"},
+                                            {"Boundary bottom/Friction bound", "0.05"},
+                                            {"Boundary bottom/Gap", "0.002*x - 0.01*t^2"},
+                                            {"Solver/Normal contact", "multiplier"}})},
+        History{"coulomb", with(shears, {{"Boundary bottom/Contact", "unilateral"},
+                                         {"Boundary bottom/Friction coefficient", "0.3"},
+                                         {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
+        History{"coulomb_bilateral",
+                with(shears, {{"Boundary bottom/Contact", "bilateral"},
+                              {"Boundary bottom/Friction coefficient", "0.3"}})},
         History{"loads",
                 {{"Boundary bottom/Contact", "bilateral"},
                  {"Boundary bottom/Friction bound", "0.1"},

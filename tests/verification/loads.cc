@@ -596,18 +596,12 @@ struct NarrowDatum
   std::string fine; ///< Geometry/Subdivisions with lines at the ends of the strip
 };
 
-Overrides operator+(Overrides one, const Overrides &other)
-{
-  one.insert(one.end(), other.begin(), other.end());
-  return one;
-}
-
 /** "if(|x - c| < w, value, 0)", c the middle of cell @p k of @p n. */
 std::string strip(const std::string &x, const unsigned int k, const unsigned int n,
                   const std::string &value)
 {
-  return "if(abs(" + x + " - " + verification::text((k + 0.5) / n) + ") < " +
-         verification::text(0.5 / n) + ", " + value + ", 0)";
+  return "if(abs(" + x + " - " + in_digits((k + 0.5) / n) + ") < " + in_digits(0.5 / n) + ", " +
+         value + ", 0)";
 }
 
 /** A square whose left side is held, pulled to the right a little. */

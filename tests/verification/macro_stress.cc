@@ -161,7 +161,7 @@ void for_each_cell(const std::function<void(const Cell &)> &check)
   for (const Vertices &shape : shapes)
     for (unsigned int k = 3; k <= 8; ++k)
     {
-      SCOPED_TRACE("degree " + std::to_string(k) + ", corner " + text(shape[3][0]));
+      SCOPED_TRACE("degree " + std::to_string(k) + ", corner " + in_digits(shape[3][0]));
       check(Cell(shape, k));
     }
 }

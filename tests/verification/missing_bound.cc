@@ -15,20 +15,6 @@ namespace
 {
 using namespace verification;
 
-Overrides with(Overrides entries, const Overrides &more)
-{
-  for (const auto &entry : more)
-  {
-    const auto same = std::find_if(entries.begin(), entries.end(),
-                                   [&](const auto &known) { return known.first == entry.first; });
-    if (same == entries.end())
-      entries.push_back(entry);
-    else
-      same->second = entry.second;
-  }
-  return entries;
-}
-
 Overrides body(const std::string &corners, const std::string &subdivisions)
 {
   return {{"Geometry/Shape", "quadrilateral"},     {"Geometry/Corners", corners},

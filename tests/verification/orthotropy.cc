@@ -15,22 +15,16 @@ namespace
 {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-Overrides operator+(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 /** E2 = 1 and E1 = @p ratio; nu12 and nu21 are at most 0.3. */
 Overrides fibres(const double ratio, const double angle, const std::string &plane = "strain")
 {
-  const std::string nu = text(0.3 * std::min(1., ratio));
+  const std::string nu = in_digits(0.3 * std::min(1., ratio));
   return {{"Material/Elasticity", "orthotropic"},
           {"Material/Plane", plane},
-          {"Material/Young's moduli", text(ratio) + ", 1, 1"},
+          {"Material/Young's moduli", in_digits(ratio) + ", 1, 1"},
           {"Material/Poisson's ratios", nu + ", " + nu + ", 0.4"},
           {"Material/Shear moduli", "0.5, 1, 1"},
-          {"Material/Angle", text(angle)}};
+          {"Material/Angle", in_digits(angle)}};
 }
 
 /** A displacement with its gradient. */
@@ -129,7 +123,7 @@ TEST(Orthotropy, UniformStressHasTheStrainInClosedForm)
     for (const Overrides &geometry : {block, distorted})
       for (const double angle : {0., 35., -110.})
       {
-        SCOPED_TRACE(plane + " " + text(angle));
+        SCOPED_TRACE(plane + " " + in_digits(angle));
         Scene<2> scene = scene_of(fibres(20, angle, plane) + geometry +
                                   Overrides{{"Adaptivity/Method", "hup2"},
                                             {"Adaptivity/Maximum steps", "2"},
@@ -273,12 +267,13 @@ TEST(Orthotropy, EqualModuliGiveTheIsotropicSolution)
         outcomes(scene_of(contact + Overrides{{"Material/Plane", plane},
                                               {"Material/Young's modulus", "7"},
                                               {"Material/Poisson's ratio", "0.3"}}));
-    Scene<2> scene = scene_of(contact + Overrides{{"Material/Plane", plane},
-                                                  {"Material/Elasticity", "orthotropic"},
-                                                  {"Material/Young's moduli", "7, 7, 7"},
-                                                  {"Material/Poisson's ratios", "0.3, 0.3, 0.3"},
-                                                  {"Material/Shear moduli", text(E / 2 / (1 + nu))},
-                                                  {"Material/Angle", "25"}});
+    Scene<2> scene =
+        scene_of(contact + Overrides{{"Material/Plane", plane},
+                                     {"Material/Elasticity", "orthotropic"},
+                                     {"Material/Young's moduli", "7, 7, 7"},
+                                     {"Material/Poisson's ratios", "0.3, 0.3, 0.3"},
+                                     {"Material/Shear moduli", in_digits(E / 2 / (1 + nu))},
+                                     {"Material/Angle", "25"}});
     scene.materials[0].young = scene.materials[0].poisson = no_number; // which nobody may ask for
     const std::vector<Outcome> same = outcomes(scene);
     ASSERT_EQ(same.size(), isotropic.size());
@@ -309,8 +304,8 @@ TEST(Orthotropy, TurnedScenesHaveTheSameEnergyAndBound)
     const double c = std::cos(degrees * numbers::PI / 180),
                  s = std::sin(degrees * numbers::PI / 180);
     const auto at = [&](const double x, const double y)
-    { return text(c * x - s * y) + ", " + text(s * x + c * y); };
-    const std::string along = "(" + text(c) + "*x + " + text(s) + "*y)";
+    { return in_digits(c * x - s * y) + ", " + in_digits(s * x + c * y); };
+    const std::string along = "(" + in_digits(c) + "*x + " + in_digits(s) + "*y)";
     Scene<2> result = scene_of(fibres(50, 20 + degrees) +
                                Overrides{{"Geometry/Shape", "quadrilateral"},
                                          {"Geometry/Corners", at(0, 0) + "; " + at(2, 0) + "; " +

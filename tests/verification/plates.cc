@@ -111,10 +111,10 @@ TEST(Plates, OfUnequalPiecesActAtTheirMeanPoint)
     EXPECT_NEAR(free.force[0], 3, 1e-10);
     EXPECT_NEAR(free.force[1], -1, 1e-10);
     EXPECT_NEAR(free.state.moment, 2, 1e-10);
-    const Plated held =
-        solve(with({{"Boundary jaw/Displacement", text(free.q[0]) + "; " + text(free.q[1])},
-                    {"Boundary jaw/Rotation", text(free.q[2])}}),
-              mesh, "jaw");
+    const Plated held = solve(
+        with({{"Boundary jaw/Displacement", in_digits(free.q[0]) + "; " + in_digits(free.q[1])},
+              {"Boundary jaw/Rotation", in_digits(free.q[2])}}),
+        mesh, "jaw");
     EXPECT_NEAR(held.force[0], 3, 1e-9);
     EXPECT_NEAR(held.state.moment, 2, 1e-9);
   }
@@ -131,7 +131,8 @@ TEST(Plates, ForcesAndMotionsAreTheSame)
   for (unsigned int held = 1; held < 8; ++held)
   {
     const auto is_held = [&](const unsigned int m) { return (held >> m & 1) != 0; };
-    const auto motion = [&](const unsigned int m) { return is_held(m) ? text(free.q[m]) : "free"; };
+    const auto motion = [&](const unsigned int m)
+    { return is_held(m) ? in_digits(free.q[m]) : "free"; };
     const auto force = [&](const unsigned int m) { return is_held(m) ? "free" : forces[m]; };
     const Plated same =
         solve(scene_of(skew({{"Boundary right/Displacement", motion(0) + "; " + motion(1)},
@@ -166,11 +167,12 @@ TEST(Plates, AreTheLimitOfStiffLayers)
         .run([&](const StepReport<2> &step) { J = step.energies.energy; });
     return J;
   };
-  const double rigid = energy({{"Geometry/Upper corner", "1, 0.75"},
-                               {"Geometry/Subdivisions", "4, 3"},
-                               {"Boundary top/Rigid", "true"},
-                               {"Boundary top/Force", "0.5; -1"},
-                               {"Boundary top/Moment", text(-0.5 / 4)}}), // the lever of the layer
+  const double rigid =
+                   energy({{"Geometry/Upper corner", "1, 0.75"},
+                           {"Geometry/Subdivisions", "4, 3"},
+                           {"Boundary top/Rigid", "true"},
+                           {"Boundary top/Force", "0.5; -1"},
+                           {"Boundary top/Moment", in_digits(-0.5 / 4)}}), // the lever of the layer
       stiff = energy({{"Material top/Young's modulus", "1e7"},
                       {"Material top/Where", "y - 0.75"},
                       {"Boundary top/Traction", "0.5; -1"}});
@@ -188,7 +190,7 @@ TEST(Plates, PushABlockUntilItSlips)
                                 {"Boundary bottom/Contact", "unilateral"},
                                 {"Boundary bottom/Friction coefficient", "0.3"},
                                 {"Boundary top/Rigid", "true"},
-                                {"Boundary top/Force", text(horizontal) + "; -10"},
+                                {"Boundary top/Force", in_digits(horizontal) + "; -10"},
                                 {"Adaptivity/Method", "hpa3"},
                                 {"Adaptivity/Maximum steps", "3"}}))
         .run(
@@ -215,10 +217,13 @@ Told told(const double angle, const double mirror, const double length)
   const Tensor<2, 2> Q({{c, -s * mirror}, {s, c * mirror}});
   const auto at = [&](const double x, const double y) { return length * (Q * Point<2>(x, y)); };
   const auto pair = [](const Tensor<1, 2> &v, const std::string &between)
-  { return text(v[0]) + between + text(v[1]); };
+  { return in_digits(v[0]) + between + in_digits(v[1]); };
   // coordinates of the body, as expressions of those of the frame
   const auto along = [&](const unsigned int d)
-  { return "((" + text(Q[0][d]) + "*x + " + text(Q[1][d]) + "*y)/" + text(length) + ")"; };
+  {
+    return "((" + in_digits(Q[0][d]) + "*x + " + in_digits(Q[1][d]) + "*y)/" + in_digits(length) +
+           ")";
+  };
   const Tensor<2, 2> strain = Q * Tensor<2, 2>({{0.01, 0.004}, {0.004, -0.006}}) * transpose(Q);
   std::vector<std::string> corners, sides{"bottom", "right", "top", "left"};
   for (const auto &[x, y] : {std::pair{0., 0.}, {3., 0.3}, {3.4, 2.2}, {0.4, 1.9}})
@@ -231,28 +236,30 @@ Told told(const double angle, const double mirror, const double length)
   }
   Told result;
   AdaptiveSolver<2>(
-      scene_of({{"Geometry/Shape", "quadrilateral"},
-                {"Geometry/Corners",
-                 corners[0] + "; " + corners[1] + "; " + corners[2] + "; " + corners[3]},
-                {"Geometry/Subdivisions", "3, 2"},
-                {"Material/Elasticity", "orthotropic"},
-                {"Material/Young's moduli", "10, 4, 5"},
-                {"Material/Poisson's ratios", "0.3, 0.2, 0.25"},
-                {"Material/Shear moduli", "3"},
-                {"Material/Angle", text(mirror * 25 + angle * 180 / numbers::PI)},
-                {"Material/Initial strain",
-                 text(strain[0][0]) + "; " + text(strain[1][1]) + "; " + text(strain[0][1])},
-                {"Material/Thermal expansion", "0.01"},
-                {"Temperature/Expression", along(0) + " + " + along(1) + "^2"},
-                {"Boundary " + sides[0] + "/Contact", "unilateral"},
-                {"Boundary " + sides[0] + "/Friction bound", "0.05"},
-                {"Boundary " + sides[3] + "/Spring", text(5 / length) + "; " + text(3 / length)},
-                {"Boundary " + sides[1] + "/Pressure", "0.1*" + along(1)},
-                {"Boundary " + sides[2] + "/Rigid", "true"},
-                {"Boundary " + sides[2] + "/Force", pair(length * (Q * Point<2>(0.2, -0.9)), "; ")},
-                {"Boundary " + sides[2] + "/Moment", text(mirror * length * length * 0.1)},
-                {"Adaptivity/Method", "hpa3"},
-                {"Adaptivity/Maximum steps", "3"}}))
+      scene_of(
+          {{"Geometry/Shape", "quadrilateral"},
+           {"Geometry/Corners",
+            corners[0] + "; " + corners[1] + "; " + corners[2] + "; " + corners[3]},
+           {"Geometry/Subdivisions", "3, 2"},
+           {"Material/Elasticity", "orthotropic"},
+           {"Material/Young's moduli", "10, 4, 5"},
+           {"Material/Poisson's ratios", "0.3, 0.2, 0.25"},
+           {"Material/Shear moduli", "3"},
+           {"Material/Angle", in_digits(mirror * 25 + angle * 180 / numbers::PI)},
+           {"Material/Initial strain", in_digits(strain[0][0]) + "; " + in_digits(strain[1][1]) +
+                                           "; " + in_digits(strain[0][1])},
+           {"Material/Thermal expansion", "0.01"},
+           {"Temperature/Expression", along(0) + " + " + along(1) + "^2"},
+           {"Boundary " + sides[0] + "/Contact", "unilateral"},
+           {"Boundary " + sides[0] + "/Friction bound", "0.05"},
+           {"Boundary " + sides[3] + "/Spring",
+            in_digits(5 / length) + "; " + in_digits(3 / length)},
+           {"Boundary " + sides[1] + "/Pressure", "0.1*" + along(1)},
+           {"Boundary " + sides[2] + "/Rigid", "true"},
+           {"Boundary " + sides[2] + "/Force", pair(length * (Q * Point<2>(0.2, -0.9)), "; ")},
+           {"Boundary " + sides[2] + "/Moment", in_digits(mirror * length * length * 0.1)},
+           {"Adaptivity/Method", "hpa3"},
+           {"Adaptivity/Maximum steps", "3"}}))
       .run(
           [&](const StepReport<2> &step)
           {
@@ -289,8 +296,8 @@ TEST(Weight, BendsACantileverAsTimoshenkoSays)
   for (const double length : {8., 16.})
   {
     double J = 0;
-    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", text(length) + ", 1"},
-                                {"Geometry/Subdivisions", text(length) + ", 1"},
+    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", in_digits(length) + ", 1"},
+                                {"Geometry/Subdivisions", in_digits(length) + ", 1"},
                                 {"Material/Young's modulus", "1000"},
                                 {"Material/Poisson's ratio", "0.25"},
                                 {"Material/Plane", "stress"},

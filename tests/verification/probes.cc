@@ -56,18 +56,11 @@ Triangulation<2> &mesh_of(const Overrides &entries, Triangulation<2> &mesh)
 
 const Overrides held{{"Boundary left/Displacement", "0; 0"}};
 
-Overrides joined(Overrides one, const Overrides &two)
-{
-  one.insert(one.end(), two.begin(), two.end());
-  return one;
-}
-
 /** Circles through vertices, along edges that they touch, around cells and inside of one. */
 TEST(Discs, AreCutByCellsExactly)
 {
   Triangulation<2> grid;
-  mesh_of(joined(held, {{"Geometry/Upper corner", "4, 4"}, {"Geometry/Subdivisions", "4, 4"}}),
-          grid);
+  mesh_of(with(held, {{"Geometry/Upper corner", "4, 4"}, {"Geometry/Subdivisions", "4, 4"}}), grid);
   for (const auto &[c, R] : std::vector<std::pair<Point<2>, double>>{{{2, 2}, 1},
                                                                      {{2, 2}, std::sqrt(2.)},
                                                                      {{1.5, 1.5}, 0.5},
@@ -85,13 +78,13 @@ TEST(Discs, AreCutByCellsExactly)
 TEST(Discs, AreCutBySkewAndCurvedCells)
 {
   Triangulation<2> skew, distorted, ring;
-  mesh_of(joined(held, {{"Geometry/Shape", "quadrilateral"},
-                        {"Geometry/Corners", "0, 0; 4, 1; 5, 5; 1, 4"},
-                        {"Geometry/Subdivisions", "3, 4"}}),
+  mesh_of(with(held, {{"Geometry/Shape", "quadrilateral"},
+                      {"Geometry/Corners", "0, 0; 4, 1; 5, 5; 1, 4"},
+                      {"Geometry/Subdivisions", "3, 4"}}),
           skew);
-  mesh_of(joined(held, {{"Geometry/Shape", "quadrilateral"},
-                        {"Geometry/Corners", "0, 0; 4, 1; 5, 6; -1, 4"},
-                        {"Geometry/Subdivisions", "3, 4"}}),
+  mesh_of(with(held, {{"Geometry/Shape", "quadrilateral"},
+                      {"Geometry/Corners", "0, 0; 4, 1; 5, 6; -1, 4"},
+                      {"Geometry/Subdivisions", "3, 4"}}),
           distorted);
   expect_exact(skew, {2.5, 2.5}, 1.3, 1e-13);
   expect_exact(distorted, {2.2, 2.9}, 1.4, 1e-12);
@@ -175,7 +168,7 @@ void expect_probes(const std::string &name, const unsigned int steps, const std:
   const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", std::to_string(steps)},
                                               {"Probe spot/At", point},
                                               {"Probe core/At", disc},
-                                              {"Probe core/Size", verification::text(R)},
+                                              {"Probe core/Size", in_digits(R)},
                                               {"Probe cut/From", point},
                                               {"Probe cut/To", disc},
                                               {"Probe cut/Points", "7"}});
@@ -252,19 +245,19 @@ TEST(Probes, AreCutWhereTemperaturesJump)
   {
     const unsigned int d = row % 2;
     const double at = in(0.25, 0.75), R = in(0.1, 0.2), level = at + in(-0.9, 0.9) * R;
-    const std::string axis = d == 0 ? "x" : "y", place = verification::text(at),
-                      jump = "if(" + axis + " > " + verification::text(level) + ", 30, 10)";
+    const std::string axis = d == 0 ? "x" : "y", place = in_digits(at),
+                      jump = "if(" + axis + " > " + in_digits(level) + ", 30, 10)";
     const Overrides datum =
         row % 3 == 0
             ? Overrides{{"Material/Initial strain", "0; 1e-5*" + jump + "; 0"}}
             : Overrides{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", jump}};
-    const Scene<2> scene = scene_of(
-        joined(joined(held, datum), {{"Geometry/Upper corner", "1, 1"},
-                                     {"Geometry/Subdivisions", row % 4 < 2 ? "2, 3" : "3, 1"},
-                                     {"Adaptivity/Maximum steps", "1"},
-                                     {"Probe disc/At", place + ", " + place},
-                                     {"Probe disc/Size", verification::text(R)},
-                                     {"Probe side/On", d == 0 ? "top" : "right"}}));
+    const Scene<2> scene =
+        scene_of(with(with(held, datum), {{"Geometry/Upper corner", "1, 1"},
+                                          {"Geometry/Subdivisions", row % 4 < 2 ? "2, 3" : "3, 1"},
+                                          {"Adaptivity/Maximum steps", "1"},
+                                          {"Probe disc/At", place + ", " + place},
+                                          {"Probe disc/Size", in_digits(R)},
+                                          {"Probe side/On", d == 0 ? "top" : "right"}}));
     const double c = (level - at) / R; // a segment of the circle is beyond
     const std::array<double, 2> wanted{{(std::acos(c) - c * std::sqrt(1 - c * c)) / pi, 1 - level}};
     AdaptiveSolver<2>(scene).run(

@@ -16,7 +16,7 @@ struct Outcome
   QpReport last;
 };
 
-Outcome run(const std::string &scene, const Overrides &overrides)
+Outcome outcome_of(const std::string &scene, const Overrides &overrides)
 {
   Outcome result;
   const Scene<2> shipped = shipped_scene(scene, overrides);
@@ -41,10 +41,10 @@ TEST_P(QpSolvers, Agree)
 {
   const auto with = [&](const std::string &solver, const std::string &warm)
   {
-    return run(GetParam(), {{"Solver/QP solver", solver},
-                            {"Solver/QP warm start", warm},
-                            {"Adaptivity/Method", "hpa2"},
-                            {"Adaptivity/Maximum steps", "10"}});
+    return outcome_of(GetParam(), {{"Solver/QP solver", solver},
+                                   {"Solver/QP warm start", warm},
+                                   {"Adaptivity/Method", "hpa2"},
+                                   {"Adaptivity/Maximum steps", "10"}});
   };
   const Outcome reference = with("mprgp", "false");
   for (const Outcome &other :
@@ -69,7 +69,7 @@ TEST(ActiveSetOnScenes, WarmStartsNeedFewSolves)
   for (const std::string scene : {"han-6-12", "han-6-13", "stick-slip"})
   {
     const Outcome result =
-        run(scene, {{"Solver/QP solver", "active set"}, {"Adaptivity/Maximum steps", "12"}});
+        outcome_of(scene, {{"Solver/QP solver", "active set"}, {"Adaptivity/Maximum steps", "12"}});
     EXPECT_EQ(result.steps_that_fell_back, 0u) << scene;
     EXPECT_LE(result.last.dense_solves, 3u) << scene;
   }

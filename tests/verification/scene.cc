@@ -111,7 +111,7 @@ TEST(SceneByCode, HasTheDefaultsOfAFile)
   const auto collect = [](std::vector<std::string> &list)
   {
     return [&list](const char *section, const char *name, const auto &value)
-    { list.push_back(std::string(section) + "/" + name + " = " + verification::text(value)); };
+    { list.push_back(std::string(section) + "/" + name + " = " + in_digits(value)); };
   };
   for_each_value(code, collect(ours));
   for_each_value(file, collect(theirs));

@@ -42,9 +42,9 @@ Scene<2> sheared_block(const double tau, const Overrides &more = {})
                        {"Geometry/Subdivisions", "4, 2"},
                        {"Material/Young's modulus", "1"},
                        {"Material/Poisson's ratio", "0.25"},
-                       {"Boundary left/Traction", "0; " + text(-tau)},
-                       {"Boundary right/Traction", "0; " + text(tau)},
-                       {"Boundary top/Traction", text(tau) + "; 0"},
+                       {"Boundary left/Traction", "0; " + in_digits(-tau)},
+                       {"Boundary right/Traction", "0; " + in_digits(tau)},
+                       {"Boundary top/Traction", in_digits(tau) + "; 0"},
                        {"Boundary bottom/Contact", "bilateral"},
                        {"Boundary bottom/Friction bound", "0.3"},
                        {"Adaptivity/Method", "hpa2"},
@@ -135,7 +135,7 @@ TEST_P(UnclampedBar, FrictionBalancesTheLoads)
 {
   const double t = GetParam() * 1.75;
   const LastStep last =
-      run(shipped_scene("semicoercive", {{"Boundary top/Traction", text(t) + "; 0"}}));
+      run(shipped_scene("semicoercive", {{"Boundary top/Traction", in_digits(t) + "; 0"}}));
   EXPECT_NEAR(last.resultant, -10 * t, 1e-8);
   for (const double z : last.lambda)
     EXPECT_LE(std::abs(z), 1.75);
@@ -150,12 +150,12 @@ TEST(Semicoercive, DoesNotDependOnTheAxes)
 {
   const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
   const auto turned = [&](const double x, const double y)
-  { return text(c * x - s * y) + ", " + text(s * x + c * y); };
+  { return in_digits(c * x - s * y) + ", " + in_digits(s * x + c * y); };
   const std::string corners =
       turned(0, 0) + "; " + turned(2, 0) + "; " + turned(2, 1) + "; " + turned(0, 1);
   const double tau = 0.2, mu = 0.4;
   const auto force = [&](const double x, const double y)
-  { return text(c * x - s * y) + "; " + text(s * x + c * y); };
+  { return in_digits(c * x - s * y) + "; " + in_digits(s * x + c * y); };
   const LastStep last = run(sheared_block(tau, {{"Geometry/Shape", "quadrilateral"},
                                                 {"Geometry/Corners", corners},
                                                 {"Boundary left/Traction", force(0, -tau)},

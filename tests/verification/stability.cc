@@ -21,7 +21,7 @@ struct Row
   std::vector<double> u, lambda;
 };
 
-std::vector<Row> run(const std::string &scene, const Overrides &overrides)
+std::vector<Row> rows_of(const std::string &scene, const Overrides &overrides)
 {
   std::vector<Row> rows;
   const Scene<2> shipped = shipped_scene(scene, overrides);
@@ -43,20 +43,15 @@ std::vector<Row> run(const std::string &scene, const Overrides &overrides)
   return rows;
 }
 
-Overrides operator+(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 // ---------------------------------------------------------------- 1 locking
 
 /** Relative error in plane strain. */
 double error_near_incompressibility(const std::string &poisson, const Overrides &overrides)
 {
-  const Row row = run("stick-slip", overrides + Overrides{{"Material/Plane", "strain"},
-                                                          {"Material/Poisson's ratio", poisson}})
-                      .back();
+  const Row row =
+      rows_of("stick-slip", overrides + Overrides{{"Material/Plane", "strain"},
+                                                  {"Material/Poisson's ratio", poisson}})
+          .back();
   return row.error / row.energies.norm;
 }
 
@@ -92,11 +87,11 @@ class UniformP : public ::testing::TestWithParam<const char *>
 
 TEST_P(UniformP, IsCleanToDegreeFourteen)
 {
-  const auto rows = run(GetParam(), {{"Adaptivity/Method", "pu"},
-                                     {"Adaptivity/Start degree", "2"},
-                                     {"Adaptivity/Maximum degree", "14"},
-                                     {"Adaptivity/Maximum steps", "13"},
-                                     {"Solver/Condition number", "true"}});
+  const auto rows = rows_of(GetParam(), {{"Adaptivity/Method", "pu"},
+                                         {"Adaptivity/Start degree", "2"},
+                                         {"Adaptivity/Maximum degree", "14"},
+                                         {"Adaptivity/Maximum steps", "13"},
+                                         {"Solver/Condition number", "true"}});
   ASSERT_EQ(rows.size(), 13U);
   for (unsigned int k = 0; k < rows.size(); ++k)
   {
@@ -114,10 +109,10 @@ INSTANTIATE_TEST_SUITE_P(, UniformP, ::testing::Values("han-6-12", "han-6-13"));
 
 TEST(Effectivity, GrowsNoFasterThanTheDegree)
 {
-  const auto rows = run("stick-slip", {{"Adaptivity/Method", "pu"},
-                                       {"Adaptivity/Start degree", "2"},
-                                       {"Adaptivity/Maximum degree", "12"},
-                                       {"Adaptivity/Maximum steps", "11"}});
+  const auto rows = rows_of("stick-slip", {{"Adaptivity/Method", "pu"},
+                                           {"Adaptivity/Start degree", "2"},
+                                           {"Adaptivity/Maximum degree", "12"},
+                                           {"Adaptivity/Maximum steps", "11"}});
   const double first = rows.front().scaled_estimate / rows.front().error;
   for (const Row &row : rows)
     EXPECT_LE(row.scaled_estimate / row.error, first * row.p / 2.) << row.p;
@@ -129,7 +124,7 @@ TEST(FrictionBound, SmallAndLargeOnesTendToRollerAndFullStick)
 {
   const auto lagrangian = [](const Overrides &overrides)
   {
-    return run("han-6-12", overrides + Overrides{{"Adaptivity/Maximum steps", "12"}})
+    return rows_of("han-6-12", overrides + Overrides{{"Adaptivity/Maximum steps", "12"}})
         .back()
         .energies.lagrangian;
   };
@@ -154,9 +149,9 @@ TEST(TransitionInsideAnEdge, ErrorFallsInEveryStep)
   for (const std::string method : {"hpa2", "hpa3"})
     for (const std::string transition : {"0.1", "0.314159265358979"})
     {
-      const auto rows = run("stick-slip", {{"Adaptivity/Method", method},
-                                           {"Exact solution/Transition", transition},
-                                           {"Adaptivity/Maximum steps", "14"}});
+      const auto rows = rows_of("stick-slip", {{"Adaptivity/Method", method},
+                                               {"Exact solution/Transition", transition},
+                                               {"Adaptivity/Maximum steps", "14"}});
       for (unsigned int k = 1; k < rows.size(); ++k)
         EXPECT_LT(rows[k].error, rows[k - 1].error) << method << ", step " << k + 1;
     }
@@ -169,12 +164,12 @@ TEST(DeepMeshes, SameEnergyAtAnyDepth)
 {
   const auto energy = [](const std::string &levels, const std::string &solver)
   {
-    const Row row = run("han-6-12", {{"Adaptivity/Method", "pu"},
-                                     {"Adaptivity/Start degree", "5"},
-                                     {"Adaptivity/Maximum steps", "1"},
-                                     {"Geometry/Graded towards", "0.99022, 0"},
-                                     {"Geometry/Grading levels", levels},
-                                     {"Solver/QP solver", solver}})
+    const Row row = rows_of("han-6-12", {{"Adaptivity/Method", "pu"},
+                                         {"Adaptivity/Start degree", "5"},
+                                         {"Adaptivity/Maximum steps", "1"},
+                                         {"Geometry/Graded towards", "0.99022, 0"},
+                                         {"Geometry/Grading levels", levels},
+                                         {"Solver/QP solver", solver}})
                         .back();
     EXPECT_LE(row.qp.projected_gradient, 1e-12);
     return row.energies.lagrangian;
@@ -192,11 +187,11 @@ TEST(Conditioning, ScalingAndTheStepBeforeKeepProductsFew)
   const auto most_products = [](const std::string &scaling, const std::string &warm)
   {
     unsigned int most = 0;
-    for (const Row &row : run("han-6-12", {{"Adaptivity/Method", "hpa2"},
-                                           {"Adaptivity/Maximum steps", "16"},
-                                           {"Solver/QP solver", "mprgp"},
-                                           {"Solver/Diagonal scaling", scaling},
-                                           {"Solver/QP warm start", warm}}))
+    for (const Row &row : rows_of("han-6-12", {{"Adaptivity/Method", "hpa2"},
+                                               {"Adaptivity/Maximum steps", "16"},
+                                               {"Solver/QP solver", "mprgp"},
+                                               {"Solver/Diagonal scaling", scaling},
+                                               {"Solver/QP warm start", warm}}))
       most = std::max(most, row.qp.multiplications);
     return most;
   };
@@ -231,10 +226,10 @@ TEST(CoarseMeshes, DoNotChangeTheLimit)
 {
   const auto lagrangian = [](const std::string &subdivisions, const Overrides &shape)
   {
-    return run("han-6-13", shape + Overrides{{"Geometry/Subdivisions", subdivisions},
-                                             {"Adaptivity/Method", "hpa2"},
-                                             {"Adaptivity/Maximum steps", "60"},
-                                             {"Adaptivity/Maximum unknowns", "25000"}})
+    return rows_of("han-6-13", shape + Overrides{{"Geometry/Subdivisions", subdivisions},
+                                                 {"Adaptivity/Method", "hpa2"},
+                                                 {"Adaptivity/Maximum steps", "60"},
+                                                 {"Adaptivity/Maximum unknowns", "25000"}})
         .back()
         .energies.lagrangian;
   };
@@ -252,7 +247,7 @@ TEST(SameRun, GivesTheSameBits)
   const auto with_threads = [](const unsigned int threads)
   {
     MultithreadInfo::set_thread_limit(threads);
-    return run("han-6-13", {{"Adaptivity/Maximum steps", "14"}});
+    return rows_of("han-6-13", {{"Adaptivity/Maximum steps", "14"}});
   };
   const auto first = with_threads(1);
   for (const unsigned int threads : {1U, 2U, 2U})

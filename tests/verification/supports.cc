@@ -27,7 +27,8 @@ double violation(const Laboratory &discrete, const Vector<double> &u)
 Overrides slope()
 {
   return {{"Geometry/Shape", "quadrilateral"},
-          {"Geometry/Corners", "0, 0; 2, " + text(2 * std::tan(numbers::PI / 18)) + "; 2, 2; 0, 2"},
+          {"Geometry/Corners",
+           "0, 0; 2, " + in_digits(2 * std::tan(numbers::PI / 18)) + "; 2, 2; 0, 2"},
           {"Geometry/Subdivisions", "2, 2"},
           {"Boundary bottom/Contact", "bilateral"},
           {"Boundary bottom/Friction bound", "0.01"},
@@ -116,7 +117,7 @@ TEST(Corners, TurnWithTheBody)
     for (const Point<2> &x : {Point<2>(0, 0), Point<2>(2, 0), Point<2>(2, 1), Point<2>(0, 1)})
     {
       const Tensor<1, 2> y = x[0] * e + x[1] * n;
-      corners += (corners.empty() ? "" : "; ") + text(y[0]) + ", " + text(y[1]);
+      corners += (corners.empty() ? "" : "; ") + in_digits(y[0]) + ", " + in_digits(y[1]);
     }
     const Tensor<1, 2> traction = 0.1 * e - 0.3 * n;
     const Scene<2> scene =
@@ -125,7 +126,7 @@ TEST(Corners, TurnWithTheBody)
                   {"Boundary bottom/Contact", "bilateral"},
                   {"Boundary bottom/Friction bound", "0.01"},
                   {"Boundary left/Contact", "bilateral"},
-                  {"Boundary top/Traction", text(traction[0]) + "; " + text(traction[1])},
+                  {"Boundary top/Traction", in_digits(traction[0]) + "; " + in_digits(traction[1])},
                   {"Adaptivity/Method", "hup3"},
                   {"Adaptivity/Maximum steps", "3"}});
     double energy = 0;

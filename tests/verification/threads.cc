@@ -234,7 +234,7 @@ TEST(ThreadsAtTheEnd, RefuseTheSamePoint)
         [&](const dealii::Point<2> &x)
         {
           if (is_refused)
-            throw InputError("not at " + text(x[0]) + ", " + text(x[1]));
+            throw InputError("not at " + in_digits(x[0]) + ", " + in_digits(x[1]));
           return 0.01;
         }));
     const auto about_to = [&](const Progress &progress)

@@ -200,17 +200,6 @@ TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
     Overrides entries, last; ///< last: what a static run has in their place
     bool bounded = false;
   };
-  const auto joined = [](Overrides entries, const Overrides &more)
-  {
-    for (const auto &entry : more)
-    {
-      entries.erase(std::remove_if(entries.begin(), entries.end(),
-                                   [&](const auto &one) { return one.first == entry.first; }),
-                    entries.end());
-      entries.push_back(entry);
-    }
-    return entries;
-  };
   const Overrides rolled = {{"Geometry/Lower corner", "-2, 0"},
                             {"Geometry/Upper corner", "2, 2"},
                             {"Geometry/Subdivisions", "8, 2"},
@@ -219,22 +208,21 @@ TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
   for (const Row &row :
        {Row{"cone", cone, {{"Boundary stem.top/Pressure", "10"}}},
         Row{"cone without friction",
-            joined(cone, {{"Contact cone/Friction coefficient", ""}}),
+            with(cone, {{"Contact cone/Friction coefficient", ""}}),
             {{"Boundary stem.top/Pressure", "10"}}},
         Row{"block", block_on_block, {{"Boundary foot.top/Displacement", "0; -0.01"}}},
         Row{"block, nothing first",
-            joined(block_on_block,
-                   {{"Boundary foot.top/Displacement", "0; -0.02*max(0, t - 0.5)"}}),
+            with(block_on_block, {{"Boundary foot.top/Displacement", "0; -0.02*max(0, t - 0.5)"}}),
             {{"Boundary foot.top/Displacement", "0; -0.01"}}},
         Row{"punch with an edge",
-            joined(rolled, {{"Boundary bottom/Gap", "if(abs(x) < 1, 0, 1)"}}),
+            with(rolled, {{"Boundary bottom/Gap", "if(abs(x) < 1, 0, 1)"}}),
             {{"Boundary top/Displacement", "0; -0.02"}}},
         Row{"roller",
-            joined(rolled, {{"Boundary bottom/Gap", "x^2/20"}}),
+            with(rolled, {{"Boundary bottom/Gap", "x^2/20"}}),
             {{"Boundary top/Displacement", "0; -0.02"}},
             true},
         Row{"block that slips at its corners", // stresses like r^-0.38 there; r^0 without friction
-            joined(rolled, {{"Boundary bottom/Friction coefficient", "0.4"}}),
+            with(rolled, {{"Boundary bottom/Friction coefficient", "0.4"}}),
             {{"Boundary top/Displacement", "0; -0.02"}}},
         Row{"block on a plane", rolled, {{"Boundary top/Displacement", "0; -0.02"}}, true}})
   {
@@ -251,12 +239,12 @@ TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
     };
     std::vector<Place> exact;
     const Overrides limits = {{"Adaptivity/Tolerance", "0"}, {"Adaptivity/Maximum steps", "10"}};
-    AdaptiveSolver<2>(scene_of(joined(joined(row.entries, row.last), limits)))
+    AdaptiveSolver<2>(scene_of(with(with(row.entries, row.last), limits)))
         .run([&](const StepReport<2> &step) { exact = unbounded(step); });
     EXPECT_EQ(exact.empty(), row.bounded) << row.name;
     for (const std::string adapt : {"first step", "every step"})
-      LoadHistory<2>(scene_of(joined(joined(row.entries, limits),
-                                     {{"Loading/Steps", "3"}, {"Loading/Adapt", adapt}})))
+      LoadHistory<2>(scene_of(with(with(row.entries, limits),
+                                   {{"Loading/Steps", "3"}, {"Loading/Adapt", adapt}})))
           .run(
               [&](const StepReport<2> &step)
               {

@@ -9,12 +9,6 @@ namespace
 {
 using namespace verification;
 
-Overrides with(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 /** The unit square of 4 x 4 cells, pressed down and to the right over its bottom. */
 Scene<2> pressed(const Overrides &more)
 {
@@ -30,7 +24,7 @@ Scene<2> pressed(const Overrides &more)
 }
 
 /** All lines, to be shown where a test fails. */
-std::string joined(const std::vector<std::string> &lines)
+std::string in_lines(const std::vector<std::string> &lines)
 {
   std::string result;
   for (const std::string &line : lines)
@@ -90,7 +84,7 @@ TEST_P(AnyCoefficient, IsIntegratedOrWarnedOf)
               {
                 EXPECT_EQ(mentions(texts(step.warnings), "Friction coefficient varies inside"),
                           steps == "1" || given.jumps)
-                    << joined(texts(step.warnings));
+                    << in_lines(texts(step.warnings));
               }
               EXPECT_FALSE(mentions(texts(step.warnings), "Friction bound"));
             });
@@ -140,7 +134,7 @@ TEST(JumpOfTheCoefficient, CountsWhereContactPresses)
     return result;
   };
   const std::vector<std::string> open = warnings_of(pressed(jump));
-  EXPECT_FALSE(mentions(open, "Friction coefficient jumps")) << joined(open);
+  EXPECT_FALSE(mentions(open, "Friction coefficient jumps")) << in_lines(open);
   EXPECT_TRUE(mentions(
       warnings_of(
           pressed(with(jump, {{"Boundary bottom/Friction coefficient", "if(x < 0.1, 0.1, 0.3)"}}))),
@@ -158,10 +152,10 @@ TEST(Overshoot, IsNotDividedByACoefficientThatVanishes)
         pressed({{"Boundary bottom/Friction coefficient", "2*exp(-((x-0.37)/0.005)^2)"},
                  {"Adaptivity/Maximum steps", steps}}))
         .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
-    EXPECT_FALSE(mentions(lines, "|lambda|")) << joined(lines);
+    EXPECT_FALSE(mentions(lines, "|lambda|")) << in_lines(lines);
     // In the first step friction is 1e-80 of the pressure.
     EXPECT_EQ(mentions(lines, "where Friction coefficient times the pressure is "), steps == "2")
-        << joined(lines);
+        << in_lines(lines);
   }
 }
 

@@ -36,12 +36,6 @@ bool warns(const Scene<2> &scene, const std::string &words)
                      [&](const std::string &w) { return w.find(words) != std::string::npos; });
 }
 
-Overrides with(Overrides entries, const Overrides &more)
-{
-  entries.insert(entries.end(), more.begin(), more.end());
-  return entries;
-}
-
 TEST(Warnings, BilateralContactThatPulls)
 {
   // The left edge pushed up tips the block of Example 5.2: half of its contact is pulled. Pressed
