@@ -34,7 +34,7 @@ PASSED_ON = {
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
     "driver/primal_backend:reach_loads", "driver/reduced_backend:discretise", "program/sweep_run:naming_values",
-    "output/vtu_reader:require", "program/tell_of_run:report_of"}
+    "output/vtu_reader:require", "program/main:report_of"}
 # Functions that return what is refused: section and entry.
 RETURNED = {"scene/orthotropy:flaw": ("Material NAME", "Poisson's ratios")}
 # What wrappers add to what they are given: where, and a literal that is there.

@@ -3,16 +3,19 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/backend.h>
+#include <hpvi/output/output.h>
+#include <hpvi/output/report.h>
+#include <hpvi/output/result_directory.h>
+#include <hpvi/output/run_files.h>
+#include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>
-#include <hpvi/program/draw_scene.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/inf_sup_run.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/sweep_run.h>
-#include <hpvi/program/tell_of_run.h>
 #include <hpvi/program/terminal.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
@@ -78,13 +81,26 @@ void measure(const Scene<3> &) // refused when it was read
 {
 }
 
+/** Writes it into @p directory and says where it is. */
+void write(const ResultDirectory &results, const std::string &what, const std::string &directory,
+           const std::string &name, const std::string &content)
+{
+  if (const std::error_code error = results.write(name, content))
+    throw OutputFailure(results.name() + ": " + name + " cannot be written: " + error.message());
+  std::cout << what << " in " << printable(directory, 400) << '/' << name << std::endl;
+}
+
+/** `hpvi --picture`: scene_picture() as scene.svg into @p directory. Throws InputError or OutputFailure. */
 void draw(const Scene<2> &scene, const std::string &directory)
 {
   agree(
       [&]()
       {
-        if (is_first_process())
-          draw_scene(scene, directory);
+        if (!is_first_process())
+          return;
+        const std::string picture = scene_picture(scene); // first: it may be refused
+        write({directory, results::picture, {scene.file}}, "picture", directory, "scene.svg",
+              picture);
       });
 }
 
@@ -93,6 +109,46 @@ void draw(const Scene<3> &scene, const std::string &)
   throw InputError(scene.origin() +
                    ": Dimension = 3: --picture draws bodies in the plane alone; --validate says "
                    "what the scene says, and ParaView shows solution-NN.vtu of a run");
+}
+
+/** Another run may be writing there, and a page of this name may be another's. */
+std::unique_ptr<ResultDirectory> opened(const std::string &directory)
+{
+  try
+  {
+    return std::make_unique<ResultDirectory>(directory, results::report,
+                                             std::vector<std::string>());
+  }
+  catch (const InputError &error)
+  {
+    const std::string what = error.what();
+    throw InputError(what.substr(0, what.rfind("; ")) +
+                     "; wait until that run is over, or move that file away");
+  }
+}
+
+template <int dimension>
+std::string report_of(const std::string &directory)
+{
+  const auto scene = hpvi::read_scene<dimension>(directory + "/scene.prm");
+  try
+  {
+    return report(scene, directory, content_of(directory + "/summary.json"));
+  }
+  catch (const InputError &error)
+  {
+    throw InputError("hpvi: --report " + printable(directory, 400) + ": " + error.what());
+  }
+}
+
+/** `hpvi --report`: report() as report.html into @p directory. Throws InputError or OutputFailure. */
+void tell_of_run(const std::string &directory)
+{
+  const std::unique_ptr<ResultDirectory> results = opened(directory);
+  const std::string page = scene_dimension(directory + "/scene.prm", {}) == 3
+                               ? report_of<3>(directory)
+                               : report_of<2>(directory);
+  write(*results, "report", directory, "report.html", page);
 }
 
 /** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
