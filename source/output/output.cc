@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/output/collection.h>
+#include <hpvi/output/contact_line.h>
+#include <hpvi/output/contact_table.h>
 #include <hpvi/output/finished_run.h>
+#include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
+#include <hpvi/output/probe_table.h>
 #include <hpvi/output/report.h>
 #include <hpvi/output/run_files.h>
-#include <hpvi/output/step_files.h>
 #include <hpvi/output/vtu.h>
-#include <hpvi/output/written_names.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
 #include <hpvi/results/stored_solution.h>
@@ -16,8 +17,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -28,6 +31,92 @@ using namespace dealii;
 
 namespace
 {
+/** Of the files that a run of @p scene writes, as the ResultDirectory wants them. */
+template <int dim>
+std::string names_written(const Scene<dim> &scene, const unsigned int n_processes)
+{
+  const OutputSettings &output = scene.output;
+  return results::always + (scene.has_load_history() ? "|" + results::loading : "") +
+         (output.contact && scene.has_contact() ? "|" + results::contact : "") +
+         (dim == 2 && output.mesh_picture ? "|" + results::mesh : "") +
+         (!output.vtu        ? ""
+          : n_processes == 1 ? "|" + results::vtu
+                             : "|" + results::pieces) +
+         (output.vtu && scene.has_contact() ? "|" + results::contact_line : "") +
+         (output.reference ? "|" + results::reference : "") +
+         (output.report ? "|" + results::report : "") +
+         (std::any_of(scene.probes.begin(), scene.probes.end(),
+                      [](const Probe<dim> &probe) { return probe.kind == ProbeKind::line; })
+              ? "|" + results::probe
+              : "");
+}
+
+/**
+ * Names and contents of the files with the number of a step that one process writes by itself, in the order in which they are written:
+ * what the scene does not switch off. @p scene: that of the run, which knows whether there is a load history.
+ */
+template <int dim>
+std::vector<std::pair<std::string, std::string>>
+step_files(const Scene<dim> &scene, const StepReport<dim> &step, const unsigned int n_processes)
+{
+  const OutputSettings &output = scene.output;
+  std::vector<std::pair<std::string, std::string>> files;
+  const auto add =
+      [&](const std::string &name, const std::string &suffix, const std::string &content)
+  { files.emplace_back(numbered(name, step.number, suffix), content); };
+  for (const ProbeLine<dim> &line : step.probe_lines)
+    files.emplace_back(probe_file(scene, line, step.number), probe_table(line));
+  if (output.contact && scene.has_contact())
+    add("contact", ".csv", contact_table(scene, step.contact));
+  if constexpr (dim == 2)
+    if (output.mesh_picture && n_processes == 1)
+      add("mesh", ".svg", mesh_picture(step));
+  if (output.vtu && scene.has_contact())
+    add("contact", ".vtu", contact_line(scene, step.contact, step.number));
+  if (output.vtu && n_processes == 1)
+    add("solution", ".vtu", vtu(step, {""}).piece);
+  return files;
+}
+
+/** Name a file in `solution.pvd` or `contact.pvd`, by which ParaView opens all of them; @p time is the step, or the time of a history. */
+void add_to_pvd(GrowingText &pvd, const double time, const std::string &file)
+{
+  const std::string head = "<?xml version=\"1.0\"?>\n"
+                           "<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n",
+                    end = "  </Collection>\n</VTKFile>\n";
+  pvd.same = pvd.text.empty() ? 0 : pvd.text.size() - end.size();
+  pvd.text.resize(pvd.same);
+  pvd.text += (pvd.same == 0 ? head : "") + "    <DataSet timestep=\"" + text(time) +
+              "\" part=\"0\" file=\"" + file + "\"/>\n" + end;
+}
+
+/**
+ * Of the files of a step those that ParaView opens, each with the name of its collection: of a solution on several processes the file
+ * that names the pieces.
+ */
+std::vector<std::pair<std::string, std::string>> collected(const std::vector<std::string> &files)
+{
+  static const std::regex pattern("(solution|contact)-[0-9]+\\.p?vtu");
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const std::string &file : files)
+    if (std::smatch match; std::regex_match(file, match, pattern))
+      result.emplace_back(match[1].str() + ".pvd", file);
+  return result;
+}
+
+/** The first @p n_steps steps of what @p pvd has, as if it had no more. */
+GrowingText first_of_pvd(const std::string &pvd, const unsigned int n_steps)
+{
+  static const std::regex entry(
+      "timestep=\"([^\"]+)\" part=\"0\" file=\"([a-z]+-([0-9]{2,9})\\.[a-z]+)\"");
+  GrowingText result;
+  for (std::sregex_iterator found(pvd.begin(), pvd.end(), entry), end; found != end; ++found)
+    if (std::stoul((*found)[3]) <= n_steps)
+      add_to_pvd(result, std::strtod((*found)[1].str().c_str(), nullptr), (*found)[2]);
+  result.same = 0;
+  return result;
+}
+
 /** together(), where what goes wrong is that something cannot be written. */
 void write_together(MPI_Comm communicator, const std::function<void()> &work)
 {
