@@ -46,10 +46,10 @@ ENDINGS = {**{f"driver/{noun}": "; go on with the scene of that run, or begin a 
 SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary NAME", "reader/boundary_reader": "Boundary NAME",
             "reader/plate_reader": "Boundary NAME", "reader/probe_reader": "Probe NAME", "checks/probes": "Probe NAME",
             "reader/pair_sides": "Contact NAME", "reader/bodies_reader": "Contact NAME", "reader/body_reader": "Material NAME",
-            "reader/strain_reader": "Material NAME", "reader/material_reader": "Material NAME", "checks/supports": "Boundary NAME",
+            "reader/material_reader": "Material NAME", "checks/supports": "Boundary NAME",
             "checks/parts": "Boundary NAME", "checks/method": "Boundary NAME", "checks/exact_agreement": "Boundary NAME",
             "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/moment_space": "Boundary NAME",
-            "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Body force", "shapes/shape": "Geometry"}
+            "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Material NAME", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
 SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/free_names"),
             "Expressions": ("input/expressions",), "Mesh files": ("gmsh/", "shapes/mesh_from_file"),
