@@ -17,7 +17,6 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/base/team.h>
 #include <hpvi/plane/load_quadrature.h>
-#include <hpvi/plane/second_derivatives.h>
 #include <hpvi/results/contact_residuals.h>
 #include <hpvi/results/elastic_strain.h>
 #include <hpvi/results/residual_estimator.h>
@@ -36,6 +35,32 @@ using namespace dealii;
 // The parts are kept apart: which one dominates says what is missing.
 namespace
 {
+/**
+ * d_a d_b u_c at a point, by the chain rule `D^2 u = J^-T (D_xi^2 u - grad u . D_xi^2 x) J^-1`: second derivatives on the
+ * reference cell stand in the dim^2 rows behind those of physical_gradient(), @p hessian is that of the map.
+ */
+template <int dim>
+Tensor<3, dim> second_derivatives(const std::vector<double> &derivatives,
+                                  const unsigned int first_row, const unsigned int n_rows,
+                                  const Tensor<2, dim> &gradient, const Tensor<3, dim> &hessian,
+                                  const Tensor<2, dim> &inverse_jacobian)
+{
+  Tensor<3, dim> second;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    Tensor<2, dim> reference;
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+      {
+        reference[a][b] = derivatives[c * n_rows + first_row + dim + a * dim + b];
+        for (unsigned int k = 0; k < dim; ++k)
+          reference[a][b] -= gradient[c][k] * hessian[k][a][b];
+      }
+    second[c] = transpose(inverse_jacobian) * reference * inverse_jacobian;
+  }
+  return second;
+}
+
 template <int dim>
 class Residuals
 {

@@ -6,7 +6,7 @@
 #include <hpvi/base/stage_times.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/plane/iterative_refinement.h>
-#include <hpvi/plane/mesh_marks.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/results/contact_state.h>
 #include <hpvi/results/energies.h>
 #include <hpvi/results/equilibrium.h>

@@ -6,6 +6,7 @@
 #include <hpvi/scene/scene.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -41,6 +42,23 @@ struct Refinement
   Degrees degrees; ///< after raising p; cells that are bisected do not use theirs
 
   bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
+};
+
+/** A Refinement by what it changes: no larger than its marks are, and told without the mesh. */
+struct MeshMarks
+{
+  unsigned int n_cells = 0; ///< of the mesh that is refined
+  /** Cells in the order of their indices with their new degrees, 0 where they are bisected. */
+  std::vector<std::pair<unsigned int, unsigned int>> changed;
+
+  MeshMarks() = default;
+  MeshMarks(const Refinement &refinement, const Degrees &degrees);
+
+  /** Is it one of a mesh with these degrees? */
+  bool fits(const Degrees &degrees) const;
+
+  /** The whole of it, on a mesh that it fits. */
+  Refinement refinement(const Degrees &degrees) const;
 };
 
 /**
