@@ -3,7 +3,7 @@
 #include <hpvi/base/common_table.h>
 #include <hpvi/bound/force_modes.h>
 #include <hpvi/bound/parallelogram_stresses.h>
-#include <hpvi/bound/stable_modes.h>
+#include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,94 @@ using namespace dealii;
 
 namespace
 {
+/** A symmetric matrix by xx, yy, xy. */
+Tensor<2, 2> symmetric(const double xx, const double yy, const double xy)
+{
+  Tensor<2, 2> result;
+  result[0][0] = xx;
+  result[1][1] = yy;
+  result[0][1] = result[1][0] = xy;
+  return result;
+}
+
+/**
+ * Modes of `B^-1 C eps_0 B^-T` in a parallelogram, of degrees below @p n_whole; room for @p n. They are those of the polynomials
+ * through the values at the points of the discrete equations, on each part of their rule, which is what these know; what of it is left out is orthogonal to
+ * the strains of hat functions times rigid motions.
+ */
+InitialModes initial_modes(const Solution<2> &solution,
+                           const DoFHandler<2>::active_cell_iterator &cell, const Tensor<2, 2> &B,
+                           const unsigned int n_whole, const unsigned int n)
+{
+  InitialModes result{Modes<3>(n), 0.};
+  if (!solution.scene.initial_strains[cell->material_id()])
+    return result;
+  const unsigned int degree = solution.displacement_space.degrees()[cell->active_cell_index()];
+  const LoadRule<2> rule = solution.spaces->loads->initial_strain(cell, degree);
+  unsigned int known = n_whole;
+  for (const RulePart<2> &part : rule.parts) // beyond these the polynomials on parts know nothing
+    known = std::min(known, part.n);
+  const CellMap<2> map = map_of<2>(cell);
+  const HookesLaw<2> law(solution.scene.material_of(cell));
+  const Tensor<2, 2> inverse = invert(B);
+  const std::vector<Point<2>> &points = rule.quadrature.get_points();
+  std::vector<Tensor<2, 2>> stresses;
+  FullMatrix<double> L_x(points.size(), known), L_y(L_x);
+  for (unsigned int q = 0; q < points.size(); ++q)
+  {
+    const auto of_x = legendre::values(known, 2 * points[q][0] - 1),
+               of_y = legendre::values(known, 2 * points[q][1] - 1);
+    std::copy(of_x.begin(), of_x.end(), &L_x(q, 0));
+    std::copy(of_y.begin(), of_y.end(), &L_y(q, 0));
+    stresses.emplace_back(law.stress(solution.scene.initial_strain_in(cell, map.point(points[q]))));
+    const Tensor<2, 2> s =
+        4 * rule.quadrature.weight(q) * (inverse * stresses[q] * transpose(inverse));
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < known; ++i)
+        for (unsigned int j = 0; j < known; ++j)
+          result.modes(k, i, j) += s[k == 1][k != 0] * L_x(q, i) * L_y(q, j);
+  }
+  // By quadrature at the points of the discrete equations, which is exact for the polynomials that these know.
+  double missed = 0, whole = 0;
+  for (unsigned int q = 0; q < points.size(); ++q)
+  {
+    std::array<double, 3> seen{};
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < known; ++i)
+        for (unsigned int j = 0; j < known; ++j)
+          seen[k] += result.modes(k, i, j) * L_x(q, i) * L_y(q, j);
+    const Tensor<2, 2> left = stresses[q] - B * symmetric(seen[0], seen[1], seen[2]) * transpose(B);
+    missed += rule.quadrature.weight(q) * law.complementary_product(left, left);
+    whole += rule.quadrature.weight(q) * law.complementary_product(stresses[q], stresses[q]);
+  }
+  if (missed > 1e-26 * whole) // or round-off
+    result.missed = std::sqrt(std::abs(determinant(map.jacobian(Point<2>(0.5, 0.5)))) * missed);
+  return result;
+}
+
+/**
+ * The stress of a displacement of degree @p p whose discrete equations know but the projection of div u (Volume::projected), in the frame B of
+ * a parallelogram, from its stress @p sigma.
+ */
+Modes<3> without_oscillating_pressure(Modes<3> sigma, const unsigned int p, const Tensor<2, 2> &B,
+                                      const Material &material)
+{
+  const HookesLaw<2> law(material);
+  const Tensor<2, 2> to_trace = transpose(B) * B, unit = invert(to_trace);
+  for (unsigned int i = 0; i < sigma.n; ++i)
+    for (unsigned int j = 0; j < sigma.n; ++j)
+      if (i + j >= p)
+      {
+        const double trace = sigma(0, i, j) * to_trace[0][0] + sigma(1, i, j) * to_trace[1][1] +
+                             2 * sigma(2, i, j) * to_trace[0][1];
+        const double pressure = law.volumetric_stress(trace);
+        sigma(0, i, j) -= pressure * unit[0][0];
+        sigma(1, i, j) -= pressure * unit[1][1];
+        sigma(2, i, j) -= pressure * unit[0][1];
+      }
+  return sigma;
+}
+
 /** psi = c + c_x xi + c_y eta + c_xy xi eta from its values at the vertices. */
 std::array<double, 4> bilinear(const std::array<double, 4> &v)
 {

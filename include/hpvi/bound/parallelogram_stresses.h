@@ -2,10 +2,12 @@
 #ifndef hpvi_parallelogram_stresses_h
 #define hpvi_parallelogram_stresses_h
 
-#include <hpvi/bound/initial_modes.h>
+#include <hpvi/bound/legendre.h>
+#include <hpvi/bound/modes.h>
 #include <hpvi/bound/patch_data.h>
 #include <hpvi/bound/patch_problem.h>
 #include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/solution.h>
 
 #include <array>
 #include <functional>
@@ -15,6 +17,14 @@
 
 namespace hpvi
 {
+/** An initial stress C eps_0 in a parallelogram. */
+struct InitialModes
+{
+  Modes<3> modes;
+  double missed =
+      0; ///< norm in complementary energy of what they lack of the polynomial on the cell
+};
+
 /**
  * What MacroStresses has for macro cells, for cells that are all parallelograms: the stresses near sigma(u_N) and near
  * its products with hat functions, which are polynomials here.
