@@ -8,7 +8,6 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/driver/adaptive_solver.h>
-#include <hpvi/driver/conclusion.h>
 #include <hpvi/driver/step_stages.h>
 #include <hpvi/driver/thickness.h>
 #include <hpvi/driver/threads.h>
@@ -127,7 +126,7 @@ void run_steps(StepStages<dim> &stages,
     }
     finished = !step.stopped_by.empty();
     if (finished)
-      conclude(*stages.backend, stages.history, step);
+      stages.conclude(step);
     take_thickness(step);
     finished_step(step);
     if (!finished)

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/input_error.h>
+#include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/primal_backend.h>
 #include <hpvi/plane/cell_ranks.h>
 #include <hpvi/plane/mesh.h>
+#include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/space/contact_statics.h>
 #include <hpvi/space/load_check.h>
-#include <hpvi/space/memory_need.h>
 #include <hpvi/space/moment_field.h>
+#include <hpvi/space/moment_matrix.h>
 #include <hpvi/space/mooring.h>
 #include <hpvi/space/nodal_forces.h>
-#include <hpvi/space/spread_mesh.h>
 #include <hpvi/space/stored_values.h>
 #include <hpvi/space/transfer.h>
 #include <hpvi/space/upper_energy.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +33,68 @@ using namespace dealii;
 
 namespace
 {
+/** The coarse mesh of @p scene over all processes. Throws InputError where it has fewer cells, or the path refuses the scene. Collective. */
+template <int dim>
+std::shared_ptr<typename MomentSpace<dim>::Mesh> spread_mesh(const Scene<dim> &scene,
+                                                             MPI_Comm communicator)
+{
+  together(communicator, [&]() { check_primal_path(scene); });
+  const auto mesh = std::make_shared<typename MomentSpace<dim>::Mesh>(communicator);
+  make_mesh(scene, static_cast<Triangulation<dim> &>(*mesh));
+  const auto n = hpvi::n_processes(communicator);
+  if (mesh->n_global_active_cells() < n)
+    throw InputError(printable(scene.origin(), 400) +
+                     ": Geometry/Subdivisions: makes fewer cells, " +
+                     std::to_string(mesh->n_global_active_cells()) + ", than the " +
+                     std::to_string(n) + " processes; start fewer of them or take more cells");
+  return mesh;
+}
+
+/**
+ * Of a process: matrix, its pattern, the levels of algebraic multigrid; or without a matrix vectors, unknowns and constraints of
+ * all levels. Measured to a quarter, without a matrix to a tenth.
+ */
+template <int dim>
+double expected_bytes(const MomentSpace<dim> &space)
+{
+  if (linear_method(space) == LinearMethod::multigrid)
+    return 520. * space.owned.n_elements();
+  const double n_cells = space.dof_handler.get_triangulation().n_global_active_cells() *
+                         (double(space.owned.n_elements()) / space.dof_handler.n_dofs()),
+               n = space.tables.fe.dofs_per_cell;
+  return 19 * n_cells * n * n;
+}
+
+template <int dim>
+std::string matrix_name(const MomentSpace<dim> &space)
+{
+  return (linear_method(space) == LinearMethod::multigrid ? "the levels of multigrid for "
+                                                          : "the matrix and its multigrid for ") +
+         std::to_string(space.dof_handler.n_dofs()) + " unknowns";
+}
+
+/** What a machine that has the memory for the matrix of @p space should know before all of it is taken. Collective. */
+template <int dim>
+std::string memory_note(const MomentSpace<dim> &space)
+{
+  const double bytes = Utilities::MPI::sum(expected_bytes(space), space.communicator());
+  if (bytes < 1e9)
+    return {};
+  return matrix_name(space) + " take " + bytes_text(bytes) +
+         " of memory; Adaptivity/Maximum unknowns ends a run before";
+}
+
+/** Throws NumericalFailure on all processes where those of one machine need more than it has. Collective. */
+template <int dim>
+void require_room(const MomentSpace<dim> &space)
+{
+  MPI_Comm machine;
+  MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const double bytes = Utilities::MPI::sum(expected_bytes(space), machine);
+  MPI_Comm_free(&machine);
+  together(space.communicator(), [&]() { require_memory(bytes, matrix_name(space)); });
+}
+
 /** What Newton's method leaves, as a part of the estimated error. */
 constexpr double algebraic_part = 1e-2;
 

@@ -4,6 +4,7 @@
 // body, a dense program for friction and pressure remains. What steps share is little: tables of
 // shape functions, element matrices that come again, and the multiplier of the step before, as a
 // function on the contact boundary, from which the next one starts.
+#include <hpvi/algebra/schur_complement.h>
 #include <hpvi/base/finite.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
@@ -11,10 +12,10 @@
 #include <hpvi/driver/reduced_backend.h>
 #include <hpvi/plane/curved_edges.h>
 #include <hpvi/plane/folded_cell.h>
-#include <hpvi/plane/loaded_motions.h>
 #include <hpvi/plane/matching.h>
 #include <hpvi/plane/missed_loads.h>
 #include <hpvi/plane/negligible_solution.h>
+#include <hpvi/plane/resistance.h>
 #include <hpvi/results/solution_field.h>
 
 #include <algorithm>
@@ -25,6 +26,89 @@
 namespace hpvi
 {
 using namespace dealii;
+
+/**
+ * A factored and reduced to the contact, for one right-hand side after the other. Load steps on one mesh
+ * have the same A, B and S as long as the same unknowns are prescribed and the same edges have friction:
+ * the factorisation is most of their time.
+ */
+class FactoredSystem
+{
+public:
+  /** @p factored holds the factor of A, @p f and @p rows are as in SchurComplement. */
+  FactoredSystem(LinearSolver factored, const Vector<double> &f, const ConditionRows &rows)
+      : solver(std::move(factored)), reduction(solver, f, rows)
+  {
+  }
+
+  FactoredSystem(const FactoredSystem &) = delete; // members refer to one another
+
+  LinearSolver solver;
+  SchurComplement reduction;
+
+  /** What has been factored, for is_of(). */
+  void remember(const SymmetricMatrix &A, const std::vector<Stabilisation> &stabilisation,
+                const ConditionRows &rows)
+  {
+    known_A = A;
+    known_stabilisation = stabilisation;
+    known_rows = rows;
+  }
+
+  /** Is this to the last bit what is remembered? */
+  bool is_of(const SymmetricMatrix &A, const std::vector<Stabilisation> &stabilisation,
+             const ConditionRows &rows) const
+  {
+    const auto same = [](const Stabilisation &a, const Stabilisation &b)
+    { return a.P == b.P && a.stiffness == b.stiffness; };
+    return known_A.column_start == A.column_start && known_A.row == A.row &&
+           known_A.value == A.value && known_rows.kept == rows.kept && known_rows.B == rows.B &&
+           std::equal(known_stabilisation.begin(), known_stabilisation.end(), stabilisation.begin(),
+                      stabilisation.end(), same);
+  }
+
+private:
+  SymmetricMatrix known_A; ///< without unknowns: nothing is remembered
+  std::vector<Stabilisation> known_stabilisation;
+  ConditionRows known_rows;
+};
+
+namespace
+{
+/**
+ * The free motions of a scene that contact alone holds and the loads along them: those that contact sees first; of the
+ * others a load that nothing resists is more than round-off.
+ */
+template <int dim>
+LoadedMotions<dim> loaded_motions(const Discretisation<dim> &discretisation)
+{
+  const RigidMotions<dim> &free = *discretisation.free_motions;
+  const Vector<double> &f = discretisation.system.f;
+  const unsigned int n = discretisation.scene.free_motions().size();
+  LoadedMotions<dim> result{{}, Vector<double>(n), free.n_seen(), discretisation.scene.thickness};
+  for (unsigned int m = 0; m < n; ++m)
+  {
+    Vector<double> one(n);
+    one[m] = 1;
+    result.motions.push_back(free.motion(one));
+    if (m < free.n_seen())
+    {
+      result.loads[m] = free.balance().e[m];
+      continue;
+    }
+    const Vector<double> R = free.at_unknowns(one);
+    double load = 0, absolute = 0;
+    for (unsigned int k = 0; k < R.size(); ++k)
+    {
+      load += f[k] * R[k];
+      absolute += std::abs(f[k] * R[k]);
+    }
+    if (std::abs(load) > 1e-10 * absolute)
+      result.loads[m] = load;
+  }
+  return result;
+}
+} // namespace
 
 // @sect3{What steps share}
 //

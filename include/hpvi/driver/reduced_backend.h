@@ -2,7 +2,7 @@
 #ifndef hpvi_reduced_backend_h
 #define hpvi_reduced_backend_h
 
-#include <hpvi/algebra/factored_system.h>
+#include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/dense_work.h>
 #include <hpvi/base/team.h>
 #include <hpvi/bound/resultant_intervals.h>
@@ -15,6 +15,8 @@
 
 namespace hpvi
 {
+class FactoredSystem;
+
 /**
  * The body reduced to its contact boundary by a sparse factorisation, equations (5.6) and (5.7) of the
  * thesis, and a dense quadratic program, or Coulomb's cones, for the multipliers: meshes of any degrees in the

@@ -3,12 +3,13 @@
 #define hpvi_step_stages_h
 
 #include <hpvi/base/progress.h>
+#include <hpvi/driver/backend.h>
 #include <hpvi/driver/checkpoint.h>
 #include <hpvi/driver/mean_intervals.h>
-#include <hpvi/driver/step_ahead.h>
 #include <hpvi/driver/step_report.h>
 #include <hpvi/scene/data_scale.h>
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,6 +17,29 @@
 
 namespace hpvi
 {
+/**
+ * The next step, solved while the team still finds out what is to be told of this one: the bound needs this mesh and its
+ * solution, the next solution neither, so that two threads have work all the time.
+ */
+template <int dim>
+class StepAhead
+{
+public:
+  /**
+   * Solves @p next on the calling thread, which is the one that hears of stages, beside @p tell of @p here, whose own stages are silent.
+   * Seconds of both are shares of the time that they take together. Throws what tell() throws.
+   */
+  StepAhead(std::unique_ptr<Backend<dim>> next, Backend<dim> &here,
+            const std::function<void()> &tell);
+
+  /** The next step in the place of this one; throws what solving it has thrown. */
+  std::unique_ptr<Backend<dim>> take();
+
+private:
+  std::unique_ptr<Backend<dim>> next;
+  std::exception_ptr failure; ///< of the next step, which must not keep this one from being told
+};
+
 /** The stages of one step after the other, and what they share. What belongs to a mesh is the backend's. Functions are collective. */
 template <int dim>
 struct StepStages
@@ -62,6 +86,7 @@ struct StepStages
   void add_results(StepReport<dim> &step);
   void add_bound(StepReport<dim> &step);
   void compare_claims(StepReport<dim> &step);
+  void conclude(StepReport<dim> &step);
   void count(StepReport<dim> &step);
   void refine();
   void resume(const RunState<dim> &state);
