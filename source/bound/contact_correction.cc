@@ -14,7 +14,7 @@ ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
                                           const Discretisation<dim> &discretisation,
                                           const AdmissibleFriction<dim> &friction,
                                           const AdmissiblePressure<dim> &pressure,
-                                          EdgeBubbles<dim> *const bubbles)
+                                          EdgeBubbles *const bubbles)
 {
   const CorrectionSearch<dim> search(solution, discretisation, friction, pressure, bubbles);
   typename CorrectionSearch<dim>::Candidate best = search.nothing();

@@ -29,17 +29,16 @@ void Trace::extend(const FullMatrix<double> &more, const unsigned int first)
   u.resize(more.m());
 }
 
-template <int dim>
-Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
-               const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+Trace trace_of(const ContactFace<2> &face, const Tensor<1, 2> &direction,
+               const Solution<2> &solution, const Unknowns<2> &unknowns,
                const FullMatrix<double> &legendre)
 {
   const unsigned int n = face.degree + 1;
-  const FaceDofs<dim> dofs(face, solution.displacement_space, solution.tables);
+  const FaceDofs<2> dofs(face, solution.displacement_space, solution.tables);
   std::map<unsigned int, Vector<double>> columns; // values at nodes by unknown
   Vector<double> u(n);
   for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int c = 0; c < 2; ++c)
     {
       u[j] += direction[c] * dofs.jump(solution.u, c * n + j);
       const auto add = [&](const types::global_dof_index dof, const double sign)
@@ -74,7 +73,4 @@ Trace trace_of(const ContactFace<dim> &face, const Tensor<1, dim> &direction,
   }
   return result;
 }
-
-template Trace trace_of(const ContactFace<2> &, const Tensor<1, 2> &, const Solution<2> &,
-                        const Unknowns<2> &, const FullMatrix<double> &);
 } // namespace hpvi

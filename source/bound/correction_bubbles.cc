@@ -37,10 +37,10 @@ FullMatrix<double> bubble_coefficients(const unsigned int p, const unsigned int 
 template <int dim>
 void CorrectionSearch<dim>::add_bubbles(const unsigned int cell,
                                         const std::vector<BubbleFace> &own_faces,
-                                        EdgeBubbles<dim> &bubbles)
+                                        EdgeBubbles &bubbles)
 {
   unsigned int first = A.n();
-  typename EdgeBubbles<dim>::Traces all;
+  EdgeBubbles::Traces all;
   for (const auto &[face, directions] : own_faces)
   {
     const FullMatrix<double> coefficients =
@@ -78,7 +78,7 @@ FullMatrix<double> CorrectionSearch<dim>::bubbles_at_nodes(const FullMatrix<doub
 
 template <int dim>
 void CorrectionSearch<dim>::add_columns(const unsigned int cell,
-                                        const typename EdgeBubbles<dim>::Energies &energies)
+                                        const EdgeBubbles::Energies &energies)
 {
   const auto dofs = solution.displacement_space.cell_dofs(cell);
   const unsigned int first = A.n();
@@ -101,5 +101,5 @@ void CorrectionSearch<dim>::add_columns(const unsigned int cell,
 }
 
 template void CorrectionSearch<2>::add_bubbles(unsigned int, const std::vector<BubbleFace> &,
-                                               EdgeBubbles<2> &);
+                                               EdgeBubbles &);
 } // namespace hpvi

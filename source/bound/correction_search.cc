@@ -48,7 +48,7 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
                                         const Discretisation<dim> &discretisation,
                                         const AdmissibleFriction<dim> &friction,
                                         const AdmissiblePressure<dim> &pressure,
-                                        EdgeBubbles<dim> *const bubbles)
+                                        EdgeBubbles *const bubbles)
     : solution(solution), discretisation(discretisation), friction(friction),
       freedom(solution, discretisation.unknowns), faces(solution.contact_space.faces()),
       slips(slips_of(solution)), openings(faces.size()), A{discretisation.system.A, {}}

@@ -8,16 +8,14 @@ using namespace dealii;
 namespace
 {
 /** Unknowns of degree q on the boundary of a cell from those of degree p. */
-template <int dim>
 FullMatrix<double> embedding(const unsigned int p, const unsigned int q,
-                             const ShapeTables<dim> &tables)
+                             const ShapeTables<2> &tables)
 {
-  static_assert(dim == 2, "edges are faces");
   const LocalNumbering &low = tables.numbering(p), &high = tables.numbering(q);
   const EdgeInterpolation &along = tables.edge_interpolation(p, p, q, whole_edge);
   FullMatrix<double> result(high.n_boundary, low.n_boundary);
   for (unsigned int face = 0; face < high.edge.size(); ++face)
-    for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int j = 0; j <= q; ++j)
         for (unsigned int i = 0; i <= p; ++i) // a vertex has its 1 from both of its edges
           result(high.edge[face][c * (q + 1) + j], low.edge[face][c * (p + 1) + along.nodes[i]]) =
@@ -26,21 +24,19 @@ FullMatrix<double> embedding(const unsigned int p, const unsigned int q,
 }
 } // namespace
 
-template <int dim>
-typename EdgeBubbles<dim>::Energies EdgeBubbles<dim>::energies(const Traces &traces,
-                                                               const Scene<dim> &scene,
-                                                               const ShapeTables<dim> &tables)
+EdgeBubbles::Energies EdgeBubbles::energies(const Traces &traces, const Scene<2> &scene,
+                                            const ShapeTables<2> &tables)
 {
-  const ContactFace<dim> &face = *traces[0].first;
-  const unsigned int q = traces[0].second.m() / dim - 1;
+  const ContactFace<2> &face = *traces[0].first;
+  const unsigned int q = traces[0].second.m() / 2 - 1;
   unsigned int n = 0;
   for (const auto &[on_face, columns] : traces)
     n += columns.n();
   const auto material = face.cell->material_id();
   auto &element =
-      elements[ElementMatrices<dim>(scene, tables).congruence_class(face.map, q, material)];
+      elements[ElementMatrices<2>(scene, tables).congruence_class(face.map, q, material)];
   if (!element)
-    element = CondensedElements<dim>(scene, tables).get(face.map, q, material);
+    element = CondensedElements<2>(scene, tables).get(face.map, q, material);
   const FullMatrix<double> K = element->condensed.full();
   FullMatrix<double> b(K.m(), n), forces(K.m(), n);
   unsigned int first = 0;
@@ -62,6 +58,4 @@ typename EdgeBubbles<dim>::Energies EdgeBubbles<dim>::energies(const Traces &tra
   shapes.Tmmult(result.with_shapes, forces);
   return result;
 }
-
-template class EdgeBubbles<2>;
 } // namespace hpvi

@@ -311,7 +311,7 @@ ErrorBounds::stress_of_mixed_problem(const Solution<2> &solution,
                                      std::unique_ptr<LinearSolver> factor)
 {
   if (!mixed)
-    mixed = std::make_unique<MixedProblem<2>>(solution.scene);
+    mixed = std::make_unique<MixedProblem>(solution.scene);
   const auto make = [&](Solution<2> start)
   {
     return std::make_unique<const AdmissibleStress>(solution, std::move(start),
@@ -358,7 +358,7 @@ try
   result.own_stress = own_stress;
   const auto made = nearest_stress(solution, discretisation, std::move(factor), result.own_stress);
   const EquilibratedStress &stress = made->stress;
-  const auto correct = [&](EdgeBubbles<2> *const with, std::optional<ContactCorrection<2>> &result)
+  const auto correct = [&](EdgeBubbles *const with, std::optional<ContactCorrection<2>> &result)
   { result.emplace(solution, discretisation, made->friction, made->pressure, with); };
   const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
   std::optional<ContactCorrection<2>> corrected, within_space;

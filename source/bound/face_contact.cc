@@ -10,8 +10,7 @@ using namespace dealii;
 
 namespace
 {
-template <int dim>
-Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
+Slip slip_of(const ContactFace<2> &face, const Solution<2> &solution)
 {
   unsigned int n_forward = 0, n_backward = 0, n_free = 0;
   for (unsigned int k = 0; k < face.n_multipliers; ++k)
@@ -33,18 +32,16 @@ Slip slip_of(const ContactFace<dim> &face, const Solution<dim> &solution)
 }
 } // namespace
 
-template <int dim>
-std::vector<Slip> slips_of(const Solution<dim> &solution)
+std::vector<Slip> slips_of(const Solution<2> &solution)
 {
   std::vector<Slip> result;
-  for (const ContactFace<dim> &face : solution.contact_space.faces())
+  for (const ContactFace<2> &face : solution.contact_space.faces())
     result.push_back(slip_of(face, solution));
   return result;
 }
 
-template <int dim>
 std::vector<unsigned int> faces_beside(const unsigned int face, const unsigned int reach,
-                                       const std::vector<ContactFace<dim>> &faces)
+                                       const std::vector<ContactFace<2>> &faces)
 {
   std::vector<unsigned int> result;
   for (unsigned int other = face < reach ? 0 : face - reach;
@@ -54,8 +51,7 @@ std::vector<unsigned int> faces_beside(const unsigned int face, const unsigned i
   return result;
 }
 
-template <int dim>
-void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<dim>> &faces)
+void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<2>> &faces)
 {
   const std::vector<Slip> discrete(slips);
   for (unsigned int k = 0; k < slips.size(); ++k)
@@ -74,12 +70,11 @@ double Opening::gap(const EdgePolynomial &rest) const
          std::inner_product(pi.begin(), pi.begin() + std::min(pi.size(), r.size()), r.begin(), 0.);
 }
 
-template <int dim>
-Opening opening_of(const unsigned int number, const Solution<dim> &solution,
-                   const Unknowns<dim> &unknowns, const AdmissiblePressure<dim> &pressure,
+Opening opening_of(const unsigned int number, const Solution<2> &solution,
+                   const Unknowns<2> &unknowns, const AdmissiblePressure<2> &pressure,
                    const LegendreTables &tables)
 {
-  const ContactFace<dim> &face = solution.contact_space.faces()[number];
+  const ContactFace<2> &face = solution.contact_space.faces()[number];
   unsigned int n_pressing = 0;
   for (const unsigned int i : face.pressures)
     n_pressing += solution.z[i] > 0.;
@@ -95,9 +90,8 @@ Opening opening_of(const unsigned int number, const Solution<dim> &solution,
   return result;
 }
 
-template <int dim>
 void free_neighbours(std::vector<std::optional<Opening>> &openings,
-                     const std::vector<ContactFace<dim>> &faces)
+                     const std::vector<ContactFace<2>> &faces)
 {
   std::vector<bool> is_open;
   for (const auto &opening : openings)
@@ -108,9 +102,8 @@ void free_neighbours(std::vector<std::optional<Opening>> &openings,
         openings[k]->mode = Opening::partly;
 }
 
-template <int dim>
-double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
-                    const ShapeTables<dim> &tables, const std::function<double(double)> &l)
+double friction_gap(const ContactFace<2> &face, const EdgePolynomial &v,
+                    const ShapeTables<2> &tables, const std::function<double(double)> &l)
 {
   if (face.friction.vanishes())
     return 0.;
@@ -133,15 +126,4 @@ double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
     }
   return result;
 }
-
-template std::vector<Slip> slips_of(const Solution<2> &);
-template std::vector<unsigned int> faces_beside(unsigned int, unsigned int,
-                                                const std::vector<ContactFace<2>> &);
-template void free_neighbours(std::vector<Slip> &, const std::vector<ContactFace<2>> &);
-template void free_neighbours(std::vector<std::optional<Opening>> &,
-                              const std::vector<ContactFace<2>> &);
-template Opening opening_of(unsigned int, const Solution<2> &, const Unknowns<2> &,
-                            const AdmissiblePressure<2> &, const LegendreTables &);
-template double friction_gap(const ContactFace<2> &, const EdgePolynomial &, const ShapeTables<2> &,
-                             const std::function<double(double)> &);
 } // namespace hpvi

@@ -7,18 +7,15 @@ namespace hpvi
 {
 using namespace dealii;
 
-template <int dim>
-MixedProblem<dim>::MixedProblem(const Scene<dim> &scene)
+MixedProblem::MixedProblem(const Scene<2> &scene)
     : scene(scene), elements(scene, tables, Volume::projected)
 {
 }
 
-template <int dim>
-Solution<dim> MixedProblem<dim>::solve(const Solution<dim> &start,
-                                       std::unique_ptr<LinearSolver> &factor)
+Solution<2> MixedProblem::solve(const Solution<2> &start, std::unique_ptr<LinearSolver> &factor)
 {
   // The previous one goes last: it keeps the element matrices that the new one shares.
-  last = std::make_unique<const Discretisation<dim>>(scene, start.spaces, elements);
+  last = std::make_unique<const Discretisation<2>>(scene, start.spaces, elements);
   if (factor)
     last->factor(*factor);
   else
@@ -27,28 +24,23 @@ Solution<dim> MixedProblem<dim>::solve(const Solution<dim> &start,
   reduced.z = start.z;
   const SchurComplement schur_complement(*factor, last->system.f, last->contact_rows);
   Vector<double> u =
-      IterativeRefinement<dim>(*last, elements, *factor, schur_complement).uncorrected(reduced);
+      IterativeRefinement<2>(*last, elements, *factor, schur_complement).uncorrected(reduced);
   return {scene, start.spaces, std::move(u), std::move(reduced.z)};
 }
 
-template <int dim>
-Solution<dim> MixedProblem<dim>::correct(const Solution<dim> &solution,
-                                         const LinearSolver &factor) const
+Solution<2> MixedProblem::correct(const Solution<2> &solution, const LinearSolver &factor) const
 {
   ReducedSolution reduced;
   reduced.z = solution.z;
   AlgebraicError error;
   const SchurComplement schur_complement(factor, last->system.f, last->contact_rows);
-  Vector<double> u = IterativeRefinement<dim>(*last, elements, factor, schur_complement)
+  Vector<double> u = IterativeRefinement<2>(*last, elements, factor, schur_complement)
                          .solve(reduced, error, /*is_suspect=*/true);
   return {scene, solution.spaces, std::move(u), std::move(reduced.z)};
 }
 
-template <int dim>
-const Discretisation<dim> &MixedProblem<dim>::discretisation() const
+const Discretisation<2> &MixedProblem::discretisation() const
 {
   return *last;
 }
-
-template class MixedProblem<2>;
 } // namespace hpvi

@@ -32,24 +32,23 @@ void unite(std::set<unsigned int> set, std::vector<std::set<unsigned int>> &sets
 }
 } // namespace
 
-template <int dim>
-NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim> &unknowns)
+NodeFreedom::NodeFreedom(const Solution<2> &solution, const Unknowns<2> &unknowns)
     : unknowns(unknowns)
 {
   for (const SpringFace &face :
        spring_faces(solution.scene, solution.displacement_space, solution.tables))
   {
-    const unsigned int n = face.dofs.size() / dim;
+    const unsigned int n = face.dofs.size() / 2;
     double sum = 0; // of all entries: int k_n + k_t, for functions sum to 1
     for (unsigned int i = 0; i < face.dofs.size(); ++i)
       for (unsigned int j = 0; j < n; ++j)
         sum += face.matrix(i, i / n * n + j);
     for (const unsigned int end : {0U, n - 1})
-      springs[face.dofs[end]] += sum / (3. * dim); // a function that falls to zero along the edge
+      springs[face.dofs[end]] += sum / 6.; // a function that falls to zero along the edge
   }
   if (!solution.scene.has_plates())
     return;
-  for (const SupportedNode<dim> &node :
+  for (const SupportedNode<2> &node :
        supported_nodes(solution.scene, solution.displacement_space.numbering(), solution.tables))
     if (node.is_on_plate)
     {
@@ -62,34 +61,29 @@ NodeFreedom<dim>::NodeFreedom(const Solution<dim> &solution, const Unknowns<dim>
     }
 }
 
-template <int dim>
-bool NodeFreedom<dim>::is_on_plate(const Node &node) const
+bool NodeFreedom::is_on_plate(const Node &node) const
 {
   return on_plates.count(node[0]) > 0;
 }
 
-template <int dim>
-double NodeFreedom<dim>::stiffness_of_springs(const Node &node) const
+double NodeFreedom::stiffness_of_springs(const Node &node) const
 {
   const auto found = springs.find(node[0]);
   return found == springs.end() ? 0. : found->second;
 }
 
-template <int dim>
-const std::vector<std::set<unsigned int>> &NodeFreedom<dim>::plates() const
+const std::vector<std::set<unsigned int>> &NodeFreedom::plates() const
 {
   return of_plates;
 }
 
-template <int dim>
-Tensor<1, dim> NodeFreedom<dim>::only_direction(const Node &node) const
+Tensor<1, 2> NodeFreedom::only_direction(const Node &node) const
 {
-  static_assert(dim == 2, "a cross product is a number");
-  std::map<unsigned int, Tensor<1, dim>> directions; // of each unknown
-  for (unsigned int c = 0; c < dim; ++c)
+  std::map<unsigned int, Tensor<1, 2>> directions; // of each unknown
+  for (unsigned int c = 0; c < 2; ++c)
     for (const auto &[unknown, weight] : unknowns.terms(node[c]))
       directions[unknown][c] += weight;
-  Tensor<1, dim> result;
+  Tensor<1, 2> result;
   for (const auto &[unknown, direction] : directions)
     if (direction.norm() > result.norm())
       result = direction;
@@ -100,17 +94,14 @@ Tensor<1, dim> NodeFreedom<dim>::only_direction(const Node &node) const
   return directions.empty() ? result : result / result.norm();
 }
 
-template <int dim>
-bool NodeFreedom<dim>::is_held(const Node &node, const Tensor<1, dim> &direction) const
+bool NodeFreedom::is_held(const Node &node, const Tensor<1, 2> &direction) const
 {
   constexpr double sideways =
       0.05; // as far as it moves at most for what it is to move along the direction
   if (is_on_plate(node) ||
       (unknowns.terms(node[0]).size() == 0 && unknowns.terms(node[1]).size() == 0))
     return true;
-  const Tensor<1, dim> only = only_direction(node);
+  const Tensor<1, 2> only = only_direction(node);
   return only.norm_square() > 0. && std::abs(direction * only) < sideways;
 }
-
-template class NodeFreedom<2>;
 } // namespace hpvi

@@ -25,9 +25,8 @@ void add_moments(PressedFace &face, const double s, const double weighted)
   }
 }
 
-template <int dim>
-void set_moments(PressedFace &result, const ContactFace<dim> &face, const EdgePolynomial &z,
-                 const Solution<dim> &solution)
+void set_moments(PressedFace &result, const ContactFace<2> &face, const EdgePolynomial &z,
+                 const Solution<2> &solution)
 {
   if (face.at_nodes)
   {
@@ -87,8 +86,7 @@ void PressedFace::take_own_parts()
     t[end] = own_part(*this, end);
 }
 
-template <int dim>
-EdgePolynomial discrete_pressure(const ContactFace<dim> &face, const Solution<dim> &solution)
+EdgePolynomial discrete_pressure(const ContactFace<2> &face, const Solution<2> &solution)
 {
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
   std::vector<double> values;
@@ -97,16 +95,15 @@ EdgePolynomial discrete_pressure(const ContactFace<dim> &face, const Solution<di
   return EdgePolynomial::through(values, gauss);
 }
 
-template <int dim>
-PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solution,
+PressedFace pressed_face(const ContactFace<2> &face, const Solution<2> &solution,
                          const LegendreTables &legendre)
 {
-  const ContactFrame<dim> frame = face.frame(0.5);
+  const ContactFrame<2> frame = face.frame(0.5);
   PressedFace result;
   result.n = traction_degree(face, solution.z, solution.contact_space) + 1;
   result.length = face.length;
   result.weight = face.length / (2. * solution.scene.material_of(face.cell).weight() * face.degree);
-  const Tensor<2, dim> J = face.map.jacobian({0.5, 0.5});
+  const Tensor<2, 2> J = face.map.jacobian({0.5, 0.5});
   result.is_skew =
       std::abs(J[0][0] * J[0][1] + J[1][0] * J[1][1]) > negligible_angle * J.norm_square();
   result.origin = face.point(0.) * frame.tangent;
@@ -134,8 +131,4 @@ PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solu
   result.take_own_parts();
   return result;
 }
-
-template PressedFace pressed_face(const ContactFace<2> &, const Solution<2> &,
-                                  const LegendreTables &);
-template EdgePolynomial discrete_pressure(const ContactFace<2> &, const Solution<2> &);
 } // namespace hpvi

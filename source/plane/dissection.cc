@@ -15,8 +15,7 @@ constexpr unsigned int large = 1000;
 constexpr unsigned int none = -1;
 } // namespace
 
-template <int dim>
-Dissection<dim>::Dissection(const Triangulation<dim> &triangulation, const unsigned int n_unknowns)
+Dissection::Dissection(const Triangulation<2> &triangulation, const unsigned int n_unknowns)
 {
   if (triangulation.n_active_cells() <= large)
     return;
@@ -28,8 +27,7 @@ Dissection<dim>::Dissection(const Triangulation<dim> &triangulation, const unsig
   join(coarse); // what lies between coarse cells is left to minimum degree
 }
 
-template <int dim>
-unsigned int Dissection<dim>::part_of(const Cell &cell)
+unsigned int Dissection::part_of(const Cell &cell)
 {
   if (!cell->is_active())
     return part_of(cell, 0, cell->n_children());
@@ -40,9 +38,8 @@ unsigned int Dissection<dim>::part_of(const Cell &cell)
 }
 
 /** Children are counted so that those of one half follow one another. */
-template <int dim>
-unsigned int Dissection<dim>::part_of(const Cell &cell, const unsigned int first_child,
-                                      const unsigned int n_children)
+unsigned int Dissection::part_of(const Cell &cell, const unsigned int first_child,
+                                 const unsigned int n_children)
 {
   if (n_children == 1)
     return part_of(cell->child(first_child));
@@ -50,8 +47,7 @@ unsigned int Dissection<dim>::part_of(const Cell &cell, const unsigned int first
   return join({first, part_of(cell, first_child + half, half)});
 }
 
-template <int dim>
-unsigned int Dissection<dim>::join(const std::vector<unsigned int> &inside)
+unsigned int Dissection::join(const std::vector<unsigned int> &inside)
 {
   Part result{0, static_cast<unsigned int>(leaf.size()), none};
   for (const unsigned int part : inside)
@@ -63,8 +59,7 @@ unsigned int Dissection<dim>::join(const std::vector<unsigned int> &inside)
   return parts.size() - 1;
 }
 
-template <int dim>
-void Dissection<dim>::add(const unsigned int cell, const std::vector<unsigned int> &unknowns)
+void Dissection::add(const unsigned int cell, const std::vector<unsigned int> &unknowns)
 {
   if (place.empty())
     return;
@@ -77,8 +72,7 @@ void Dissection<dim>::add(const unsigned int cell, const std::vector<unsigned in
 }
 
 /** The smallest part that has all cells of an unknown. */
-template <int dim>
-std::vector<unsigned int> Dissection<dim>::stages() const
+std::vector<unsigned int> Dissection::stages() const
 {
   std::vector<unsigned int> of_part, result;
   unsigned int n_stages = 1;
@@ -93,6 +87,4 @@ std::vector<unsigned int> Dissection<dim>::stages() const
   }
   return result;
 }
-
-template class Dissection<2>;
 } // namespace hpvi

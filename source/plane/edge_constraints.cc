@@ -29,19 +29,16 @@ using Unknowns = std::vector<types::global_dof_index>;
 // is of the same size and of a lower degree: it is the master, and this cell follows. Else nothing
 // is to be done here: the edge conforms, or is looked at from the other side.
 /** Adds the constraints of one edge after the other. */
-template <int dim>
 class EdgeConstraints
 {
-  static_assert(dim == 2, "edges of cells in the plane");
-
 public:
-  EdgeConstraints(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
+  EdgeConstraints(const DofNumbering<2> &numbering, const ShapeTables<2> &tables,
                   AffineConstraints<double> &constraints)
       : numbering(numbering), tables(tables), constraints(constraints)
   {
   }
 
-  using Cell = typename Triangulation<dim>::active_cell_iterator;
+  using Cell = Triangulation<2>::active_cell_iterator;
 
   void add(const Cell &cell, const unsigned int face)
   {
@@ -95,8 +92,8 @@ private:
     const EdgeInterpolation &interpolation =
         tables.edge_interpolation(source_degree, trace_degree, degree(cell), part);
     const Unknowns targets = unknowns(cell, face);
-    const unsigned int n_targets = targets.size() / dim, n_sources = sources.size() / dim;
-    for (unsigned int c = 0; c < dim; ++c)
+    const unsigned int n_targets = targets.size() / 2, n_sources = sources.size() / 2;
+    for (unsigned int c = 0; c < 2; ++c)
       for (unsigned int i = 0; i < n_targets; ++i)
       {
         const types::global_dof_index target = targets[c * n_targets + i];
@@ -120,8 +117,8 @@ private:
                        [&](const unsigned int node) { return sources[first + node] == unknown; });
   }
 
-  const DofNumbering<dim> &numbering;
-  const ShapeTables<dim> &tables;
+  const DofNumbering<2> &numbering;
+  const ShapeTables<2> &tables;
   AffineConstraints<double> &constraints;
 };
 } // namespace
@@ -130,18 +127,14 @@ private:
 //
 // Nothing depends on the order in which cells are visited, except which of several equivalent
 // unknowns is called the free one.
-template <int dim>
-void constrain_hanging_nodes(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
+void constrain_hanging_nodes(const DofNumbering<2> &numbering, const ShapeTables<2> &tables,
                              AffineConstraints<double> &constraints)
 {
-  EdgeConstraints<dim> edges(numbering, tables, constraints);
+  EdgeConstraints edges(numbering, tables, constraints);
   for (const auto &cell : numbering.dof_handler().get_triangulation().active_cell_iterators())
     if (!cell->is_artificial())
       for (const unsigned int face : cell->face_indices())
         if (!cell->at_boundary(face))
           edges.add(cell, face);
 }
-
-template void constrain_hanging_nodes(const DofNumbering<2> &, const ShapeTables<2> &,
-                                      AffineConstraints<double> &);
 } // namespace hpvi

@@ -154,7 +154,7 @@ void ElasticSystem<dim>::set_hints(const Triangulation<dim> &triangulation,
                                    const std::vector<Contribution> &contributions)
 {
   Supervariables supervariables(std::vector<unsigned int>(f.size(), 0));
-  Dissection<dim> dissection(triangulation, f.size());
+  Dissection dissection(triangulation, f.size());
   for (const Contribution &contribution : contributions)
   {
     supervariables.split(contribution.targets);

@@ -95,22 +95,21 @@ void solve_cones(const ConeProgram &program, const SolverSettings &solver, Reduc
 }
 } // namespace
 
-template <int dim>
-ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
+ReducedSolution solve_reduced_problem(const Discretisation<2> &discretisation,
                                       const SchurComplement &schur_complement,
                                       const Vector<double> &defect, ReducedSolution start)
 {
   const Timer timer;
   ReducedSolution result = std::move(start);
   const SolverSettings &settings = discretisation.scene.solver;
-  const ContactSpace<dim> &contact_space = discretisation.spaces->contact_space;
+  const ContactSpace<2> &contact_space = discretisation.spaces->contact_space;
   const FrictionCones set{contact_space.feasible_set(), contact_space.cones()};
   const bool is_held = discretisation.free_motions && discretisation.free_motions->n_seen() > 0;
   EqualityConstraints balance;
   FullMatrix<double> penalty;
   if (is_held)
   {
-    const RigidMotions<dim> &motions = *discretisation.free_motions;
+    const RigidMotions<2> &motions = *discretisation.free_motions;
     balance = motions.balance();
     penalty = motions.penalty();
     if (result.motion.size() == 0)
@@ -145,7 +144,4 @@ ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
   result.seconds += timer.wall_time();
   return result;
 }
-
-template ReducedSolution solve_reduced_problem(const Discretisation<2> &, const SchurComplement &,
-                                               const Vector<double> &, ReducedSolution);
 } // namespace hpvi

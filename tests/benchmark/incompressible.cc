@@ -102,7 +102,7 @@ try
                                                  {"Adaptivity/Start degree", "2"},
                                                  {"Adaptivity/Maximum steps", "5"}});
       EquilibrationCache cache;
-      MixedProblem<2> mixed(scene);
+      MixedProblem mixed(scene);
       AdaptiveSolver<2>(scene).run(
           [&](const StepReport<2> &step)
           {

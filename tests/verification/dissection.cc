@@ -51,7 +51,7 @@ TEST(Dissection, UnknownsThatAreAlikeHaveEntriesInTheSamePlaces)
 /** Node by node of a mesh. */
 Numbers stages_of_vertices(const Triangulation<2> &mesh)
 {
-  Dissection<2> dissection(mesh, mesh.n_vertices());
+  Dissection dissection(mesh, mesh.n_vertices());
   for (const auto &cell : mesh.active_cell_iterators())
     dissection.add(cell->active_cell_index(), {cell->vertex_index(0), cell->vertex_index(1),
                                                cell->vertex_index(2), cell->vertex_index(3)});
@@ -88,7 +88,7 @@ TEST(Dissection, EliminatesAtOnceWhatNoCellHas)
   Triangulation<2> mesh;
   GridGenerator::hyper_cube(mesh);
   mesh.refine_global(6);
-  Dissection<2> dissection(mesh, 2);
+  Dissection dissection(mesh, 2);
   for (const auto &cell : mesh.active_cell_iterators())
     dissection.add(cell->active_cell_index(), {1});
   EXPECT_EQ(dissection.stages(), (Numbers{0, 7}));

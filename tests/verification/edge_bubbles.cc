@@ -48,7 +48,7 @@ void expect_equal(const FullMatrix<double> &one, const FullMatrix<double> &other
 /** Against the whole stiffness matrix of degree q, on rectangles, parallelograms and others. */
 TEST(EdgeBubbles, HaveTheLeastEnergy)
 {
-  EdgeBubbles<2> bubbles; // one for all, which must not mistake one cell for another
+  EdgeBubbles bubbles; // one for all, which must not mistake one cell for another
   for (const std::string corners :
        {"0, 0; 2, 0; 2, 1; 0, 1", "0, 0; 2, 0; 2.5, 1; 0.5, 1", "0, 0; 2, 0; 1.5, 1; 0, 1.2"})
     for (const unsigned int p : {2, 3})
@@ -115,7 +115,7 @@ TEST(ContactCorrection, KnowsTheEnergyAndGapOfBubbles)
     const RandomMesh mesh(scene, seed, 3, 3, 6);
     const Laboratory lab(scene, mesh);
     const Solution<2> solution = lab.solve();
-    EdgeBubbles<2> bubbles;
+    EdgeBubbles bubbles;
     const AdmissibleFriction<2> friction(solution);
     const ContactCorrection<2> slip(solution, lab.discretisation, friction,
                                     AdmissiblePressure<2>(solution), &bubbles);

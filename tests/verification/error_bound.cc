@@ -198,7 +198,7 @@ TEST_P(Admissible, StressIsInEquilibriumAtEveryPoint)
       continue;
     SCOPED_TRACE("mixed");
     auto factor = std::make_unique<LinearSolver>(lab.discretisation.factor());
-    const Solution<2> mixed = MixedProblem<2>(scene).solve(solution, factor);
+    const Solution<2> mixed = MixedProblem(scene).solve(solution, factor);
     expect_admissible(mixed, equilibrated(mixed, cache, &solution, Volume::projected));
   }
 }
@@ -493,7 +493,7 @@ TEST(ErrorBoundParts, MakeTheWhole)
     const ErrorBound bound = ErrorBounds().compute(solution, lab.discretisation);
     EquilibrationCache cache;
     const EquilibratedStress stress = equilibrated(solution, cache);
-    EdgeBubbles<2> bubbles;
+    EdgeBubbles bubbles;
     const ContactCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
                                     AdmissiblePressure<2>(solution), &bubbles);
     const double eta_square = sum(stress.squares), small = 1e-9 * eta_square;
@@ -624,7 +624,7 @@ TEST(ErrorBoundOfSlip, MovesNothingFarFromWhereSlipEnds)
     const RandomMesh mesh(scene, 1, 0, 3, 3);
     const Laboratory lab(scene, mesh);
     const Solution<2> solution = lab.solve();
-    EdgeBubbles<2> bubbles;
+    EdgeBubbles bubbles;
     const ContactCorrection<2> slip(solution, lab.discretisation, AdmissibleFriction<2>(solution),
                                     AdmissiblePressure<2>(solution), &bubbles);
     double near = 0;

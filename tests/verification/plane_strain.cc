@@ -194,7 +194,7 @@ TEST(MixedProblem, DoesNotLock)
     const Laboratory lab(scene, mesh);
     const Solution<2> usual = lab.solve();
     std::unique_ptr<LinearSolver> none;
-    const Solution<2> solution = is_mixed ? MixedProblem<2>(scene).solve(usual, none) : usual;
+    const Solution<2> solution = is_mixed ? MixedProblem(scene).solve(usual, none) : usual;
     double error = 0, norm = 0;
     const QGauss<2> gauss(12);
     for (const auto &cell : lab.displacement_space.dof_handler().active_cell_iterators())

@@ -39,7 +39,7 @@ public:
   /** @p bubbles: their matrices; nullptr leaves w in V_N. */
   ContactCorrection(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
                     const AdmissibleFriction<dim> &friction,
-                    const AdmissiblePressure<dim> &pressure, EdgeBubbles<dim> *bubbles);
+                    const AdmissiblePressure<dim> &pressure, EdgeBubbles *bubbles);
 
   const std::vector<double> &gap() const; ///< of u_N - w, by contact face [stress length^dim]
   const std::vector<double> &uncorrected_gap() const; ///< of u_N

@@ -24,9 +24,8 @@ struct Trace
 };
 
 /** That of u_N along @p direction. @p legendre: coefficients of a polynomial from its values at the nodes of the face. */
-template <int dim>
-Trace trace_of(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
-               const Solution<dim> &solution, const Unknowns<dim> &unknowns,
+Trace trace_of(const ContactFace<2> &face, const dealii::Tensor<1, 2> &direction,
+               const Solution<2> &solution, const Unknowns<2> &unknowns,
                const dealii::FullMatrix<double> &legendre);
 } // namespace hpvi
 

@@ -45,7 +45,7 @@ public:
 
   CorrectionSearch(const Solution<dim> &solution, const Discretisation<dim> &discretisation,
                    const AdmissibleFriction<dim> &friction, const AdmissiblePressure<dim> &pressure,
-                   EdgeBubbles<dim> *bubbles);
+                   EdgeBubbles *bubbles);
 
   /** No correction. */
   Candidate nothing() const;
@@ -129,15 +129,15 @@ private:
   using Directions = std::vector<std::pair<dealii::Tensor<1, dim>, Trace *>>;
   using BubbleFace = std::pair<const ContactFace<dim> *, Directions>;
   void add_bubbles(unsigned int cell, const std::vector<BubbleFace> &own_faces,
-                   EdgeBubbles<dim> &bubbles);
+                   EdgeBubbles &bubbles);
   dealii::FullMatrix<double> bubbles_at_nodes(const dealii::FullMatrix<double> &coefficients,
                                               const Directions &directions) const;
-  void add_columns(unsigned int cell, const typename EdgeBubbles<dim>::Energies &energies);
+  void add_columns(unsigned int cell, const EdgeBubbles::Energies &energies);
 
   const Solution<dim> &solution;
   const Discretisation<dim> &discretisation;
   const AdmissibleFriction<dim> &friction;
-  const NodeFreedom<dim> freedom;
+  const NodeFreedom freedom;
   const std::vector<ContactFace<dim>> &faces;
   std::vector<Slip> slips;
   std::vector<Trace> traces; ///< of u_t

@@ -16,7 +16,6 @@ namespace hpvi
  * Displacements beyond those of the space: in one cell at a contact face, or at two, of degree q > p, with given traces on one
  * face, zero on the other edges of the cell, and with the least energy. Cells of one class share their matrices.
  */
-template <int dim>
 class EdgeBubbles
 {
 public:
@@ -31,12 +30,12 @@ public:
    * Column j of a matrix holds b_j at the q + 1 Gauss-Lobatto nodes along its face, component by component; it vanishes
    * at the ends. The faces are of one cell, and j counts through their columns.
    */
-  using Traces = std::vector<std::pair<const ContactFace<dim> *, dealii::FullMatrix<double>>>;
+  using Traces = std::vector<std::pair<const ContactFace<2> *, dealii::FullMatrix<double>>>;
 
-  Energies energies(const Traces &traces, const Scene<dim> &scene, const ShapeTables<dim> &tables);
+  Energies energies(const Traces &traces, const Scene<2> &scene, const ShapeTables<2> &tables);
 
 private:
-  std::map<typename ElementMatrices<dim>::Class, std::shared_ptr<const CondensedElement>> elements;
+  std::map<ElementMatrices<2>::Class, std::shared_ptr<const CondensedElement>> elements;
 };
 } // namespace hpvi
 

@@ -96,8 +96,8 @@ private:
                                                          double &own_stress);
 
   EquilibrationCache cache;
-  EdgeBubbles<2> bubbles;
-  std::unique_ptr<MixedProblem<2>> mixed; ///< where a material is nearly incompressible
+  EdgeBubbles bubbles;
+  std::unique_ptr<MixedProblem> mixed; ///< where a material is nearly incompressible
 };
 } // namespace hpvi
 

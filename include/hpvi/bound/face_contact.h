@@ -30,21 +30,18 @@ struct Slip
 };
 
 /** By face. One without friction slips, in no direction. */
-template <int dim>
-std::vector<Slip> slips_of(const Solution<dim> &solution);
+std::vector<Slip> slips_of(const Solution<2> &solution);
 
 /** Those that follow a face on either side along its side of the body, up to @p reach: around a corner they are others' business. */
-template <int dim>
 std::vector<unsigned int> faces_beside(unsigned int face, unsigned int reach,
-                                       const std::vector<ContactFace<dim>> &faces);
+                                       const std::vector<ContactFace<2>> &faces);
 
 /**
  * The end of slip may be on the first face that sticks as well as on the last that slips, with one Gauss point
  * on each always. That the former slips in part, with the direction of the latter, excludes neither; between two
  * that slip towards each other it has none.
  */
-template <int dim>
-void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<dim>> &faces);
+void free_neighbours(std::vector<Slip> &slips, const std::vector<ContactFace<2>> &faces);
 
 /** What happens along the normal on a face with unilateral contact. */
 struct Opening
@@ -61,19 +58,16 @@ struct Opening
   double gap(const EdgePolynomial &rest) const; ///< `int pi (u_0 - u_Nn + w_n)` over [0,1]
 };
 
-template <int dim>
-Opening opening_of(unsigned int face, const Solution<dim> &solution, const Unknowns<dim> &unknowns,
-                   const AdmissiblePressure<dim> &pressure, const LegendreTables &tables);
+Opening opening_of(unsigned int face, const Solution<2> &solution, const Unknowns<2> &unknowns,
+                   const AdmissiblePressure<2> &pressure, const LegendreTables &tables);
 
 /** The end of contact likewise may be on the first face that presses. */
-template <int dim>
 void free_neighbours(std::vector<std::optional<Opening>> &openings,
-                     const std::vector<ContactFace<dim>> &faces);
+                     const std::vector<ContactFace<2>> &faces);
 
-/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign [stress length^dim]; without @p l: `int g |v|`. */
-template <int dim>
-double friction_gap(const ContactFace<dim> &face, const EdgePolynomial &v,
-                    const ShapeTables<dim> &tables, const std::function<double(double)> &l = {});
+/** `int g (|v| - l v)` over one face, cut where g jumps or v changes sign [stress length^2]; without @p l: `int g |v|`. */
+double friction_gap(const ContactFace<2> &face, const EdgePolynomial &v,
+                    const ShapeTables<2> &tables, const std::function<double(double)> &l = {});
 } // namespace hpvi
 
 #endif

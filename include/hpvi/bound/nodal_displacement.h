@@ -23,7 +23,7 @@ template <int dim>
 class NodalDisplacement
 {
 public:
-  NodalDisplacement(const Solution<dim> &solution, const NodeFreedom<dim> &freedom)
+  NodalDisplacement(const Solution<dim> &solution, const NodeFreedom &freedom)
       : u(solution.u.size()), solution(solution), freedom(freedom)
   {
   }
@@ -41,7 +41,7 @@ public:
   dealii::Vector<double> u;
 
 private:
-  using Node = typename NodeFreedom<dim>::Node;
+  using Node = NodeFreedom::Node;
 
   /** The nodes of a face, those opposite, and what is wished of them. */
   struct Wish
@@ -90,7 +90,7 @@ private:
   void meet(const std::vector<Condition> &conditions);
 
   const Solution<dim> &solution;
-  const NodeFreedom<dim> &freedom;
+  const NodeFreedom &freedom;
   std::vector<Wish> wishes;
   std::map<dealii::types::global_dof_index, double> costs; ///< of nodes that are not to move first
 };

@@ -36,13 +36,11 @@ struct PressedFace
 };
 
 /** Of a contact face that has pressures, with its own parts. */
-template <int dim>
-PressedFace pressed_face(const ContactFace<dim> &face, const Solution<dim> &solution,
+PressedFace pressed_face(const ContactFace<2> &face, const Solution<2> &solution,
                          const LegendreTables &legendre);
 
 /** z_n as a polynomial of degree p. */
-template <int dim>
-EdgePolynomial discrete_pressure(const ContactFace<dim> &face, const Solution<dim> &solution);
+EdgePolynomial discrete_pressure(const ContactFace<2> &face, const Solution<2> &solution);
 } // namespace hpvi
 
 #endif

@@ -13,11 +13,10 @@ namespace hpvi
  * Nested dissection by the tree of cells, which refinement has grown: what lies between the halves of a cell separates all that is in them
  * (A. George, doi:10.1137/0710032). Only halves of some hundred cells and more are told apart, as minimum degree does better inside.
  */
-template <int dim>
 class Dissection
 {
 public:
-  Dissection(const dealii::Triangulation<dim> &triangulation, unsigned int n_unknowns);
+  Dissection(const dealii::Triangulation<2> &triangulation, unsigned int n_unknowns);
 
   /** The active cell @p cell has all of @p unknowns. */
   void add(unsigned int cell, const std::vector<unsigned int> &unknowns);
@@ -26,7 +25,7 @@ public:
   std::vector<unsigned int> stages() const;
 
 private:
-  using Cell = typename dealii::Triangulation<dim>::cell_iterator;
+  using Cell = dealii::Triangulation<2>::cell_iterator;
 
   /** A part of the mesh; those inside come before it. */
   struct Part

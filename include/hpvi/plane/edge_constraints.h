@@ -17,8 +17,7 @@ namespace hpvi
  * extrapolates the others from them, with weights that reached 5000 at p = 14. Their squares
  * multiply round-off (1e-9 of the solution was lost). Here the weights stay near 1.
  */
-template <int dim>
-void constrain_hanging_nodes(const DofNumbering<dim> &numbering, const ShapeTables<dim> &tables,
+void constrain_hanging_nodes(const DofNumbering<2> &numbering, const ShapeTables<2> &tables,
                              dealii::AffineConstraints<double> &constraints);
 } // namespace hpvi
 

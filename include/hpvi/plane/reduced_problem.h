@@ -28,8 +28,7 @@ struct ReducedSolution
  * added to d: by how much `B u` of a corrected displacement differs from what S and d promised. Throws NumericalFailure where the solver does not converge or where the
  * loads exceed what contact can resist.
  */
-template <int dim>
-ReducedSolution solve_reduced_problem(const Discretisation<dim> &discretisation,
+ReducedSolution solve_reduced_problem(const Discretisation<2> &discretisation,
                                       const SchurComplement &schur_complement,
                                       const dealii::Vector<double> &defect, ReducedSolution start);
 } // namespace hpvi
