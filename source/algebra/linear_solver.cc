@@ -20,7 +20,7 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/one_thread.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <algorithm>
 #include <string>
@@ -265,15 +265,15 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
   const bool is_new = !L;
   if (is_new)
     order_unknowns(*whole, hints_with(hints, kept, stabilisation), kept);
-  for_all(2, 1,
-          [&](const unsigned int k)
-          {
-            if (k == 1)
-              ordered.matrix =
-                  cholmod_ptranspose(whole, /*values=*/1, permutation.data(), nullptr, 0, &other);
-            else if (is_new)
-              analyse(*whole, more_bytes);
-          });
+  parallel_for_each(2, 1,
+                    [&](const unsigned int k)
+                    {
+                      if (k == 1)
+                        ordered.matrix = cholmod_ptranspose(whole, /*values=*/1, permutation.data(),
+                                                            nullptr, 0, &other);
+                      else if (is_new)
+                        analyse(*whole, more_bytes);
+                    });
   check(other);
   if (L->xtype == CHOLMOD_PATTERN)
     cholmod_change_factor(CHOLMOD_REAL, /*to_ll=*/true, /*to_super=*/true, /*to_packed=*/true,

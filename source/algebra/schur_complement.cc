@@ -11,7 +11,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/schur_complement.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 namespace hpvi
 {
@@ -27,21 +27,22 @@ namespace
 void reduce(const LAPACKFullMatrix<double> &C, LAPACKFullMatrix<double> &Y,
             LAPACKFullMatrix<double> &S)
 {
-  const unsigned int n = Y.m(), n_columns = Y.n(), at_once = 64;
+  const unsigned int n = Y.m(), n_columns = Y.n(), grain = 64;
   if (n_columns == 0)
     return;
   double *const y = &Y(0, 0), *const s = &S(0, 0);
-  in_parts(n_columns, at_once,
-           [&](const unsigned int begin, const unsigned int end) {
-             solve_triangular('N', n, end - begin, {&C(0, 0), n}, y + std::size_t(begin) * n, n);
-           });
-  in_parts(n_columns, at_once,
-           [&](const unsigned int begin, const unsigned int end)
-           {
-             double *const columns = s + std::size_t(begin) * n_columns;
-             multiply('T', 'N', end, end - begin, n, 1., {y, n}, {y + std::size_t(begin) * n, n},
-                      0., columns, n_columns);
-           });
+  parallel_for(
+      n_columns, grain,
+      [&](const unsigned int begin, const unsigned int end) {
+        solve_triangular('N', n, end - begin, {&C(0, 0), n}, y + std::size_t(begin) * n, n);
+      });
+  parallel_for(n_columns, grain,
+               [&](const unsigned int begin, const unsigned int end)
+               {
+                 double *const columns = s + std::size_t(begin) * n_columns;
+                 multiply('T', 'N', end, end - begin, n, 1., {y, n},
+                          {y + std::size_t(begin) * n, n}, 0., columns, n_columns);
+               });
   for (unsigned int j = 0; j < n_columns; ++j)
     for (unsigned int i = j + 1; i < n_columns; ++i)
       S(i, j) = S(j, i);

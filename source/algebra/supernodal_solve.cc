@@ -2,7 +2,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/supernodal_solve.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <algorithm>
 #include <vector>
@@ -98,8 +98,9 @@ void solve_forward(const cholmod_factor &L, const SharedSupernodes &shared, doub
 {
   const Blocks blocks(L);
   std::vector<std::vector<double>> outside(shared.subtrees.size());
-  for_all(shared.subtrees.size(), 1,
-          [&](const unsigned int k) { solve_forward(blocks, shared.subtrees[k], x, outside[k]); });
+  parallel_for_each(shared.subtrees.size(), 1,
+                    [&](const unsigned int k)
+                    { solve_forward(blocks, shared.subtrees[k], x, outside[k]); });
   for (unsigned int k = 0; k < outside.size(); ++k)
     for (unsigned int i = 0; i < outside[k].size(); ++i)
       x[blocks.below(shared.subtrees[k].back())[i]] -= outside[k][i];
@@ -120,12 +121,13 @@ void solve_backward(const cholmod_factor &L, const SharedSupernodes &shared, dou
   for (auto level = shared.above.rbegin(); level != shared.above.rend(); ++level)
     for (const int s : *level)
       blocks.backward(s, x, product);
-  for_all(shared.subtrees.size(), 1,
-          [&](const unsigned int k)
-          {
-            std::vector<double> own;
-            for (auto s = shared.subtrees[k].rbegin(); s != shared.subtrees[k].rend(); ++s)
-              blocks.backward(*s, x, own);
-          });
+  parallel_for_each(shared.subtrees.size(), 1,
+                    [&](const unsigned int k)
+                    {
+                      std::vector<double> own;
+                      for (auto s = shared.subtrees[k].rbegin(); s != shared.subtrees[k].rend();
+                           ++s)
+                        blocks.backward(*s, x, own);
+                    });
 }
 } // namespace hpvi

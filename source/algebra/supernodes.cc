@@ -7,7 +7,7 @@
 // which also touch the memory of the factor first where they are set, the dearest part of a large one.
 #include <deal.II/lac/lapack_templates.h>
 #include <hpvi/algebra/supernodes.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <algorithm>
 #include <atomic>
@@ -282,13 +282,13 @@ void Supernodes::complete(const int s, const int first_column, const int end_col
   dealii::potrf("L", &columns, block, &m, &info);
   if (info != 0)
     is_positive = false;
-  for_all((rest + panel_rows - 1) / panel_rows, 1,
-          [&](const unsigned int k)
-          {
-            const blas_int part = std::min(panel_rows, rest - int(k) * panel_rows);
-            dtrsm_("R", "L", "C", "N", &part, &columns, &one, block, &m,
-                   block + columns + k * panel_rows, &m);
-          });
+  parallel_for_each((rest + panel_rows - 1) / panel_rows, 1,
+                    [&](const unsigned int k)
+                    {
+                      const blas_int part = std::min(panel_rows, rest - int(k) * panel_rows);
+                      dtrsm_("R", "L", "C", "N", &part, &columns, &one, block, &m,
+                             block + columns + k * panel_rows, &m);
+                    });
 }
 
 /** Panel by panel, each of which is subtracted from all that follow. */
@@ -302,19 +302,20 @@ void Supernodes::complete_panels(const int s)
   {
     const int end = std::min(begin + panel, columns);
     complete(s, begin, end);
-    for_all((columns - end + panel - 1) / panel, 1,
-            [&](const unsigned int k)
-            {
-              const int first_column = end + k * panel;
-              const blas_int inner = end - begin, part = std::min(panel, columns - first_column),
-                             rest = m - first_column - part;
-              double *const target = block + std::size_t(first_column) * (m + 1);
-              const double *const from = block + std::size_t(begin) * m + first_column;
-              dsyrk_("L", "N", &part, &inner, &minus, from, &m, &one, target, &m);
-              if (rest > 0)
-                dealii::gemm("N", "C", &rest, &part, &inner, &minus, from + part, &m, from, &m,
-                             &one, target + part, &m);
-            });
+    parallel_for_each((columns - end + panel - 1) / panel, 1,
+                      [&](const unsigned int k)
+                      {
+                        const int first_column = end + k * panel;
+                        const blas_int inner = end - begin,
+                                       part = std::min(panel, columns - first_column),
+                                       rest = m - first_column - part;
+                        double *const target = block + std::size_t(first_column) * (m + 1);
+                        const double *const from = block + std::size_t(begin) * m + first_column;
+                        dsyrk_("L", "N", &part, &inner, &minus, from, &m, &one, target, &m);
+                        if (rest > 0)
+                          dealii::gemm("N", "C", &rest, &part, &inner, &minus, from + part, &m,
+                                       from, &m, &one, target + part, &m);
+                      });
   }
 }
 
@@ -330,14 +331,14 @@ void Supernodes::factor(const int s, Scratch &scratch)
     complete(s, 0, columns);
     return;
   }
-  for_all((columns + panel - 1) / panel, 1,
-          [&](const unsigned int k)
-          {
-            std::unique_ptr<Scratch> own = take_scratch();
-            const int begin = k * panel;
-            set_columns(s, scratch.place, begin, std::min(begin + panel, columns), *own);
-            give_back(std::move(own));
-          });
+  parallel_for_each((columns + panel - 1) / panel, 1,
+                    [&](const unsigned int k)
+                    {
+                      std::unique_ptr<Scratch> own = take_scratch();
+                      const int begin = k * panel;
+                      set_columns(s, scratch.place, begin, std::min(begin + panel, columns), *own);
+                      give_back(std::move(own));
+                    });
   complete_panels(s);
 }
 
@@ -359,24 +360,24 @@ void Supernodes::give_back(std::unique_ptr<Scratch> scratch)
 
 bool Supernodes::factor()
 {
-  for_all(shared.subtrees.size(), 1,
-          [&](const unsigned int k)
-          {
-            std::unique_ptr<Scratch> scratch = take_scratch();
-            for (const int s : shared.subtrees[k])
-              if (is_positive)
-                factor(s, *scratch);
-            give_back(std::move(scratch));
-          });
+  parallel_for_each(shared.subtrees.size(), 1,
+                    [&](const unsigned int k)
+                    {
+                      std::unique_ptr<Scratch> scratch = take_scratch();
+                      for (const int s : shared.subtrees[k])
+                        if (is_positive)
+                          factor(s, *scratch);
+                      give_back(std::move(scratch));
+                    });
   for (const std::vector<int> &level : shared.above)
-    for_all(level.size(), 1,
-            [&](const unsigned int k)
-            {
-              std::unique_ptr<Scratch> scratch = take_scratch();
-              if (is_positive)
-                factor(level[k], *scratch);
-              give_back(std::move(scratch));
-            });
+    parallel_for_each(level.size(), 1,
+                      [&](const unsigned int k)
+                      {
+                        std::unique_ptr<Scratch> scratch = take_scratch();
+                        if (is_positive)
+                          factor(level[k], *scratch);
+                        give_back(std::move(scratch));
+                      });
   return is_positive;
 }
 } // namespace

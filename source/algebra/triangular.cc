@@ -71,10 +71,10 @@ template <class From>
 void solve_forward(const unsigned int n, const unsigned int columns, const From &from,
                    double *const B, const unsigned int stride)
 {
-  const unsigned int at_once = columns == 1 ? block : narrow;
-  for (unsigned int first = 0; first < n; first += at_once)
+  const unsigned int grain = columns == 1 ? block : narrow;
+  for (unsigned int first = 0; first < n; first += grain)
   {
-    const unsigned int width = std::min(n - first, at_once);
+    const unsigned int width = std::min(n - first, grain);
     const DensePart L = from(first);
     for (unsigned int k = 0; k < columns; ++k)
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/admissible_pressure.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/displacement_lift.h>
@@ -276,12 +276,12 @@ double absolute_traction(const EquilibratedStress &stress, const unsigned int in
 void DataError::add_initial_strain(const Solution<2> &solution, const EquilibratedStress &stress)
 {
   std::vector<double> squares(oscillation.size()); // of what the discrete equations miss
-  for_all(squares.size(), 8,
-          [&](const unsigned int cell)
-          {
-            oscillation[cell] += stress.missed_initial_stress(cell);
-            squares[cell] = stress.initial_stress_error(solution, cell);
-          });
+  parallel_for_each(squares.size(), 8,
+                    [&](const unsigned int cell)
+                    {
+                      oscillation[cell] += stress.missed_initial_stress(cell);
+                      squares[cell] = stress.initial_stress_error(solution, cell);
+                    });
   const double norm = std::sqrt(
       internal_forces(solution.scene, solution.displacement_space, solution.tables, solution.u)
           .energy_product);
@@ -332,8 +332,9 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
   }
   std::vector<double> missed_forces(oscillation.size());
   if (solution.scene.has_body_force())
-    for_all(missed_forces.size(), 8,
-            [&](const unsigned int cell) { missed_forces[cell] = stress.missed_force(cell); });
+    parallel_for_each(missed_forces.size(), 8,
+                      [&](const unsigned int cell)
+                      { missed_forces[cell] = stress.missed_force(cell); });
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
   {
     lift += lifts[cell] * lifts[cell];

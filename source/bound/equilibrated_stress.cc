@@ -176,22 +176,22 @@ void EquilibratedStress::set_tractions(const bool has_long_cells, const double i
 /** A hundred at a time, which is enough for all threads and little to keep. */
 void EquilibratedStress::solve_patches()
 {
-  constexpr std::size_t at_once = 128;
+  constexpr std::size_t grain = 128;
   const auto &all = vertex_patches.patches();
   std::vector<Patch> patches;
-  for (std::size_t first = 0; first < all.size(); first += at_once)
+  for (std::size_t first = 0; first < all.size(); first += grain)
   {
     patches.clear();
-    patches.resize(std::min(at_once, all.size() - first));
-    for_all(patches.size(), 16,
-            [&](const unsigned int k)
-            {
-              patches[k].vertex = all[first + k].vertex;
-              const Hats ordered = by_shape(all[first + k], vertex_patches);
-              for (const auto &[cell, hat] : ordered)
-                patches[k].cells.push_back(patch_cell(cell, hat));
-              patches[k].edges = edges_of(ordered, vertex_patches, boundary, sums);
-            });
+    patches.resize(std::min(grain, all.size() - first));
+    parallel_for_each(patches.size(), 16,
+                      [&](const unsigned int k)
+                      {
+                        patches[k].vertex = all[first + k].vertex;
+                        const Hats ordered = by_shape(all[first + k], vertex_patches);
+                        for (const auto &[cell, hat] : ordered)
+                          patches[k].cells.push_back(patch_cell(cell, hat));
+                        patches[k].edges = edges_of(ordered, vertex_patches, boundary, sums);
+                      });
     const std::vector<PatchDefect> missed = hpvi::solve_patches(patches, cache);
     for (unsigned int k = 0; k < patches.size(); ++k)
       if (const double most = std::max(missed[k].equilibrium, missed[k].corners); !(most <= defect))
@@ -288,9 +288,9 @@ void EquilibratedStress::measure()
   if (plain_stresses)
     squares = plain_stresses->squares([&](const unsigned int cell) { return data_of(cell); });
   else
-    for_all(squares.size(), 8,
-            [&](const unsigned int cell)
-            { squares[cell] = macro_stresses->square(cell, macro_tractions(cell)); });
+    parallel_for_each(squares.size(), 8,
+                      [&](const unsigned int cell)
+                      { squares[cell] = macro_stresses->square(cell, macro_tractions(cell)); });
 }
 
 void EquilibratedStress::measure_from(const Solution<2> &other)

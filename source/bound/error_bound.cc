@@ -17,8 +17,8 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/team.h>
 #include <hpvi/base/text.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/admissible_friction.h>
 #include <hpvi/bound/contact_correction.h>
 #include <hpvi/bound/data_error.h>
@@ -363,16 +363,16 @@ try
   const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
   std::optional<ContactCorrection<2>> corrected, within_space;
   std::optional<DataError> missed;
-  for_all(is_moved ? 3 : 2, 1,
-          [&](const unsigned int k)
-          {
-            if (k == 0)
-              correct(&bubbles, corrected);
-            else if (k == 1)
-              missed.emplace(solution, stress);
-            else
-              correct(nullptr, within_space);
-          });
+  parallel_for_each(is_moved ? 3 : 2, 1,
+                    [&](const unsigned int k)
+                    {
+                      if (k == 0)
+                        correct(&bubbles, corrected);
+                      else if (k == 1)
+                        missed.emplace(solution, stress);
+                      else
+                        correct(nullptr, within_space);
+                    });
   const ContactCorrection<2> &correction = *corrected;
   const DataError &data = *missed;
   set_squares(result, solution, stress, correction, data);

@@ -242,7 +242,8 @@ MacroStresses::MacroStresses(const Solution<2> &solution, const VertexPatches &p
     : solution(solution), patches(patches), cache(cache), cells(patches.cells().size())
 {
   std::vector<EquilibrationCache::Signature> keys(cells.size());
-  for_all(cells.size(), 32, [&](const unsigned int cell) { keys[cell] = class_of(patches, cell); });
+  parallel_for_each(cells.size(), 32,
+                    [&](const unsigned int cell) { keys[cell] = class_of(patches, cell); });
   using Kept = decltype(cache.macro_elements)::mapped_type;
   const auto elements = ordered_values(
       cache.macro_elements, keys,
@@ -259,7 +260,7 @@ MacroStresses::MacroStresses(const Solution<2> &solution, const VertexPatches &p
     elements[cell]->is_used = true;
     cells[cell].element = elements[cell]->value.get();
   }
-  for_all(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
+  parallel_for_each(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
 }
 
 void MacroStresses::set_cell(const unsigned int index)

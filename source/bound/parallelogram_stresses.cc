@@ -147,7 +147,7 @@ void ParallelogramStresses::set_cells(const std::vector<unsigned int> &marked)
       for (unsigned int j = 0; j < 2; ++j)
         keys[index].push_back(std::lround(1e11 * cell.B[i][j]));
   };
-  for_all(cells.size(), 32, place);
+  parallel_for_each(cells.size(), 32, place);
   const auto elements =
       ordered_values(cache.elements, keys,
                      [&](const unsigned int index)
@@ -168,7 +168,7 @@ void ParallelogramStresses::set_cells(const std::vector<unsigned int> &marked)
       cells[index].force = force_modes(solution, patches.cells()[index].iterator, cells[index].B,
                                        cells[index].h, cells[index].element->m, cache.legendre);
   };
-  for_all(cells.size(), 16, add_loads);
+  parallel_for_each(cells.size(), 16, add_loads);
   for (unsigned int index = 0; index < cells.size(); ++index)
   {
     Cell &cell = cells[index];
@@ -216,13 +216,13 @@ CellStress ParallelogramStresses::cell_stress(const unsigned int index) const
 /** Some cells of one batch at a time: what they need on the way stays in the cache. */
 std::vector<ParallelogramStresses::Part> ParallelogramStresses::parts()
 {
-  constexpr std::size_t at_once = 64;
+  constexpr std::size_t grain = 64;
   std::vector<Part> result;
   for (auto &[key, batch] : batches)
-    for (std::size_t first = 0; first < batch.cells.size(); first += at_once)
+    for (std::size_t first = 0; first < batch.cells.size(); first += grain)
       result.push_back({&batch,
                         {batch.cells.begin() + first,
-                         batch.cells.begin() + std::min(first + at_once, batch.cells.size())}});
+                         batch.cells.begin() + std::min(first + grain, batch.cells.size())}});
   return result;
 }
 
@@ -330,7 +330,7 @@ void ParallelogramStresses::set_data()
     batch.defects.reset(new double[std::size_t(element.n_conditions()) * batch.n_hats]);
   }
   const std::vector<Part> all = parts();
-  for_all(all.size(), 1, [&](const unsigned int k) { set_part(all[k]); });
+  parallel_for_each(all.size(), 1, [&](const unsigned int k) { set_part(all[k]); });
 }
 
 /** Those of sigma and -F alone. */
@@ -393,7 +393,7 @@ void ParallelogramStresses::measure_from(const Solution<2> &other)
   measured = &other;
   is_projected = false;
   const std::vector<Part> all = parts();
-  for_all(all.size(), 1, [&](const unsigned int k) { set_own_data(all[k]); });
+  parallel_for_each(all.size(), 1, [&](const unsigned int k) { set_own_data(all[k]); });
 }
 
 std::vector<double> ParallelogramStresses::squares(const WithTractions &with_tractions)
@@ -417,7 +417,7 @@ std::vector<double> ParallelogramStresses::squares(const WithTractions &with_tra
           std::pow(cells[some_cells[k]].h, 2) * std::inner_product(y, y + element.n_data, y, 0.);
     }
   };
-  for_all(all.size(), 1, measure);
+  parallel_for_each(all.size(), 1, measure);
   return result;
 }
 

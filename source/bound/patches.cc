@@ -2,7 +2,7 @@
 
 // Patches of one signature share a factor, and those of one form the choice of their conditions. Both are made by the first of them, to
 // the last bit: so they are looked up in order, by one thread, and what is long in each step is done by all.
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/patches.h>
 
 #include <algorithm>
@@ -72,17 +72,18 @@ void choose_conditions(std::vector<NewPatch> &patches, EquilibrationCache &cache
   std::vector<std::pair<const Form *, NewPatch *>> open;
   do
   {
-    for_all(forms.size(), 1, [&](const unsigned int k) { forms[k].renew(); });
+    parallel_for_each(forms.size(), 1, [&](const unsigned int k) { forms[k].renew(); });
     open.clear();
     for (const Form &form : forms)
       for (unsigned int k = form.n_settled; k < form.patches.size(); ++k)
         open.emplace_back(&form, form.patches[k]);
-    for_all(open.size(), 4,
-            [&](const unsigned int k)
-            {
-              const auto &[form, patch] = open[k];
-              patch->is_settled = patch->problem->choose(*form->conditions, *patch->factor);
-            });
+    parallel_for_each(open.size(), 4,
+                      [&](const unsigned int k)
+                      {
+                        const auto &[form, patch] = open[k];
+                        patch->is_settled =
+                            patch->problem->choose(*form->conditions, *patch->factor);
+                      });
     for (Form &form : forms)
       form.count_settled();
   } while (!open.empty());
@@ -92,15 +93,15 @@ void choose_conditions(std::vector<NewPatch> &patches, EquilibrationCache &cache
 std::vector<PatchDefect> solve_patches(const std::vector<Patch> &patches, EquilibrationCache &cache)
 {
   const unsigned int n = patches.size();
-  constexpr unsigned int at_once = 8;
+  constexpr unsigned int grain = 8;
   std::vector<std::optional<PatchProblem>> problems(n);
   std::vector<EquilibrationCache::Signature> signatures(n);
-  for_all(n, at_once,
-          [&](const unsigned int k)
-          {
-            problems[k].emplace(patches[k], cache);
-            signatures[k] = problems[k]->signature();
-          });
+  parallel_for_each(n, grain,
+                    [&](const unsigned int k)
+                    {
+                      problems[k].emplace(patches[k], cache);
+                      signatures[k] = problems[k]->signature();
+                    });
   std::vector<const PatchFactor *> factors;
   std::vector<NewPatch> new_patches;
   for (unsigned int k = 0; k < n; ++k)
@@ -111,16 +112,17 @@ std::vector<PatchDefect> solve_patches(const std::vector<Patch> &patches, Equili
     if (is_new)
       new_patches.push_back({&*problems[k], &found->second.value, {}});
   }
-  for_all(new_patches.size(), 2,
-          [&](const unsigned int k)
-          {
-            NewPatch &patch = new_patches[k];
-            patch.problem->set_matrices(*patch.factor);
-            patch.form = patch.problem->form(*patch.factor);
-          });
+  parallel_for_each(new_patches.size(), 2,
+                    [&](const unsigned int k)
+                    {
+                      NewPatch &patch = new_patches[k];
+                      patch.problem->set_matrices(*patch.factor);
+                      patch.form = patch.problem->form(*patch.factor);
+                    });
   choose_conditions(new_patches, cache);
   std::vector<PatchDefect> defects(n);
-  for_all(n, at_once, [&](const unsigned int k) { defects[k] = problems[k]->solve(*factors[k]); });
+  parallel_for_each(n, grain,
+                    [&](const unsigned int k) { defects[k] = problems[k]->solve(*factors[k]); });
   for (const std::optional<PatchProblem> &problem : problems)
     problem->add_tractions();
   return defects;

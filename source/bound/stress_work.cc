@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/stress_work.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/elastic_system.h>
@@ -64,12 +64,12 @@ std::vector<WorkOnPart> stress_on_parts(const Solution<2> &solution, const Trian
       [&](const Cell &a, const BoundingBox<2> &in_a, const Cell &b, const BoundingBox<2> &in_b) {
         parts.push_back({a, in_a, b, in_b, {}});
       });
-  for_all(parts.size(), 8,
-          [&](const unsigned int k)
-          {
-            parts[k].work = stress_on_part(solution, parts[k],
-                                           degrees[parts[k].b->active_cell_index()], tables);
-          });
+  parallel_for_each(parts.size(), 8,
+                    [&](const unsigned int k)
+                    {
+                      parts[k].work = stress_on_part(
+                          solution, parts[k], degrees[parts[k].b->active_cell_index()], tables);
+                    });
   return parts;
 }
 

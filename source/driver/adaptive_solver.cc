@@ -58,7 +58,7 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState<dim>
                                     MPI_Comm communicator)
     : AdaptiveSolver(scene, communicator)
 {
-  const Team team = team_of(stages->scene, communicator); // as in run()
+  const ThreadPool pool = thread_pool_of(stages->scene, communicator); // as in run()
   stages->hear([](const Progress &) {});
   state.require_scene(scene, hpvi::n_processes(communicator));
   // Where a load step has ended nothing is left to mark, and element matrices are the next one's.
@@ -96,7 +96,7 @@ std::optional<ReducedPart<dim>> AdaptiveSolver<dim>::reduced() const
 template <int dim>
 void AdaptiveSolver<dim>::prepare(const Announce &about_to)
 {
-  const Team team = team_of(stages->scene, stages->backend->communicator);
+  const ThreadPool pool = thread_pool_of(stages->scene, stages->backend->communicator);
   stages->hear(about_to);
   stages->backend->discretise();
 }
@@ -139,7 +139,7 @@ template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
                               const Announce &about_to)
 {
-  const Team team = team_of(stages->scene, stages->backend->communicator);
+  const ThreadPool pool = thread_pool_of(stages->scene, stages->backend->communicator);
   stages->hear(about_to);
   try
   {

@@ -4,7 +4,7 @@
 #include <hpvi/base/finite.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/driver/claims.h>
 #include <hpvi/driver/column_width.h>
 #include <hpvi/driver/limits.h>
@@ -315,7 +315,7 @@ StepReport<dim> StepStages<dim>::tell()
     step.emplace(report());
   };
   std::unique_ptr<Backend<dim>> next =
-      team_size() > 1 && goes_on() ? backend->ahead(refinement) : nullptr;
+      pool_size() > 1 && goes_on() ? backend->ahead(refinement) : nullptr;
   if (next)
   {
     announce(*next);
@@ -474,21 +474,21 @@ StepAhead<dim>::StepAhead(std::unique_ptr<Backend<dim>> next_step, Backend<dim> 
   double both = 0;
   {
     StageTimer timer(both);
-    for_all(2, 1,
-            [&](const unsigned int part)
-            {
-              if (part == 1)
-                return tell();
-              try
-              {
-                next->discretise();
-                next->solve();
-              }
-              catch (...)
-              {
-                failure = std::current_exception();
-              }
-            });
+    parallel_for_each(2, 1,
+                      [&](const unsigned int part)
+                      {
+                        if (part == 1)
+                          return tell();
+                        try
+                        {
+                          next->discretise();
+                          next->solve();
+                        }
+                        catch (...)
+                        {
+                          failure = std::current_exception();
+                        }
+                      });
   }
   const double share = both / (next->times.total() + here.times.total());
   next->times *= share;

@@ -31,13 +31,13 @@ unsigned int n_threads(const Scene<dim> &scene, const unsigned int n_processes)
 }
 
 template <int dim>
-Team team_of(const Scene<dim> &scene, MPI_Comm communicator)
+ThreadPool thread_pool_of(const Scene<dim> &scene, MPI_Comm communicator)
 {
-  return Team(n_threads(scene, n_processes(communicator)));
+  return ThreadPool(n_threads(scene, n_processes(communicator)));
 }
 
-template Team team_of(const Scene<2> &, MPI_Comm);
-template Team team_of(const Scene<3> &, MPI_Comm);
+template ThreadPool thread_pool_of(const Scene<2> &, MPI_Comm);
+template ThreadPool thread_pool_of(const Scene<3> &, MPI_Comm);
 template unsigned int n_threads(const Scene<2> &, unsigned int);
 template unsigned int n_threads(const Scene<3> &, unsigned int);
 } // namespace hpvi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/initial_stress.h>
 
@@ -95,11 +95,11 @@ void for_each_strain(const Scene<2> &scene, const DisplacementSpace<2> &space,
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (scene.has_initial_strain() && scene.initial_strains[cell->material_id()])
       cells.push_back(cell);
-  for_all(cells.size(), 4,
-          [&](const unsigned int k) {
-            f(cells[k]->active_cell_index(),
-              StrainOfCell(scene, space, tables, rules, volume, cells[k]));
-          });
+  parallel_for_each(cells.size(), 4,
+                    [&](const unsigned int k) {
+                      f(cells[k]->active_cell_index(),
+                        StrainOfCell(scene, space, tables, rules, volume, cells[k]));
+                    });
 }
 } // namespace
 

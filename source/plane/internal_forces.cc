@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_templates.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/plane/element_matrices.h>
 #include <hpvi/plane/internal_forces.h>
 #include <hpvi/plane/springs.h>
@@ -229,7 +229,8 @@ InternalForces internal_forces(const Scene<dim> &scene, const DisplacementSpace<
     }
   for (auto &[key, last] : batches)
     parts.emplace_back(&last.first, std::move(last.second));
-  for_all(parts.size(), 1, [&](const unsigned int k) { parts[k].first->set(u, parts[k].second); });
+  parallel_for_each(parts.size(), 1,
+                    [&](const unsigned int k) { parts[k].first->set(u, parts[k].second); });
   for (const auto &[batch, part] : parts)
     batch->add(part, result);
   result.energy_product += add_spring_forces(spring_faces(scene, space, tables), u, result.forces);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/mpi.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/plane/edge_constraints.h>
 #include <hpvi/plane/internal_forces.h>
 #include <hpvi/plane/mesh.h>
@@ -269,7 +269,7 @@ struct Balance
       else
         beside();
     };
-    for_all(3, 1, part);
+    parallel_for_each(3, 1, part);
   }
 };
 

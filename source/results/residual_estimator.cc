@@ -15,7 +15,7 @@
 // practice: where $p$ is high the indicator overestimates, by a factor that grows with $p$.
 #include <deal.II/base/symmetric_tensor.h>
 #include <hpvi/base/processes.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/plane/load_quadrature.h>
 #include <hpvi/results/contact_residuals.h>
 #include <hpvi/results/elastic_strain.h>
@@ -386,7 +386,7 @@ ErrorEstimate Residuals<dim>::compute()
                !scene.boundaries[cell->face(face)->boundary_id()].has_contact())
         add_boundary(cell, face);
   };
-  for_all(cells.size(), 8, look_at);
+  parallel_for_each(cells.size(), 8, look_at);
   for (unsigned int k = 0; k < cells.size(); ++k) // in order, for they belong to two cells
     for (const unsigned int face : cells[k]->face_indices())
       if (jumps[k][face] != unseen)

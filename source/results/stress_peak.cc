@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/results/contact_traces.h>
 #include <hpvi/results/elastic_strain.h>
 #include <hpvi/results/probe_value.h>
@@ -76,9 +76,9 @@ std::vector<StressSample<dim>> own_stress_samples(const Field<dim> &field)
       cells.push_back(cell);
   const std::size_t first = result.size();
   result.resize(first + cells.size());
-  for_all(cells.size(), 16,
-          [&](const unsigned int k)
-          { result[first + k] = largest_von_mises<dim>(cells[k], field); });
+  parallel_for_each(cells.size(), 16,
+                    [&](const unsigned int k)
+                    { result[first + k] = largest_von_mises<dim>(cells[k], field); });
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/driver/load_history.h>
 
 #include <atomic>
@@ -48,7 +48,7 @@ TEST(Supernodes, AreTheSameOnAnyThreads)
   std::vector<std::vector<double>> results;
   for (const unsigned int n_threads : {1U, 2U, 3U})
   {
-    const Team team(n_threads);
+    const ThreadPool pool(n_threads);
     const LinearSolver solver(A, kept);
     const dealii::Vector<double> x = solver.solve(f);
     residual = f;
@@ -178,7 +178,7 @@ TEST(ThreadsAtTheEnd, EndWhenTheListenerHasEnough)
                                               }),
                  NumericalFailure);
     EXPECT_EQ(n_told, step - 1);
-    EXPECT_EQ(team_size(), 1U);
+    EXPECT_EQ(pool_size(), 1U);
   }
 }
 
@@ -248,7 +248,7 @@ TEST(ThreadsAtTheEnd, RefuseTheSamePoint)
     {
       messages.emplace_back(error.what());
     }
-    EXPECT_EQ(team_size(), 1U);
+    EXPECT_EQ(pool_size(), 1U);
   }
   EXPECT_EQ(messages[0], messages[1]);
   EXPECT_NE(messages[0], "none");

@@ -7,7 +7,7 @@
 namespace hpvi
 {
 /**
- * `x := L^-1 x` with the numbers that factor_supernodes() has set, x in the order of L: subtrees by all threads of the team, then what is above
+ * `x := L^-1 x` with the numbers that factor_supernodes() has set, x in the order of L: subtrees by all threads of the thread pool, then what is above
  * them. What subtrees add to the rest is added in their order, so that no bit depends on the number of threads.
  */
 void solve_forward(const cholmod_factor &L, const SharedSupernodes &shared, double *x);

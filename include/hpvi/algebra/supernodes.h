@@ -19,7 +19,7 @@ struct SharedSupernodes
 
 /**
  * The numbers of the supernodal factor L of a matrix whose lower triangle @p A is in the order of L, columns that CHOLMOD has analysed: L
- * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the team; of what is above them, those
+ * holds none so far, or those of another matrix. Subtrees of the elimination tree by all threads of the thread pool; of what is above them, those
  * that are not above one another, and each in panels of columns. Parts and sums do not depend on the number of threads, and nor does a bit.
  * Returns nothing where A is not positive definite.
  */

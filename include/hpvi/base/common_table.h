@@ -2,7 +2,7 @@
 #ifndef hpvi_common_table_h
 #define hpvi_common_table_h
 
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <utility>
 #include <vector>
@@ -50,7 +50,7 @@ const typename Map::mapped_type &common_value(Map &map, const typename Map::key_
 }
 
 /**
- * The values of @p keys in a map, in their order. Where there is none so far, `make(k)` by all threads of the team, k the first place of its
+ * The values of @p keys in a map, in their order. Where there is none so far, `make(k)` by all threads of the thread pool, k the first place of its
  * key: so it is the same whatever their number. None is left behind where one throws.
  */
 template <class Map, class Make>
@@ -68,8 +68,9 @@ ordered_values(Map &map, const std::vector<typename Map::key_type> &keys, const 
   }
   try
   {
-    for_all(added.size(), 1,
-            [&](const unsigned int place) { *result[added[place]] = make(added[place]); });
+    parallel_for_each(added.size(), 1,
+                      [&](const unsigned int place)
+                      { *result[added[place]] = make(added[place]); });
   }
   catch (...)
   {

@@ -84,7 +84,7 @@ private:
 };
 
 /**
- * The problems of some patches, on all threads of the team, as if one were solved after the other: tractions are added to the sums of
+ * The problems of some patches, on all threads of the thread pool, as if one were solved after the other: tractions are added to the sums of
  * their edges, which hold given ones. What each leaves of |N'r| at most.
  */
 std::vector<PatchDefect> solve_patches(const std::vector<Patch> &patches,

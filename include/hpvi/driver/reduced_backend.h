@@ -4,7 +4,7 @@
 
 #include <hpvi/algebra/linear_solver.h>
 #include <hpvi/base/dense_work.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/resultant_intervals.h>
 #include <hpvi/driver/backend.h>
 #include <hpvi/plane/multiplier_trace.h>
@@ -163,7 +163,7 @@ private:
     double both = 0; // less than their sum where there are two threads
     {
       StageTimer timer(both);
-      for_all(2, 1, part);
+      parallel_for_each(2, 1, part);
     }
     times.bound += both * seconds[0] / (seconds[0] + seconds[1]);
     times.recover += both * seconds[1] / (seconds[0] + seconds[1]);

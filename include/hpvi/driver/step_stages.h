@@ -18,7 +18,7 @@
 namespace hpvi
 {
 /**
- * The next step, solved while the team still finds out what is to be told of this one: the bound needs this mesh and its
+ * The next step, solved while the thread pool still finds out what is to be told of this one: the bound needs this mesh and its
  * solution, the next solution neither, so that two threads have work all the time.
  */
 template <int dim>

@@ -2,7 +2,7 @@
 #ifndef hpvi_threads_h
 #define hpvi_threads_h
 
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 #include <hpvi/scene/scene.h>
 
 #include <mpi.h>
@@ -18,7 +18,7 @@ unsigned int n_threads(const Scene<dim> &scene, unsigned int n_processes);
 
 /** As many, for the calling one. */
 template <int dim>
-Team team_of(const Scene<dim> &scene, MPI_Comm communicator);
+ThreadPool thread_pool_of(const Scene<dim> &scene, MPI_Comm communicator);
 } // namespace hpvi
 
 #endif

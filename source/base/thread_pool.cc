@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,10 +19,10 @@ namespace
 /** How long a thread without work looks for some before it sleeps. */
 constexpr std::chrono::microseconds longest_look(50);
 
-/** One call of in_parts(). */
+/** One call of parallel_for(). */
 struct Job
 {
-  const unsigned int n, at_once;
+  const unsigned int n, grain;
   const std::function<void(unsigned int, unsigned int)> &work;
   const Job *const outer; ///< a part of which has begun it; null: none
   unsigned int next = 0, n_at_work = 0;
@@ -45,7 +45,7 @@ struct Job
 };
 } // namespace
 
-struct Team::Crew
+struct ThreadPool::Workers
 {
   std::mutex mutex; ///< of all that follows
   std::condition_variable begun,
@@ -59,27 +59,27 @@ struct Team::Crew
   void tell(std::condition_variable &whom);
   void wait(std::condition_variable &on, std::unique_lock<std::mutex> &lock);
   Job *open_job(const Job *inside) const;
-  void take_parts(Job &of, std::unique_lock<std::mutex> &lock);
+  void take_ranges(Job &of, std::unique_lock<std::mutex> &lock);
   void help();
   void end();
 };
 
 namespace
 {
-thread_local Team::Crew *serving = nullptr; ///< the calling thread
-thread_local bool has_team = false;         ///< has it one, or is it of one?
-thread_local const Job *at_work = nullptr;  ///< whose part it is working on
-std::atomic<bool> are_cores_taken(false);   ///< by the team of any thread
+thread_local ThreadPool::Workers *serving = nullptr; ///< the calling thread
+thread_local bool has_team = false;                  ///< has it one, or is it of one?
+thread_local const Job *at_work = nullptr;           ///< whose part it is working on
+std::atomic<bool> are_cores_taken(false);            ///< by the thread pool of any thread
 } // namespace
 
-void Team::Crew::tell(std::condition_variable &whom)
+void ThreadPool::Workers::tell(std::condition_variable &whom)
 {
   ++n_changes;
   whom.notify_all();
 }
 
 /** For a change: to sleep and to be woken takes longer than most of what there is to wait for. */
-void Team::Crew::wait(std::condition_variable &on, std::unique_lock<std::mutex> &lock)
+void ThreadPool::Workers::wait(std::condition_variable &on, std::unique_lock<std::mutex> &lock)
 {
   const unsigned int before = n_changes;
   lock.unlock();
@@ -92,7 +92,7 @@ void Team::Crew::wait(std::condition_variable &on, std::unique_lock<std::mutex> 
 }
 
 /** The innermost with parts that nobody has taken, of those inside of one; of all, if that is null. Null: none. */
-Job *Team::Crew::open_job(const Job *const inside) const
+Job *ThreadPool::Workers::open_job(const Job *const inside) const
 {
   const auto found =
       std::find_if(jobs.rbegin(), jobs.rend(),
@@ -101,12 +101,12 @@ Job *Team::Crew::open_job(const Job *const inside) const
 }
 
 /** With the mutex held, but for the work itself. */
-void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
+void ThreadPool::Workers::take_ranges(Job &of, std::unique_lock<std::mutex> &lock)
 {
   const Job *const before = std::exchange(at_work, &of);
   for (++of.n_at_work; of.has_more();)
   {
-    const unsigned int begin = of.next, end = of.next + std::min(of.at_once, of.n - of.next);
+    const unsigned int begin = of.next, end = of.next + std::min(of.grain, of.n - of.next);
     of.next = end;
     lock.unlock();
     std::exception_ptr thrown;
@@ -130,7 +130,7 @@ void Team::Crew::take_parts(Job &of, std::unique_lock<std::mutex> &lock)
   tell(changed);
 }
 
-void Team::Crew::help()
+void ThreadPool::Workers::help()
 {
   const OneThread one_thread;
   has_team = true;
@@ -142,11 +142,11 @@ void Team::Crew::help()
       wait(begun, lock);
     if (is_over)
       return;
-    take_parts(*open_job(nullptr), lock);
+    take_ranges(*open_job(nullptr), lock);
   }
 }
 
-void Team::Crew::end()
+void ThreadPool::Workers::end()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -157,66 +157,66 @@ void Team::Crew::end()
     thread.join();
 }
 
-Team::Team(const unsigned int n_threads)
+ThreadPool::ThreadPool(const unsigned int n_threads)
 {
   if (n_threads < 2 || has_team)
     return;
-  crew = std::make_unique<Crew>();
-  crew->threads.reserve(n_threads - 1);
+  workers = std::make_unique<Workers>();
+  workers->threads.reserve(n_threads - 1);
   if (are_cores_taken.exchange(true))
   {
-    crew.reset();
+    workers.reset();
     return;
   }
   try
   {
     for (unsigned int k = 1; k < n_threads; ++k)
-      crew->threads.emplace_back([this]() { crew->help(); });
+      workers->threads.emplace_back([this]() { workers->help(); });
   }
   catch (const std::system_error &) // those that there are do it all
   {
   }
-  serving = crew.get();
+  serving = workers.get();
   has_team = true;
 }
 
-Team::~Team()
+ThreadPool::~ThreadPool()
 {
-  if (!crew)
+  if (!workers)
     return;
   serving = nullptr;
   has_team = false;
-  crew->end();
+  workers->end();
   are_cores_taken = false;
 }
 
-unsigned int team_size()
+unsigned int pool_size()
 {
   return serving ? 1 + serving->threads.size() : 1;
 }
 
-void in_parts(const unsigned int n, const unsigned int at_once,
-              const std::function<void(unsigned int, unsigned int)> &work)
+void parallel_for(const unsigned int n, const unsigned int grain,
+                  const std::function<void(unsigned int, unsigned int)> &work)
 {
-  if (!serving || n <= at_once) // of one part the inner loops may be divided
+  if (!serving || n <= grain) // of one part the inner loops may be divided
   {
-    for (unsigned int begin = 0; begin < n; begin += std::min(at_once, n - begin))
-      work(begin, begin + std::min(at_once, n - begin));
+    for (unsigned int begin = 0; begin < n; begin += std::min(grain, n - begin))
+      work(begin, begin + std::min(grain, n - begin));
     return;
   }
-  Team::Crew &crew = *serving;
-  Job job{n, at_once, work, at_work};
-  std::unique_lock<std::mutex> lock(crew.mutex);
-  crew.jobs.push_back(&job);
-  crew.tell(crew.begun);
-  crew.tell(crew.changed);
-  crew.take_parts(job, lock); // the first one without letting others come before
+  ThreadPool::Workers &workers = *serving;
+  Job job{n, grain, work, at_work};
+  std::unique_lock<std::mutex> lock(workers.mutex);
+  workers.jobs.push_back(&job);
+  workers.tell(workers.begun);
+  workers.tell(workers.changed);
+  workers.take_ranges(job, lock); // the first one without letting others come before
   while (job.n_at_work > 0)
-    if (Job *const inner = crew.open_job(&job))
-      crew.take_parts(*inner, lock); // of which those have begun that this waits for
+    if (Job *const inner = workers.open_job(&job))
+      workers.take_ranges(*inner, lock); // of which those have begun that this waits for
     else
-      crew.wait(crew.changed, lock);
-  crew.jobs.erase(std::find(crew.jobs.begin(), crew.jobs.end(), &job));
+      workers.wait(workers.changed, lock);
+  workers.jobs.erase(std::find(workers.jobs.begin(), workers.jobs.end(), &job));
   if (job.failure)
     std::rethrow_exception(job.failure);
 }

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <hpvi/base/common_table.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/team.h>
+#include <hpvi/base/thread_pool.h>
 
 #include <atomic>
 #include <chrono>
@@ -16,82 +16,84 @@ namespace
 {
 using namespace hpvi;
 
-TEST(Team, DoesAllWorkOnce)
+TEST(ThreadPool, DoesAllWorkOnce)
 {
   for (const unsigned int n_threads : {1U, 2U, 5U})
   {
-    const Team team(n_threads);
-    EXPECT_EQ(team_size(), n_threads);
+    const ThreadPool pool(n_threads);
+    EXPECT_EQ(pool_size(), n_threads);
     for (const unsigned int n : {0U, 1U, 7U, 1000U})
-      for (const unsigned int at_once : {1U, 3U, 2000U})
+      for (const unsigned int grain : {1U, 3U, 2000U})
       {
         std::vector<unsigned int> times(n, 0);
-        for_all(n, at_once, [&](const unsigned int k) { ++times[k]; });
+        parallel_for_each(n, grain, [&](const unsigned int k) { ++times[k]; });
         EXPECT_EQ(times, std::vector<unsigned int>(n, 1));
       }
   }
-  EXPECT_EQ(team_size(), 1U);
+  EXPECT_EQ(pool_size(), 1U);
 }
 
 /** It is several threads that work. */
-TEST(Team, WorksTogether)
+TEST(ThreadPool, WorksTogether)
 {
-  const Team team(3);
-  const Team none(7); // the outer one serves
-  EXPECT_EQ(team_size(), 3U);
+  const ThreadPool pool(3);
+  const ThreadPool none(7); // the outer one serves
+  EXPECT_EQ(pool_size(), 3U);
   std::atomic<unsigned int> n_there(0);
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  for_all(3, 1,
-          [&](unsigned int)
-          {
-            const Team of_a_part(2);
-            EXPECT_EQ(team_size(), 3U);
-            ++n_there;
-            while (n_there < 3 && std::chrono::steady_clock::now() < patience)
-              std::this_thread::yield();
-          });
+  parallel_for_each(3, 1,
+                    [&](unsigned int)
+                    {
+                      const ThreadPool of_a_part(2);
+                      EXPECT_EQ(pool_size(), 3U);
+                      ++n_there;
+                      while (n_there < 3 && std::chrono::steady_clock::now() < patience)
+                        std::this_thread::yield();
+                    });
   EXPECT_EQ(n_there, 3U);
   EXPECT_TRUE(std::chrono::steady_clock::now() < patience); // else one after the other
 }
 
 /** Who has done a part, or waits for it, helps with what is inside of another: none of these would end without. */
-TEST(Team, HelpsInsideOfParts)
+TEST(ThreadPool, HelpsInsideOfParts)
 {
-  const Team team(3);
+  const ThreadPool pool(3);
   for (unsigned int repetition = 0; repetition < 40; ++repetition)
   {
     const unsigned int idle = repetition % 2; // the calling thread's part, or another
     std::atomic<unsigned int> n_there(0), n_done(0);
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    for_all(2, 1,
-            [&](const unsigned int part)
-            {
-              if (part == idle)
-                return for_all(30, 2, [&](unsigned int) { ++n_done; });
-              for_all(3, 1,
-                      [&](unsigned int)
+    parallel_for_each(2, 1,
+                      [&](const unsigned int part)
                       {
-                        ++n_there;
-                        while (n_there < 3 && std::chrono::steady_clock::now() < patience)
-                          std::this_thread::yield();
-                        for_all(10, 1, [&](unsigned int) { ++n_done; });
+                        if (part == idle)
+                          return parallel_for_each(30, 2, [&](unsigned int) { ++n_done; });
+                        parallel_for_each(
+                            3, 1,
+                            [&](unsigned int)
+                            {
+                              ++n_there;
+                              while (n_there < 3 && std::chrono::steady_clock::now() < patience)
+                                std::this_thread::yield();
+                              parallel_for_each(10, 1, [&](unsigned int) { ++n_done; });
+                            });
                       });
-            });
     EXPECT_EQ(n_there, 3U);
     EXPECT_EQ(n_done, 60U);
     ASSERT_TRUE(std::chrono::steady_clock::now() < patience); // else one after the other
     try
     {
-      for_all(4, 1,
-              [&](const unsigned int part)
-              {
-                for_all(9, 1,
-                        [&](const unsigned int k)
+      parallel_for_each(4, 1,
+                        [&](const unsigned int part)
                         {
-                          if (part >= 2 && k >= 3)
-                            throw NumericalFailure(std::to_string(part) + std::to_string(k));
+                          parallel_for_each(9, 1,
+                                            [&](const unsigned int k)
+                                            {
+                                              if (part >= 2 && k >= 3)
+                                                throw NumericalFailure(std::to_string(part) +
+                                                                       std::to_string(k));
+                                            });
                         });
-              });
       ADD_FAILURE() << "nothing was thrown";
     }
     catch (const NumericalFailure &failure)
@@ -102,28 +104,28 @@ TEST(Team, HelpsInsideOfParts)
 }
 
 /** Two threads do not share the cores twice. */
-TEST(Team, IsOneAtATime)
+TEST(ThreadPool, IsOneAtATime)
 {
-  const Team team(2);
+  const ThreadPool pool(2);
   std::thread other(
       []()
       {
-        const Team another(2);
-        EXPECT_EQ(team_size(), 1U);
+        const ThreadPool another(2);
+        EXPECT_EQ(pool_size(), 1U);
         unsigned int sum = 0;
-        for_all(100, 1, [&](const unsigned int k) { sum += k; });
+        parallel_for_each(100, 1, [&](const unsigned int k) { sum += k; });
         EXPECT_EQ(sum, 4950U);
       });
   other.join();
-  EXPECT_EQ(team_size(), 2U);
+  EXPECT_EQ(pool_size(), 2U);
 }
 
 /** Whoever is first to throw, what the first part in order has thrown goes on; then it works as before. */
-TEST(Team, ThrowsWhatTheFirstThrew)
+TEST(ThreadPool, ThrowsWhatTheFirstThrew)
 {
   for (const unsigned int n_threads : {1U, 2U, 3U})
   {
-    const Team team(n_threads);
+    const ThreadPool pool(n_threads);
     for (unsigned int repetition = 0; repetition < 50; ++repetition)
     {
       const auto work = [&](const unsigned int k)
@@ -135,7 +137,7 @@ TEST(Team, ThrowsWhatTheFirstThrew)
       };
       try
       {
-        for_all(40, 1, work);
+        parallel_for_each(40, 1, work);
         ADD_FAILURE() << "nothing was thrown";
       }
       catch (const NumericalFailure &failure)
@@ -144,21 +146,22 @@ TEST(Team, ThrowsWhatTheFirstThrew)
       }
     }
     unsigned int sum = 0;
-    for_all(1, 1, [&](unsigned int) { ++sum; });
+    parallel_for_each(1, 1, [&](unsigned int) { ++sum; });
     EXPECT_EQ(sum, 1U);
   }
 }
 
 TEST(CommonTable, MakesWhatIsMissing)
 {
-  const Team team(3);
+  const ThreadPool pool(3);
   std::map<unsigned int, double> squares;
-  for_all(2000, 7,
-          [&](const unsigned int k)
-          {
-            const unsigned int key = k % 50;
-            EXPECT_EQ(common_value(squares, key, [&]() { return double(key) * key; }), key * key);
-          });
+  parallel_for_each(2000, 7,
+                    [&](const unsigned int k)
+                    {
+                      const unsigned int key = k % 50;
+                      EXPECT_EQ(common_value(squares, key, [&]() { return double(key) * key; }),
+                                key * key);
+                    });
   EXPECT_EQ(squares.size(), 50U);
 }
 
@@ -168,7 +171,7 @@ TEST(CommonTable, KeepsTheOrder)
   const std::vector<unsigned int> keys = {3, 1, 3, 2, 1, 5};
   for (const unsigned int n_threads : {1U, 3U})
   {
-    const Team team(n_threads);
+    const ThreadPool pool(n_threads);
     std::map<unsigned int, unsigned int> places = {{2, 77}};
     const auto values = ordered_values(places, keys, [](const unsigned int k) { return k; });
     const std::vector<unsigned int> expected = {0, 1, 0, 77, 1, 5};
