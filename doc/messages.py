@@ -25,7 +25,7 @@ THROWERS = {"InputError": "refused", "reject": "refused", "fail": "refused", "co
             "damaged": "refused", "NumericalFailure": "failed", "MemoryFailure": "failed", "OutputFailure": "unwritten"}
 # Values that hold a message, and the section it is about.
 HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material NAME"), "Problem": ("refused", "Boundary NAME"),
-           "Missing": ("failed", ""), "MissingContact": ("failed", "")}
+           "Missing": ("failed", ""), "InadmissibleContact": ("failed", "")}
 # Functions that pass on what others say, or the words of the system, as NOUN:FUNCTION; what they say beside that is not passed on.
 PASSED_ON = {
     "base/parameter_file:", "base/parameter_file:fail", "base/processes:together", "base/file_format:reject", "checks/rejection:reject",

@@ -34,8 +34,8 @@ EVALUATIONS = {
     "include/hpvi/results/contact_traces.h": 1, "include/hpvi/results/turned_divergence.h": 1,
     "include/hpvi/space/moment_space.h": 1, "source/bound/admissible_pressure.cc": 4,
     "source/bound/face_contact.cc": 1, "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
-    "source/plane/load_rule.cc": 4, "source/plane/collapse.cc": 3, "source/plane/contact_face.cc": 5,
-    "source/plane/contact_numbering.cc": 6, "source/plane/resistance.cc": 1, "source/plane/elastic_system.cc": 2,
+    "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 5,
+    "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,
     "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
     "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 3,
     "source/bound/data_error.cc": 3, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":

@@ -180,7 +180,7 @@ void PrimalBackend<dim>::reach_loads()
     for (unsigned int levels_left = 4;; --levels_left)
     {
       const ContactStatics statics(*space, system->f);
-      statics.require_equilibrium();
+      statics.require_static_admissibility();
       const auto missing = statics.missing();
       if (!missing)
         return;

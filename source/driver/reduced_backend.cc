@@ -15,7 +15,7 @@
 #include <hpvi/plane/matching.h>
 #include <hpvi/plane/missed_loads.h>
 #include <hpvi/plane/negligible_solution.h>
-#include <hpvi/plane/resistance.h>
+#include <hpvi/plane/static_admissibility.h>
 #include <hpvi/results/solution_field.h>
 
 #include <algorithm>
@@ -235,11 +235,12 @@ void ReducedBackend<dim>::discretise()
   assemble();
   if (!discretisation->free_motions)
     return;
-  require_equilibrium(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+  require_static_admissibility(discretisation->spaces->contact_space,
+                               loaded_motions(*discretisation));
   for (unsigned int levels_left = 8;; --levels_left)
   {
-    const std::optional<MissingContact> missing =
-        missing_contact(discretisation->spaces->contact_space, loaded_motions(*discretisation));
+    const std::optional<InadmissibleContact> missing = inadmissible_contact(
+        discretisation->spaces->contact_space, loaded_motions(*discretisation));
     if (!missing)
       return;
     if (levels_left == 0 || missing->cells.empty())

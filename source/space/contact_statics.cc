@@ -19,12 +19,12 @@ namespace
 constexpr double negligible = 1e-9; ///< of the loads: cones are round, and met in the limit
 
 /** What the spots can resist with along @p motions. */
-class Resistance : public ForceSet
+class StaticAdmissibility : public ForceSet
 {
 public:
   /** With @p is_rough nothing slides along the spots. */
-  Resistance(const std::vector<ContactSpot> &spots, const std::vector<SpaceMotion> &motions,
-             bool is_rough = false);
+  StaticAdmissibility(const std::vector<ContactSpot> &spots,
+                      const std::vector<SpaceMotion> &motions, bool is_rough = false);
 
   Extreme farthest(const Force &motion) const override;
 
@@ -62,8 +62,9 @@ private:
   std::vector<Row> rows;
 };
 
-Resistance::Resistance(const std::vector<ContactSpot> &spots,
-                       const std::vector<SpaceMotion> &motions, const bool is_rough)
+StaticAdmissibility::StaticAdmissibility(const std::vector<ContactSpot> &spots,
+                                         const std::vector<SpaceMotion> &motions,
+                                         const bool is_rough)
     : spots(spots), n(motions.size()), is_rough(is_rough), rows(spots.size())
 {
   for (unsigned int i = 0; i < spots.size(); ++i)
@@ -80,7 +81,7 @@ Resistance::Resistance(const std::vector<ContactSpot> &spots,
 }
 
 /** Takes @p ray where it works more, for its length, than what was found before. */
-void Resistance::lengthen(Longest &longest, const Force &motion, const Force &ray) const
+void StaticAdmissibility::lengthen(Longest &longest, const Force &motion, const Force &ray) const
 {
   const double length = ray.norm(), work = length > 0 ? motion * ray / length : 0;
   if (work > std::max(longest.work, 1e-10 * motion.norm()))
@@ -95,7 +96,7 @@ Force friction_against(const Force &motion, const std::array<Force, 2> &tangents
 }
 
 /** Pressures without end, with the friction that grows with them. */
-void Resistance::press(Longest &longest, const Force &motion, const unsigned int i) const
+void StaticAdmissibility::press(Longest &longest, const Force &motion, const unsigned int i) const
 {
   const ContactSpot &spot = spots[i];
   const Force along = friction_against(motion, rows[i].tangents);
@@ -105,7 +106,7 @@ void Resistance::press(Longest &longest, const Force &motion, const unsigned int
     lengthen(longest, motion, -1. * rows[i].normal);
 }
 
-Resistance::Extreme Resistance::farthest(const Force &motion) const
+StaticAdmissibility::Extreme StaticAdmissibility::farthest(const Force &motion) const
 {
   Longest longest;
   Force sum;
@@ -131,14 +132,14 @@ Resistance::Extreme Resistance::farthest(const Force &motion) const
   return {sum, false};
 }
 
-bool Resistance::resists_beyond(const Force &motion, const unsigned int i) const
+bool StaticAdmissibility::resists_beyond(const Force &motion, const unsigned int i) const
 {
   Longest longest;
   press(longest, motion, i);
   return longest.work > 1e-6 * motion.norm();
 }
 
-Force Resistance::without_lifting(Force motion) const
+Force StaticAdmissibility::without_lifting(Force motion) const
 {
   std::vector<Force> lifting; // orthonormal
   for (unsigned int i = 0; i < rows.size() && lifting.size() < n; ++i)
@@ -299,7 +300,7 @@ std::string ContactStatics::in_words(const Force &motion, const double load,
 std::string ContactStatics::why(const std::vector<ContactSpot> &spots,
                                 const Separation &separation) const
 {
-  const Resistance rough(spots, motions, /*is_rough=*/true);
+  const StaticAdmissibility rough(spots, motions, /*is_rough=*/true);
   if (const auto lifted = separate(rough, loads, negligible))
     return (sum(lifted->motion).turns() ? "toppling: " : "lifting off: ") +
            in_words(lifted->motion, lifted->load, "can resist", lifted->resistance);
@@ -309,11 +310,11 @@ std::string ContactStatics::why(const std::vector<ContactSpot> &spots,
          in_words(sliding, sliding * loads, "can resist", separation.resistance - lifting * loads);
 }
 
-void ContactStatics::require_equilibrium() const
+void ContactStatics::require_static_admissibility() const
 {
   std::vector<ContactSpot> spots = on_mesh;
   spots.insert(spots.end(), ends.begin(), ends.end());
-  if (const auto separation = separate(Resistance(spots, motions), loads, negligible))
+  if (const auto separation = separate(StaticAdmissibility(spots, motions), loads, negligible))
   {
     const std::string words = why(spots, *separation);
     throw NumericalFailure("no equilibrium: " + words + " at most; " +
@@ -323,7 +324,7 @@ void ContactStatics::require_equilibrium() const
 
 std::optional<ContactStatics::Missing> ContactStatics::missing() const
 {
-  const auto separation = separate(Resistance(on_mesh, motions), loads, negligible);
+  const auto separation = separate(StaticAdmissibility(on_mesh, motions), loads, negligible);
   if (!separation)
     return {};
   Missing result{{},
@@ -334,7 +335,7 @@ std::optional<ContactStatics::Missing> ContactStatics::missing() const
   for (const MomentFace<3> &face : space.faces)
   {
     const std::vector<ContactSpot> corners = ends_of(face);
-    const Resistance here(corners, motions);
+    const StaticAdmissibility here(corners, motions);
     for (unsigned int v = 0; v < corners.size(); ++v)
       if (here.resists_beyond(separation->motion, v))
       {

@@ -35,7 +35,7 @@ public:
   ContactStatics(const MomentSpace<3> &space, const DistributedVector &f);
 
   /** Throws NumericalFailure, with the motion that sets in and both forces, where no pressures at all balance the loads. */
-  void require_equilibrium() const;
+  void require_static_admissibility() const;
 
   /** What the mesh lacks, whose pressures act inside of its faces: loads may pass between the last point and an edge. */
   struct Missing

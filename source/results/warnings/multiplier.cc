@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/plane/collapse.h>
+#include <hpvi/plane/failure_mechanism.h>
 #include <hpvi/results/warnings/line.h>
 #include <hpvi/results/warnings/warnings.h>
 #include <hpvi/solvers/coulomb_solver.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
-#include <hpvi/plane/collapse.h>
+#include <hpvi/plane/failure_mechanism.h>
 
 #include <algorithm>
 #include <array>
@@ -170,7 +170,7 @@ std::string entry_of(const BoundaryCondition<dim> &condition)
 }
 
 /** One way to give way: what is missing to resist, in parts of the loads, and what to say. */
-struct Way
+struct FailureMechanism
 {
   double excess = 0;
   std::string words;
@@ -218,7 +218,7 @@ std::string remedy(const std::string &entry)
 }
 
 template <int dim>
-Way lift(const ContactSide<dim> &side, const Loads &loads)
+FailureMechanism lift(const ContactSide<dim> &side, const Loads &loads)
 {
   std::ostringstream line;
   line.precision(10);
@@ -246,8 +246,8 @@ double coefficient_at(const ContactSide<dim> &side, const std::optional<double> 
 
 /** Along boundaries that are parallel, so that no pressure resists. */
 template <int dim>
-Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sides,
-          const Loads &loads)
+FailureMechanism slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sides,
+                       const Loads &loads)
 {
   const double N = std::max(0., loads.N.value_or(0.)), T = std::abs(loads.T.value_or(0.));
   std::optional<double>
@@ -291,7 +291,7 @@ Way slide(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sid
 
 /** About the end of a boundary that alone presses: the loads meet it at `s = M/N` beyond that end. */
 template <int dim>
-Way topple(const ContactSide<dim> &side, const unsigned int end, const Loads &loads)
+FailureMechanism topple(const ContactSide<dim> &side, const unsigned int end, const Loads &loads)
 {
   const double M = loads.M[end].value_or(0.), N = loads.N.value_or(0.);
   std::ostringstream line;
@@ -312,16 +312,16 @@ Way topple(const ContactSide<dim> &side, const unsigned int end, const Loads &lo
 
 /** On one of the @p sides that touch what moves; with an infinite excess where it lifts off, which is said before all else. */
 template <int dim>
-Way worst_on(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sides,
-             const Loads &loads)
+FailureMechanism worst_on(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &sides,
+                          const Loads &loads)
 {
   const bool presses = sides.size() == 1 && side.condition->is_unilateral(),
              is_coulomb =
                  std::any_of(sides.begin(), sides.end(),
                              [](const ContactSide<dim> &other) { return other.is_coulomb(); });
-  if (const Way way = lift(side, loads); presses && way.excess > 1e-10)
+  if (const FailureMechanism way = lift(side, loads); presses && way.excess > 1e-10)
     return {infinity, way.words};
-  std::vector<Way> ways{{}};
+  std::vector<FailureMechanism> ways{{}};
   if (std::all_of(sides.begin(), sides.end(),
                   [&](const ContactSide<dim> &other)
                   { return std::abs(other.normal * side.tangent) < 1e-10; }) &&
@@ -331,7 +331,8 @@ Way worst_on(const ContactSide<dim> &side, const std::vector<ContactSide<dim>> &
     if (presses && !side.is_oblique)
       ways.push_back(topple(side, end, loads));
   return *std::max_element(ways.begin(), ways.end(),
-                           [](const Way &a, const Way &b) { return a.excess < b.excess; });
+                           [](const FailureMechanism &a, const FailureMechanism &b)
+                           { return a.excess < b.excess; });
 }
 } // namespace
 
@@ -345,11 +346,12 @@ std::string friction_entry(const ContactSpace<dim> &contact_space)
 }
 
 template <int dim>
-std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded)
+std::string failure_mechanism(const ContactSpace<dim> &contact_space,
+                              const LoadedMotions<dim> &loaded)
 {
   static_assert(dim == 2, "boundaries with two ends");
   const std::vector<ContactSide<dim>> all = contact_sides(contact_space, loaded.thickness);
-  Way worst;
+  FailureMechanism worst;
   for (const Group &group : groups_of(loaded))
   {
     const std::vector<ContactSide<dim>> sides = around(group, all);
@@ -358,7 +360,7 @@ std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions
       continue;
     for (const ContactSide<dim> &side : sides)
     {
-      const Way way = worst_on(side, sides, loads_on(group, side, loaded));
+      const FailureMechanism way = worst_on(side, sides, loads_on(group, side, loaded));
       if (way.excess == infinity)
         return way.words;
       if (way.excess > worst.excess)
@@ -369,5 +371,5 @@ std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions
 }
 
 template std::string friction_entry(const ContactSpace<2> &);
-template std::string collapse(const ContactSpace<2> &, const LoadedMotions<2> &);
+template std::string failure_mechanism(const ContactSpace<2> &, const LoadedMotions<2> &);
 } // namespace hpvi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_resistance_h
-#define hpvi_resistance_h
+#ifndef hpvi_static_admissibility_h
+#define hpvi_static_admissibility_h
 
 #include <hpvi/plane/contact_space.h>
 
@@ -39,10 +39,11 @@ struct LoadedMotions
  * NumericalFailure, with the motion that sets in and its numbers, where contact cannot.
  */
 template <int dim>
-void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded);
+void require_static_admissibility(const ContactSpace<dim> &contact_space,
+                                  const LoadedMotions<dim> &loaded);
 
 /** What the multiplier of a mesh lacks to hold a body that contact could hold. */
-struct MissingContact
+struct InadmissibleContact
 {
   std::vector<unsigned int> cells; ///< active cells with the points that would resist; may be none
   std::string why;                 ///< for the one who gives up
@@ -50,8 +51,8 @@ struct MissingContact
 
 /** Nothing where the multiplier has a value that balances the loads. */
 template <int dim>
-std::optional<MissingContact> missing_contact(const ContactSpace<dim> &contact_space,
-                                              const LoadedMotions<dim> &loaded);
+std::optional<InadmissibleContact> inadmissible_contact(const ContactSpace<dim> &contact_space,
+                                                        const LoadedMotions<dim> &loaded);
 } // namespace hpvi
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_collapse_h
-#define hpvi_collapse_h
+#ifndef hpvi_failure_mechanism_h
+#define hpvi_failure_mechanism_h
 
-#include <hpvi/plane/resistance.h>
+#include <hpvi/plane/static_admissibility.h>
 
 namespace hpvi
 {
@@ -20,7 +20,8 @@ std::string friction_entry(const ContactSpace<dim> &contact_space);
  * with this resultant can have together. Empty where it is none of these, as where two boundaries press.
  */
 template <int dim>
-std::string collapse(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded);
+std::string failure_mechanism(const ContactSpace<dim> &contact_space,
+                              const LoadedMotions<dim> &loaded);
 } // namespace hpvi
 
 #endif

@@ -2,8 +2,8 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/numbers.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/plane/collapse.h>
-#include <hpvi/plane/resistance.h>
+#include <hpvi/plane/failure_mechanism.h>
+#include <hpvi/plane/static_admissibility.h>
 #include <hpvi/solvers/equality_constraints.h>
 
 #include <algorithm>
@@ -300,7 +300,8 @@ std::optional<double> LoadedMotions<dim>::along(const RigidBodyMotion<dim> &moti
 }
 
 template <int dim>
-void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMotions<dim> &loaded)
+void require_static_admissibility(const ContactSpace<dim> &contact_space,
+                                  const LoadedMotions<dim> &loaded)
 {
   std::optional<Imbalance> imbalance;
   for (const bool capped : {false, true})
@@ -308,7 +309,7 @@ void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMot
       imbalance = imbalance_of(on_any_mesh(contact_space, capped), loaded, loaded.motions.size());
   if (!imbalance)
     return;
-  std::string words = collapse(contact_space, loaded);
+  std::string words = failure_mechanism(contact_space, loaded);
   if (words.empty())
   {
     // What even friction without limit does not hold lifts off or topples; what goes straight away from all contact lifts off,
@@ -330,8 +331,8 @@ void require_equilibrium(const ContactSpace<dim> &contact_space, const LoadedMot
 }
 
 template <int dim>
-std::optional<MissingContact> missing_contact(const ContactSpace<dim> &contact_space,
-                                              const LoadedMotions<dim> &loaded)
+std::optional<InadmissibleContact> inadmissible_contact(const ContactSpace<dim> &contact_space,
+                                                        const LoadedMotions<dim> &loaded)
 {
   const std::optional<Imbalance> imbalance =
       imbalance_of(on_this_mesh(contact_space), loaded, loaded.n_seen);
@@ -361,11 +362,11 @@ std::optional<MissingContact> missing_contact(const ContactSpace<dim> &contact_s
     why << in_words(loaded, *imbalance, bounded_resistance(tractions, motion))
         << ", for Friction bound varies between the points of its multiplier; raise "
            "Geometry/Subdivisions or set Geometry/Graded towards where it does";
-  return MissingContact{{cells.begin(), cells.end()}, why.str()};
+  return InadmissibleContact{{cells.begin(), cells.end()}, why.str()};
 }
 
 template struct LoadedMotions<2>;
-template void require_equilibrium(const ContactSpace<2> &, const LoadedMotions<2> &);
-template std::optional<MissingContact> missing_contact(const ContactSpace<2> &,
-                                                       const LoadedMotions<2> &);
+template void require_static_admissibility(const ContactSpace<2> &, const LoadedMotions<2> &);
+template std::optional<InadmissibleContact> inadmissible_contact(const ContactSpace<2> &,
+                                                                 const LoadedMotions<2> &);
 } // namespace hpvi
