@@ -14,8 +14,8 @@
 #include <hpvi/space/load_check.h>
 #include <hpvi/space/moment_field.h>
 #include <hpvi/space/moment_matrix.h>
-#include <hpvi/space/mooring.h>
 #include <hpvi/space/nodal_forces.h>
+#include <hpvi/space/proximal_point.h>
 #include <hpvi/space/stored_values.h>
 #include <hpvi/space/transfer.h>
 #include <hpvi/space/upper_energy.h>
@@ -218,7 +218,7 @@ void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<
   if constexpr (dim == 3)
     if (space->rests_on_contact)
     {
-      report += Mooring(*space, *system, matrix).solve(v, lambda, settings, solve);
+      report += ProximalPoint(*space, *system, matrix).solve(v, lambda, settings, solve);
       return;
     }
   report += solve(settings);

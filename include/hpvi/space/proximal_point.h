@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_mooring_h
-#define hpvi_mooring_h
+#ifndef hpvi_proximal_point_h
+#define hpvi_proximal_point_h
 
 #include <hpvi/space/contact_statics.h>
 #include <hpvi/space/moment_matrix.h>
@@ -13,21 +13,21 @@ namespace hpvi
 {
 /**
  * Holds a body that contact alone holds while Newton's method looks for stick and slip: soft springs along its contact add
- * `1/2 sum_k s_k |m_k - a_k|^2` to the energy, with anchors a_k where the moments were before. That is strictly convex, and
+ * `1/2 sum_k s_k |m_k - a_k|^2` to the energy, with centres a_k where the moments were before. That is strictly convex, and
  * solved again and again from where it has ended, the proximal point method (Rockafellar 1976, doi:10.1137/0314056), the
  * springs carry nothing in the end.
  */
-class Mooring
+class ProximalPoint
 {
 public:
   using Solve = std::function<NewtonReport(const NewtonSettings &)>;
 
   /** All of them live as long as this, which changes the f of @p system. */
-  Mooring(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix);
+  ProximalPoint(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix);
 
-  ~Mooring();
-  Mooring(const Mooring &) = delete;
-  Mooring &operator=(const Mooring &) = delete;
+  ~ProximalPoint();
+  ProximalPoint(const ProximalPoint &) = delete;
+  ProximalPoint &operator=(const ProximalPoint &) = delete;
 
   /**
    * Calls @p inner, which moves @p v and @p lambda, until @p settings are met, springs included, and forces and moments
@@ -38,14 +38,14 @@ public:
 
 private:
   void drop_anchors(const DistributedVector &v);
-  double pull(const DistributedVector &v, double &energy) const;
+  double regularise(const DistributedVector &v, double &energy) const;
 
   const MomentSpace<3> &space;
   PrimalSystem<3> &system;
   const DistributedVector loads;
   const ContactStatics statics;
   std::vector<double> springs; ///< [force/length]
-  std::vector<ContactVector<3>> anchors;
+  std::vector<ContactVector<3>> centres;
 };
 } // namespace hpvi
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/space/mooring.h>
+#include <hpvi/space/proximal_point.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,10 @@ constexpr double balanced = 1e-9;       ///< of forces and moments, in parts of 
 constexpr unsigned int most_steps = 40; ///< proximal steps
 } // namespace
 
-Mooring::Mooring(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix)
+ProximalPoint::ProximalPoint(const MomentSpace<3> &space, PrimalSystem<3> &system,
+                             MomentMatrix<3> &matrix)
     : space(space), system(system), loads(system.f), statics(space, loads),
-      springs(space.contact.size()), anchors(space.contact.size())
+      springs(space.contact.size()), centres(space.contact.size())
 {
   const double stiffness =
       softness * space.scene.materials[0].modulus() / space.scene.geometry.diameter();
@@ -28,28 +29,28 @@ Mooring::Mooring(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMat
   matrix.add_springs(springs);
 }
 
-Mooring::~Mooring()
+ProximalPoint::~ProximalPoint()
 {
   system.f = loads;
 }
 
-void Mooring::drop_anchors(const DistributedVector &v)
+void ProximalPoint::drop_anchors(const DistributedVector &v)
 {
   system.f = loads;
   for (unsigned int k = 0; k < springs.size(); ++k)
   {
-    anchors[k] = space.moment(v, k);
-    space.add_moment(system.f, k, springs[k] * anchors[k]);
+    centres[k] = space.moment(v, k);
+    space.add_moment(system.f, k, springs[k] * centres[k]);
   }
 }
 
 /** The norm of the forces of the springs, and twice their energy. */
-double Mooring::pull(const DistributedVector &v, double &energy) const
+double ProximalPoint::regularise(const DistributedVector &v, double &energy) const
 {
   double squares = 0, work = 0;
   for (unsigned int k = 0; k < springs.size(); ++k)
   {
-    const double square = (space.moment(v, k) - anchors[k]).norm_square();
+    const double square = (space.moment(v, k) - centres[k]).norm_square();
     squares += springs[k] * springs[k] * square;
     work += springs[k] * square;
   }
@@ -57,8 +58,9 @@ double Mooring::pull(const DistributedVector &v, double &energy) const
   return std::sqrt(Utilities::MPI::sum(squares, space.communicator()));
 }
 
-NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<ContactVector<3>> &lambda,
-                            const NewtonSettings &wanted, const Solve &inner)
+NewtonReport ProximalPoint::solve(const DistributedVector &v,
+                                  const std::vector<ContactVector<3>> &lambda,
+                                  const NewtonSettings &wanted, const Solve &inner)
 {
   NewtonReport report;
   NewtonSettings settings = wanted;
@@ -68,7 +70,8 @@ NewtonReport Mooring::solve(const DistributedVector &v, const std::vector<Contac
     drop_anchors(v);
     report += inner(settings);
     double energy = 0;
-    const double force = pull(v, energy), load = std::max(loads.l2_norm(), system.f.l2_norm());
+    const double force = regularise(v, energy),
+                 load = std::max(loads.l2_norm(), system.f.l2_norm());
     report.residual += load > 0 ? force / load : 0;
     report.error = std::sqrt(report.error * report.error + energy);
     const bool is_met = report.residual <= 2 * wanted.residual ||
