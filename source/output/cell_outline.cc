@@ -7,7 +7,7 @@ using namespace dealii;
 
 std::vector<Point<2>> face_line(const CellMap<2> &map, const unsigned int face)
 {
-  const unsigned int n = map.is_curved() && map.bows()[face] ? 16 : 1;
+  const unsigned int n = map.is_curved() && map.blends()[face] ? 16 : 1;
   std::vector<Point<2>> result;
   for (unsigned int k = 0; k <= n; ++k)
     if (k == 0 || k == n)

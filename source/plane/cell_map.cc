@@ -34,27 +34,27 @@ double vertex_shape(const unsigned int v, const Point<dim> &xi,
 namespace
 {
 /** What curved edges add to the map, of the given order per direction, at most 2 in all. */
-Tensor<1, 2> departure(const EdgeBows &bows, const Point<2> &xi,
+Tensor<1, 2> departure(const EdgeBlends &blends, const Point<2> &xi,
                        const std::array<unsigned int, 2> &order)
 {
   Tensor<1, 2> result;
-  for (unsigned int f = 0; f < bows.size(); ++f)
+  for (unsigned int f = 0; f < blends.size(); ++f)
   {
     const unsigned int across = f / 2, along = 1 - across;
-    if (!bows[f] || order[across] > 1)
+    if (!blends[f] || order[across] > 1)
       continue;
     const double far = f % 2 ? 1. : -1., fading = order[across] == 1 ? far
                                                   : f % 2            ? xi[across]
                                                                      : 1. - xi[across];
-    result += fading * bows[f](xi[along], order[along])[order[along]];
+    result += fading * blends[f](xi[along], order[along])[order[along]];
   }
   return result;
 }
 } // namespace
 
 template <int dim>
-CellMap<dim>::CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBows> bows)
-    : corners(vertices), curved(std::move(bows)), affine(false)
+CellMap<dim>::CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBlends> blends)
+    : corners(vertices), curved(std::move(blends)), affine(false)
 {
   Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -82,7 +82,7 @@ bool CellMap<dim>::is_curved() const
 }
 
 template <int dim>
-const EdgeBows &CellMap<dim>::bows() const
+const EdgeBlends &CellMap<dim>::blends() const
 {
   Assert(curved, ExcMessage("All edges of the cell are straight."));
   return *curved;

@@ -132,10 +132,10 @@ Point<2> end_of(const Cell &cell, const unsigned int face, const unsigned int en
 }
 
 /** Of an edge that is no half of another one. */
-EdgeBow whole_bow(const Cell &cell, const unsigned int face)
+EdgeBlend whole_blend(const Cell &cell, const unsigned int face)
 {
   const CurvePiece curve = curve_along(cell, face);
-  return EdgeBow(
+  return EdgeBlend(
       curve, [&](const double s) { return curve.point(s); }, end_of(cell, face, 0),
       end_of(cell, face, 1), edge_degree(cell, face));
 }
@@ -144,7 +144,7 @@ EdgeBow whole_bow(const Cell &cell, const unsigned int face)
 Point<2> middle_of(const Cell &cell, const unsigned int face)
 {
   return end_of(cell, face, 0) + (end_of(cell, face, 1) - end_of(cell, face, 0)) / 2. +
-         whole_bow(cell, face)(0.5)[0];
+         whole_blend(cell, face)(0.5)[0];
 }
 
 bool is_half(const Cell &cell, const unsigned int face)
@@ -153,14 +153,14 @@ bool is_half(const Cell &cell, const unsigned int face)
 }
 
 /** Of a half of a hanging edge: the polynomial is that of the whole. */
-EdgeBow half_bow(const Cell &cell, const unsigned int face)
+EdgeBlend half_blend(const Cell &cell, const unsigned int face)
 {
   const Cell larger = cell->neighbor(face);
   const auto [other_face, half] = cell->neighbor_of_coarser_neighbor(face);
-  const EdgeBow whole = whole_bow(larger, other_face);
+  const EdgeBlend whole = whole_blend(larger, other_face);
   const Point<2> begin = end_of(larger, other_face, 0);
   const Tensor<1, 2> chord = end_of(larger, other_face, 1) - begin;
-  return EdgeBow(
+  return EdgeBlend(
       curve_along(cell, face),
       [&, half = half](const double s)
       {
@@ -171,15 +171,15 @@ EdgeBow half_bow(const Cell &cell, const unsigned int face)
 }
 } // namespace
 
-std::shared_ptr<const EdgeBows> bows_of(const Cell &cell)
+std::shared_ptr<const EdgeBlends> blends_of(const Cell &cell)
 {
-  std::shared_ptr<EdgeBows> result;
+  std::shared_ptr<EdgeBlends> result;
   for (const unsigned int f : cell->face_indices())
     if (is_curved(cell, f))
     {
       if (!result)
-        result = std::make_shared<EdgeBows>();
-      (*result)[f] = is_half(cell, f) ? half_bow(cell, f) : whole_bow(cell, f);
+        result = std::make_shared<EdgeBlends>();
+      (*result)[f] = is_half(cell, f) ? half_blend(cell, f) : whole_blend(cell, f);
     }
   return result;
 }

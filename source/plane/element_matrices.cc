@@ -205,15 +205,15 @@ ElementMatrices<dim>::ElementMatrices(const Scene<dim> &scene, const ShapeTables
 namespace
 {
 /** A number for curved edges, as good as different for different ones; 0 stands for straight ones. */
-long shape_of(const EdgeBows &bows, const double size)
+long shape_of(const EdgeBlends &blends, const double size)
 {
   std::uint64_t hash = 1469598103934665603U; // after Fowler, Noll and Vo
-  for (unsigned int f = 0; f < bows.size(); ++f)
-    for (unsigned int k = 1; bows[f] && k < 8; ++k)
+  for (unsigned int f = 0; f < blends.size(); ++f)
+    for (unsigned int k = 1; blends[f] && k < 8; ++k)
     {
-      const Tensor<1, 2> bow = bows[f](k / 8. + 0.01)[0];
+      const Tensor<1, 2> blend = blends[f](k / 8. + 0.01)[0];
       for (const long part :
-           {long(f + 1), std::lround(bow[0] / size * 1e11), std::lround(bow[1] / size * 1e11)})
+           {long(f + 1), std::lround(blend[0] / size * 1e11), std::lround(blend[1] / size * 1e11)})
         hash = (hash ^ static_cast<std::uint64_t>(part)) * 1099511628211U;
     }
   return static_cast<long>(hash | 1U);
@@ -248,7 +248,7 @@ ElementMatrices<dim>::congruence_class(const CellMap<dim> &map, const unsigned i
   }
   if constexpr (dim == 2)
     if (map.is_curved())
-      key.back() = shape_of(map.bows(), size);
+      key.back() = shape_of(map.blends(), size);
   return key;
 }
 

@@ -94,15 +94,15 @@ template <int dim>
 bool touches(const typename Triangulation<dim>::cell_iterator &cell, const Point<dim> &point)
 {
   if constexpr (dim == 2)
-    if (const auto bows = bows_of(cell))
+    if (const auto blends = blends_of(cell))
     {
       // Where a point is inside matters less than which vertices and curves it lies on.
       for (const unsigned int v : cell->vertex_indices())
         if (cell->vertex(v).distance(point) <= 1e-10 * cell->diameter())
           return true;
-      for (const EdgeBow &bow : *bows)
-        if (bow && bow.curve().point(bow.curve().nearest(point)).distance(point) <=
-                       1e-8 * cell->diameter())
+      for (const EdgeBlend &blend : *blends)
+        if (blend && blend.curve().point(blend.curve().nearest(point)).distance(point) <=
+                         1e-8 * cell->diameter())
           return true;
     }
   if constexpr (dim == 3)

@@ -22,8 +22,8 @@ MultiplierTrace<dim>::MultiplierTrace(const ContactSpace<dim> &contact_space,
                       face.normal_points,
                       {},
                       face.condition->pair,
-                      face.map.is_curved() && face.map.bows()[face.face_no]
-                          ? face.map.bows()[face.face_no].curve()
+                      face.map.is_curved() && face.map.blends()[face.face_no]
+                          ? face.map.blends()[face.face_no].curve()
                           : CurvePiece()});
     for (const unsigned int i : face.pressures)
       pieces.back().pressures.push_back(z[i]);

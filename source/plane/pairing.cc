@@ -20,13 +20,13 @@ constexpr double
         1e-9, ///< of an edge: a segment below is round-off of ends that lie opposite to each other
     parallel = 1e-9; ///< of unit vectors
 
-double chord(const DrawnFace &face)
+double chord(const ExactFace &face)
 {
   return face.path.ends[0].distance(face.path.ends[1]);
 }
 } // namespace
 
-double DrawnFace::on_path(const double s) const
+double ExactFace::on_path(const double s) const
 {
   return is_reversed ? 1 - s : s;
 }
@@ -41,13 +41,13 @@ double FacingFaces::opposite(const double s, const double near) const
 
 /** The vertices of a boundary face are points of its curve. */
 template <int dim>
-DrawnFace Pairing<dim>::drawn(const Cell &cell, const unsigned int face_no)
+ExactFace Pairing<dim>::drawn(const Cell &cell, const unsigned int face_no)
 {
   const auto end = [&](const unsigned int k)
   { return cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, k)); };
-  DrawnFace result{{{{end(0), end(1)}}}, face_no == 0 || face_no == 3};
-  if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved() && map.bows()[face_no])
-    result.path.curve = map.bows()[face_no].curve();
+  ExactFace result{{{{end(0), end(1)}}}, face_no == 0 || face_no == 3};
+  if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved() && map.blends()[face_no])
+    result.path.curve = map.blends()[face_no].curve();
   if (result.is_reversed)
     result.path = result.path.reversed();
   return result;
@@ -128,7 +128,7 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
                                  { return one.slave == cell->face(face_no)->boundary_id(); });
   if (pair == pairs.end())
     return {};
-  const DrawnFace slave = drawn(cell, face_no);
+  const ExactFace slave = drawn(cell, face_no);
   std::vector<ContactSegment<dim>> result =
       pair->along.norm() > 0 ? on_line(*pair, cell, face_no) : on_curve(*pair, slave);
   double covered = 0, length = 0;
@@ -195,7 +195,7 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_line(const Masters &pair, cons
  * edge on the far side of a ring seems to lie between two such places as well: the normal in their middle tells.
  */
 template <int dim>
-std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, const DrawnFace &slave)
+std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, const ExactFace &slave)
 {
   std::vector<ContactSegment<dim>> result;
   std::vector<double> distances;

@@ -47,8 +47,8 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
                 {},
                 {{face.point(0.), face.point(1.)}},
                 {}};
-    if (face.map.is_curved() && face.map.bows()[face.face_no])
-      piece.curve = face.map.bows()[face.face_no].curve();
+    if (face.map.is_curved() && face.map.blends()[face.face_no])
+      piece.curve = face.map.blends()[face.face_no].curve();
     for (unsigned int k = 0; k < rule.size(); ++k)
     {
       const Tensor<1, dim> t = is_straight ? tangent : face.node_frame(rule.point(k)[0]).tangent;
@@ -102,8 +102,8 @@ void TangentialTrace<dim>::add_jump(const ContactFace<dim> &face,
     const QGaussLobatto<1> &rule = tables.gauss_lobatto(degree + 1);
     const std::array<Point<dim>, 2> ends{{face.point(segment.begin), face.point(segment.end)}};
     Piece piece{(ends[0] - origin) * tangent, (ends[1] - origin) * tangent, {}, {}, ends, {}};
-    if (face.map.is_curved() && face.map.bows()[face.face_no])
-      piece.curve = face.map.bows()[face.face_no].curve().between(segment.begin, segment.end);
+    if (face.map.is_curved() && face.map.blends()[face.face_no])
+      piece.curve = face.map.blends()[face.face_no].curve().between(segment.begin, segment.end);
     for (const Point<1> &node : rule.get_points())
     {
       const double s = segment.begin + node[0] * (segment.end - segment.begin);

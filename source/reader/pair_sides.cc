@@ -248,9 +248,9 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
   const auto drawn = [&](const unsigned int k)
   {
     const NamedSide &side = pair.sides[k];
-    return DrawnSide(singles[side.body].geometry, side.side, side.where);
+    return ExactSide(singles[side.body].geometry, side.side, side.where);
   };
-  const std::array<DrawnSide, 2> sides{{drawn(0), drawn(1)}};
+  const std::array<ExactSide, 2> sides{{drawn(0), drawn(1)}};
   const auto diameter = [&](const unsigned int k)
   { return singles[pair.sides[k].body].geometry.diameter(); };
   const double smaller = std::min(diameter(0), diameter(1)),

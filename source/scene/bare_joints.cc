@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/drawn_side.h>
+#include <hpvi/scene/exact_side.h>
 #include <hpvi/scene/facing_sides.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct FreeSide
   std::string name;
   unsigned int body;
   bool is_held;
-  DrawnSide drawn;
+  ExactSide drawn;
 };
 
 std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
@@ -38,7 +38,7 @@ std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
                           ? "a side of " + scene.geometry.bodies[body].name + " without a name"
                           : boundary.name,
                       body, boundary.has_displacement() || boundary.symmetry || boundary.plate,
-                      DrawnSide(edges)});
+                      ExactSide(edges)});
   }
   return result;
 }
@@ -47,7 +47,7 @@ std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
  * A place in the middle of an edge of @p one, or near its ends, from which the other side is no distance away along the normal, and
  * beside it, too. Where edges have a part in common there is an end of one of them.
  */
-std::optional<Point<2>> common_place(const DrawnSide &one, const DrawnSide &other,
+std::optional<Point<2>> common_place(const ExactSide &one, const ExactSide &other,
                                      const double size)
 {
   const auto touches = [&](const EdgePath &edge, const double s)

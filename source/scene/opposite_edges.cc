@@ -69,7 +69,7 @@ struct Candidate
   }
 };
 
-Sight sight_of(const EdgePath &path, const DrawnSide &other)
+Sight sight_of(const EdgePath &path, const ExactSide &other)
 {
   Sight result;
   const double own_doubt = doubt_of(path.curve);
@@ -100,7 +100,7 @@ Sight sight_of(const EdgePath &path, const DrawnSide &other)
   return result;
 }
 
-Candidate candidate(const DrawnSide &own, const DrawnSide &other, const double size)
+Candidate candidate(const ExactSide &own, const ExactSide &other, const double size)
 {
   Candidate result;
   const std::vector<EdgePath> &edges = own.edges();
@@ -155,7 +155,7 @@ bool OppositeEdges::is_empty() const
   return in_pair[0].empty();
 }
 
-OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
+OppositeEdges opposite_edges(const std::array<ExactSide, 2> &sides,
                              const std::optional<unsigned int> asked, const double size,
                              std::string &problem)
 {

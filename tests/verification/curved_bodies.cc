@@ -759,7 +759,7 @@ TEST(CurvedBodies, FindEdgesAsIfTheyLookedAtAll)
       points.push_back(edges.back().point(0.5 + 0.5 * any(random)));
       points.push_back(Point<2>(2 * any(random), 2 * any(random)));
     }
-    const DrawnSide drawn(edges);
+    const ExactSide drawn(edges);
     const SideNormals<2> normals(side);
     for (const Point<2> &x : points)
     {
@@ -772,11 +772,11 @@ TEST(CurvedBodies, FindEdgesAsIfTheyLookedAtAll)
       EXPECT_EQ(normals(x), side.normal(x)) << n << " edges, " << x;
       const double angle = numbers::PI * any(random);
       const Tensor<1, 2> along({std::cos(angle), std::sin(angle)});
-      std::optional<DrawnSide::Place> first;
+      std::optional<ExactSide::Place> first;
       for (unsigned int e = 0; e < n; ++e)
         if (const auto place = place_opposite(edges[e], x, along);
             place && (!first || std::abs(place->distance) < std::abs(first->place.distance)))
-          first = DrawnSide::Place{e, *place};
+          first = ExactSide::Place{e, *place};
       const auto opposite = drawn.opposite(x, along);
       ASSERT_EQ(bool(opposite), bool(first)) << n << " edges, " << x;
       if (first)
@@ -828,7 +828,7 @@ TEST(CurvedBodies, WantASmoothSlave)
     return geometry_of(Shape::ring_sector, mesh);
   };
   std::string problem;
-  const DrawnSide polygon(ring(1, 1.5, 3, false), 1), circle(ring(1.5, 2, 2, true), 0),
+  const ExactSide polygon(ring(1, 1.5, 3, false), 1), circle(ring(1.5, 2, 2, true), 0),
       coarse(ring(1.5, 2, 2, false), 0);
   const OppositeEdges edges = opposite_edges({{polygon, circle}}, std::nullopt, 4, problem);
   EXPECT_EQ(edges.slave, 1U);

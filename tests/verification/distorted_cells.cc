@@ -39,8 +39,8 @@ public:
     const auto circle = std::make_shared<const Circle>(centre, radius);
     const double from = std::atan2(v[2][1] - centre[1], v[2][0] - centre[0]);
     const CurvePiece arc{circle, from, from + 2 * half};
-    auto bows = std::make_shared<EdgeBows>();
-    (*bows)[3] = EdgeBow(
+    auto bows = std::make_shared<EdgeBlends>();
+    (*bows)[3] = EdgeBlend(
         arc, [&](const double s) { return arc.point(s); }, v[2], v[3], degree);
     return CellMap<2>(v, bows);
   }

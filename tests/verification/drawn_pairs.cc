@@ -663,7 +663,7 @@ TEST(DrawnPairs, MeasureWhatHangsOverByItsRadius)
       const std::vector<EdgePath> line{{{{Point<2>(end, -radius), Point<2>(-end, -radius)}}, {}}};
       std::string problem;
       const OppositeEdges edges =
-          opposite_edges({{DrawnSide(arcs), DrawnSide(line)}}, 0, 100, problem);
+          opposite_edges({{ExactSide(arcs), ExactSide(line)}}, 0, 100, problem);
       EXPECT_EQ(problem.empty(), is_far) << radius << " " << turn << " " << problem;
       EXPECT_EQ(edges.left_out.number, is_far ? 2U : 0U) << radius << " " << turn;
     }

@@ -23,15 +23,15 @@ class CellMap
 public:
   using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
 
-  /** @p bows: of curved edges, in the plane; null: all are straight. */
-  explicit CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBows> bows = nullptr);
+  /** @p blends: of curved edges, in the plane; null: all are straight. */
+  explicit CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBlends> blends = nullptr);
 
   const Vertices &vertices() const; ///< in deal.II's order
 
   bool is_curved() const; ///< is any edge?
 
   /** Of a curved cell in the plane, by face; none of the others. */
-  const EdgeBows &bows() const;
+  const EdgeBlends &blends() const;
 
   /** Is the map affine, so that every derivative of it is constant? */
   bool is_affine() const;
@@ -65,7 +65,7 @@ public:
 
 private:
   Vertices corners;
-  std::shared_ptr<const EdgeBows> curved;
+  std::shared_ptr<const EdgeBlends> curved;
   bool affine;
   dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
 };
@@ -88,7 +88,7 @@ CellMap<dim> map_of(const CellIterator &cell)
   for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
     vertices[v] = cell->vertex(v);
   if constexpr (dim == 2)
-    return CellMap<dim>(vertices, bows_of(cell));
+    return CellMap<dim>(vertices, blends_of(cell));
   else
     return CellMap<dim>(vertices);
 }

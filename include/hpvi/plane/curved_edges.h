@@ -2,7 +2,7 @@
 #ifndef hpvi_curved_edges_h
 #define hpvi_curved_edges_h
 
-#include <hpvi/plane/edge_bow.h>
+#include <hpvi/plane/edge_blend.h>
 #include <hpvi/scene/coarse_mesh.h>
 
 #include <deal.II/grid/manifold.h>
@@ -44,7 +44,7 @@ void set_edge_degrees(dealii::Triangulation<2> &triangulation,
                       const std::vector<unsigned int> &degrees);
 
 /** Null where all edges of @p cell are straight. */
-std::shared_ptr<const EdgeBows> bows_of(const dealii::Triangulation<2>::cell_iterator &cell);
+std::shared_ptr<const EdgeBlends> blends_of(const dealii::Triangulation<2>::cell_iterator &cell);
 
 /** Where an edge of the mesh lies on one of the coarse mesh, from 0 to 1 along the latter in its own direction. */
 struct EdgePlace

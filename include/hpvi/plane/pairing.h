@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /** What a face of the boundary follows in the drawing; a coordinate s of the face is one of the path, or 1 - s. */
-struct DrawnFace
+struct ExactFace
 {
   EdgePath path;
   bool is_reversed = false; ///< does the face run clockwise around its body?
@@ -22,7 +22,7 @@ struct DrawnFace
 /** A face of the slave and one of the master that are curved, or at an angle to each other. */
 struct FacingFaces
 {
-  DrawnFace slave, master;
+  ExactFace slave, master;
 
   /** What the normal at @p s of the slave's face meets, on the master's, near to @p near. */
   double opposite(double s, double near) const;
@@ -79,7 +79,7 @@ private:
   {
     Cell cell;
     unsigned int face_no, degree;
-    DrawnFace drawn;
+    ExactFace drawn;
     double begin = 0, end = 0; ///< along the line on which the bodies touch [length]
   };
   struct Masters
@@ -89,10 +89,10 @@ private:
     std::vector<Face> faces;
   };
 
-  static DrawnFace drawn(const Cell &cell, unsigned int face_no);
+  static ExactFace drawn(const Cell &cell, unsigned int face_no);
   static std::vector<ContactSegment<dim>> on_line(const Masters &pair, const Cell &cell,
                                                   unsigned int face_no);
-  static std::vector<ContactSegment<dim>> on_curve(const Masters &pair, const DrawnFace &slave);
+  static std::vector<ContactSegment<dim>> on_curve(const Masters &pair, const ExactFace &slave);
 
   std::vector<Masters> pairs;
 };

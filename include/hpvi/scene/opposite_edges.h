@@ -2,7 +2,7 @@
 #ifndef hpvi_opposite_edges_h
 #define hpvi_opposite_edges_h
 
-#include <hpvi/scene/drawn_side.h>
+#include <hpvi/scene/exact_side.h>
 
 #include <array>
 #include <string>
@@ -40,7 +40,7 @@ struct OppositeEdges
  * side that shall be slave. Where both may be and lie opposite to the same edges from either side, either is. Throws nothing: where
  * there is no pair @p problem says why in words that go on after "the sides", and none is in it.
  */
-OppositeEdges opposite_edges(const std::array<DrawnSide, 2> &sides,
+OppositeEdges opposite_edges(const std::array<ExactSide, 2> &sides,
                              std::optional<unsigned int> asked, double size, std::string &problem);
 } // namespace hpvi
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/drawn_side.h>
+#include <hpvi/scene/exact_side.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,28 +36,28 @@ std::vector<BoundingBox<2>> boxes_around(const std::vector<EdgePath> &paths)
 }
 } // namespace
 
-DrawnSide::DrawnSide(const Geometry<2> &geometry, const unsigned int side,
+ExactSide::ExactSide(const Geometry<2> &geometry, const unsigned int side,
                      const Expression<2> &where)
-    : DrawnSide(paths_of(geometry, side, where))
+    : ExactSide(paths_of(geometry, side, where))
 {
 }
 
-DrawnSide::DrawnSide(const std::vector<EdgePath> &edges) : paths(edges), tree(boxes_around(edges))
+ExactSide::ExactSide(const std::vector<EdgePath> &edges) : paths(edges), tree(boxes_around(edges))
 {
 }
 
-const std::vector<EdgePath> &DrawnSide::edges() const
+const std::vector<EdgePath> &ExactSide::edges() const
 {
   return paths;
 }
 
-unsigned int DrawnSide::nearest_edge(const Point<2> &x) const
+unsigned int ExactSide::nearest_edge(const Point<2> &x) const
 {
   return tree.nearest(x, [&](const unsigned int e)
                       { return paths[e].point(paths[e].nearest(x)).distance(x); });
 }
 
-std::optional<DrawnSide::Place> DrawnSide::opposite(const Point<2> &x, const Tensor<1, 2> &n) const
+std::optional<ExactSide::Place> ExactSide::opposite(const Point<2> &x, const Tensor<1, 2> &n) const
 {
   std::optional<Place> result;
   for (const unsigned int e : tree.along(x, n))
@@ -67,7 +67,7 @@ std::optional<DrawnSide::Place> DrawnSide::opposite(const Point<2> &x, const Ten
   return result;
 }
 
-Expression<2> distance_along_normal(const DrawnSide &own, const DrawnSide &other)
+Expression<2> distance_along_normal(const ExactSide &own, const ExactSide &other)
 {
   return expression<2>(std::function<double(const Point<2> &)>(
       [own, other](const Point<2> &x)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/plane/edge_bow.h>
+#include <hpvi/plane/edge_blend.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -50,27 +50,27 @@ const QGaussLobatto<1> &nodes_of(const unsigned int degree)
 } // namespace
 
 /** The rule is exact to degree 2p - 1: what misses in the norm of P_p is known, 2/p for 2/(2p+1). */
-EdgeBow::EdgeBow(const CurvePiece &curve, const std::function<Point<2>(double)> &way,
-                 const Point<2> &a, const Point<2> &b, const unsigned int degree)
+EdgeBlend::EdgeBlend(const CurvePiece &curve, const std::function<Point<2>(double)> &way,
+                     const Point<2> &a, const Point<2> &b, const unsigned int degree)
     : piece(curve), coefficients(degree + 1)
 {
   const QGaussLobatto<1> &rule = nodes_of(degree);
   for (unsigned int i = 1; i < degree; ++i)
   {
     const double s = rule.point(i)[0];
-    const Tensor<1, 2> bow = way(s) - (a + s * (b - a));
+    const Tensor<1, 2> blend = way(s) - (a + s * (b - a));
     const std::vector<double> P = legendre(s, degree, 0)[0];
     for (unsigned int k = 0; k <= degree; ++k)
-      coefficients[k] += rule.weight(i) * (k < degree ? 2. * k + 1 : degree) * P[k] * bow;
+      coefficients[k] += rule.weight(i) * (k < degree ? 2. * k + 1 : degree) * P[k] * blend;
   }
 }
 
-EdgeBow::operator bool() const
+EdgeBlend::operator bool() const
 {
   return !coefficients.empty();
 }
 
-std::array<Tensor<1, 2>, 3> EdgeBow::operator()(const double s, const unsigned int order) const
+std::array<Tensor<1, 2>, 3> EdgeBlend::operator()(const double s, const unsigned int order) const
 {
   const auto P = legendre(s, coefficients.size() - 1, order);
   std::array<Tensor<1, 2>, 3> result;
@@ -80,7 +80,7 @@ std::array<Tensor<1, 2>, 3> EdgeBow::operator()(const double s, const unsigned i
   return result;
 }
 
-const CurvePiece &EdgeBow::curve() const
+const CurvePiece &EdgeBlend::curve() const
 {
   return piece;
 }

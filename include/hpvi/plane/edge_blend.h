@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_edge_bow_h
-#define hpvi_edge_bow_h
+#ifndef hpvi_edge_blend_h
+#define hpvi_edge_blend_h
 
 #include <hpvi/scene/curve.h>
 
@@ -15,14 +15,14 @@ namespace hpvi
  * Gauss-Lobatto parameters, less `a + s (b - a)` [length]. With p that of the displacement along the edge
  * the map of a cell is one of its displacements, and a rigid motion strains nothing.
  */
-class EdgeBow
+class EdgeBlend
 {
 public:
-  EdgeBow() = default; ///< of a straight edge
+  EdgeBlend() = default; ///< of a straight edge
 
   /** @p way(s), s in [0,1], at its ends @p a and @p b; @p curve: what the edge follows. */
-  EdgeBow(const CurvePiece &curve, const std::function<dealii::Point<2>(double)> &way,
-          const dealii::Point<2> &a, const dealii::Point<2> &b, unsigned int degree);
+  EdgeBlend(const CurvePiece &curve, const std::function<dealii::Point<2>(double)> &way,
+            const dealii::Point<2> &a, const dealii::Point<2> &b, unsigned int degree);
 
   explicit operator bool() const; ///< is the edge curved?
 
@@ -37,7 +37,7 @@ private:
 };
 
 /** Those of a cell by face number; all run with the coordinates of the unit cell. */
-using EdgeBows = std::array<EdgeBow, 4>;
+using EdgeBlends = std::array<EdgeBlend, 4>;
 } // namespace hpvi
 
 #endif

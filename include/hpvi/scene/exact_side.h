@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_drawn_side_h
-#define hpvi_drawn_side_h
+#ifndef hpvi_exact_side_h
+#define hpvi_exact_side_h
 
 #include <hpvi/scene/box_tree.h>
 #include <hpvi/scene/edge_path.h>
@@ -13,13 +13,13 @@
 namespace hpvi
 {
 /** A side as the drawing has it, edge by edge, and what lies opposite to its points: the finite elements have polynomials for its curves. */
-class DrawnSide
+class ExactSide
 {
 public:
   /** The edges of the coarse mesh along the side number @p side, where @p where is positive in their middle; null: all. */
-  DrawnSide(const Geometry<2> &geometry, unsigned int side, const Expression<2> &where = nullptr);
+  ExactSide(const Geometry<2> &geometry, unsigned int side, const Expression<2> &where = nullptr);
 
-  explicit DrawnSide(const std::vector<EdgePath> &edges);
+  explicit ExactSide(const std::vector<EdgePath> &edges);
 
   const std::vector<EdgePath> &edges() const;
 
@@ -43,7 +43,7 @@ private:
  * From the point of @p own that is nearest to x to @p other, along the normal of own [length]. Where a normal meets nothing, the
  * distance of what is nearest.
  */
-Expression<2> distance_along_normal(const DrawnSide &own, const DrawnSide &other);
+Expression<2> distance_along_normal(const ExactSide &own, const ExactSide &other);
 } // namespace hpvi
 
 #endif
