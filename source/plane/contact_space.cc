@@ -102,20 +102,20 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
 {
   if (!scene.has_contact())
     return;
-  const Pairing<dim> pairing(scene, displacement_space);
+  const MortarSegmentation<dim> segmentation(scene, displacement_space);
   for (const auto &cell : displacement_space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary())
         {
           const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(f)->boundary_id()];
-          if (!condition.has_contact() || pairing.is_master(condition.id))
+          if (!condition.has_contact() || segmentation.is_master(condition.id))
             continue;
           contact_faces.push_back(make_face(cell, f,
                                             displacement_space.degrees()[cell->active_cell_index()],
                                             scene.solver.multiplier_offset, condition));
           ContactFace<dim> &face = contact_faces.back();
-          face.segments = pairing.segments(cell, f);
+          face.segments = segmentation.segments(cell, f);
           face.bodies[0] = body_of<dim>(scene.geometry, cell);
           if (!face.segments.empty())
             face.bodies[1] = body_of<dim>(scene.geometry, face.segments.front().cell);

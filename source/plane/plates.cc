@@ -58,7 +58,7 @@ const PlateMotion &Plate::motion() const
   return plate_motion;
 }
 
-// @sect3{Masters}
+// @sect3{ContactInterface}
 //
 // Gauss's elimination with the largest pivot chooses them among the four unknowns of the ends: their
 // motions have to be independent of each other, and far from it.

@@ -5,7 +5,7 @@
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/edge_projection.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -101,20 +101,20 @@ std::string closed_in_words(const PairSides &pair, const double closed, const do
 }
 
 /** What is positive where @p facing is, in the part. */
-Expression<2> inside_of(const FacingSides &facing, const Expression<2> &part = nullptr)
+Expression<2> inside_of(const FacingPart &facing, const Expression<2> &part = nullptr)
 {
   return expression<2>([facing, part](const Point<2> &x)
                        { return part && part->value(x) <= 0 ? -1. : facing.inside(x); });
 }
 
 // Straight sides that are parallel have the ends of both along one line.
-void cut_at_ends(const Parameters &parameters, const FacingSides &facing, PairSides &pair,
+void cut_at_ends(const Parameters &parameters, const FacingPart &facing, PairSides &pair,
                  std::vector<Scene<2>> &singles)
 {
   std::array<bool, 2> hangs_over{{false, false}};
   for (const unsigned int k : {0, 1})
   {
-    FacingSides own = facing;
+    FacingPart own = facing;
     Scene<2> &body = singles[pair.sides[k].body];
     cut_side<2>(body, pair.sides[k].side, inside_of(facing), pair.section + "/Between");
     for (const CoarseFace<2> &face : coarse_faces(body.geometry, pair.sides[k].side))
@@ -225,7 +225,7 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
   const double size = std::max(singles[pair.sides[0].body].geometry.diameter(),
                                singles[pair.sides[1].body].geometry.diameter());
   std::string problem;
-  std::optional<FacingSides> facing = facing_sides(side(0), side(1), size, problem);
+  std::optional<FacingPart> facing = contact_search(side(0), side(1), size, problem);
   if (!problem.empty())
     parameters.reject(section, "Between",
                       "names sides that " + problem + "; name two that lie opposite");
@@ -256,7 +256,7 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
   const double smaller = std::min(diameter(0), diameter(1)),
                size = std::max(diameter(0), diameter(1));
   std::string problem;
-  const OppositeEdges edges = opposite_edges(sides, pair.slave, smaller, problem);
+  const ProjectedEdges edges = edge_projection(sides, pair.slave, smaller, problem);
   if (edges.is_empty())
     parameters.reject(pair.section, pair.slave ? "Slave" : "Between",
                       std::string(pair.slave ? "is one of two sides that " : "names sides that ") +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/exact_side.h>
-#include <hpvi/scene/facing_sides.h>
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 #include <hpvi/reader/shapes/shape.h>
 #include <hpvi/results/contact_residuals.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/edge_projection.h>
 #include <hpvi/scene/side_normals.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -830,13 +830,13 @@ TEST(CurvedBodies, WantASmoothSlave)
   std::string problem;
   const ExactSide polygon(ring(1, 1.5, 3, false), 1), circle(ring(1.5, 2, 2, true), 0),
       coarse(ring(1.5, 2, 2, false), 0);
-  const OppositeEdges edges = opposite_edges({{polygon, circle}}, std::nullopt, 4, problem);
+  const ProjectedEdges edges = edge_projection({{polygon, circle}}, std::nullopt, 4, problem);
   EXPECT_EQ(edges.slave, 1U);
   EXPECT_NEAR(edges.largest, 1.5 * (1 - std::cos(numbers::PI / 12)), 2e-3);
   EXPECT_GT(edges.least, -1e-12);
-  EXPECT_TRUE(opposite_edges({{polygon, circle}}, 0, 4, problem).is_empty());
+  EXPECT_TRUE(edge_projection({{polygon, circle}}, 0, 4, problem).is_empty());
   EXPECT_NE(problem.find("corner"), std::string::npos) << problem;
-  EXPECT_TRUE(opposite_edges({{polygon, coarse}}, std::nullopt, 4, problem).is_empty());
+  EXPECT_TRUE(edge_projection({{polygon, coarse}}, std::nullopt, 4, problem).is_empty());
   EXPECT_NE(problem.find("corner"), std::string::npos) << problem;
 }
 

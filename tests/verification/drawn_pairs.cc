@@ -3,7 +3,7 @@
 #include "discretisation.h"
 
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/edge_projection.h>
 
 #include <algorithm>
 #include <array>
@@ -298,7 +298,7 @@ FitErrors fit_errors(const Overrides &entries, const double exact)
 }
 
 /**
- * The pairing of two free meshes costs nothing: the energy is as near as those of both rings alone, under the exact pressure, and the
+ * The segmentation of two free meshes costs nothing: the energy is as near as those of both rings alone, under the exact pressure, and the
  * pressure as near as that of the worse of them on a rigid circle that has the exact displacement.
  */
 TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
@@ -662,8 +662,8 @@ TEST(DrawnPairs, MeasureWhatHangsOverByItsRadius)
       const double end = radius * std::tan(1.5 * turn * degree);
       const std::vector<EdgePath> line{{{{Point<2>(end, -radius), Point<2>(-end, -radius)}}, {}}};
       std::string problem;
-      const OppositeEdges edges =
-          opposite_edges({{ExactSide(arcs), ExactSide(line)}}, 0, 100, problem);
+      const ProjectedEdges edges =
+          edge_projection({{ExactSide(arcs), ExactSide(line)}}, 0, 100, problem);
       EXPECT_EQ(problem.empty(), is_far) << radius << " " << turn << " " << problem;
       EXPECT_EQ(edges.left_out.number, is_far ? 2U : 0U) << radius << " " << turn;
     }

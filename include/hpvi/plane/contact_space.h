@@ -8,7 +8,7 @@
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/displacement_space.h>
 #include <hpvi/plane/friction_rule.h>
-#include <hpvi/plane/pairing.h>
+#include <hpvi/plane/mortar_segmentation.h>
 #include <hpvi/solvers/friction_cones.h>
 
 #include <map>

@@ -4,7 +4,7 @@
 
 #include <hpvi/reader/free_names.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/facing_sides.h>
+#include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/scene.h>
 
 #include <array>
@@ -40,7 +40,7 @@ struct PairSides
   /** From either side to the other along its normal [length]; null: they touch all along. */
   std::array<Expression<2>, 2> distance;
   std::optional<unsigned int> slave;
-  std::optional<FacingSides> line = std::nullopt; ///< of straight sides that are parallel
+  std::optional<FacingPart> line = std::nullopt; ///< of straight sides that are parallel
   std::string closed = {}; ///< what `Closed within` does, in words; empty: it is 0
 };
 

@@ -5,7 +5,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <hpvi/plane/cell_map.h>
-#include <hpvi/plane/pairing.h>
+#include <hpvi/plane/mortar_segmentation.h>
 #include <hpvi/plane/shape_tables.h>
 #include <hpvi/scene/scene.h>
 

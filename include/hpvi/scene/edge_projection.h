@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_opposite_edges_h
-#define hpvi_opposite_edges_h
+#ifndef hpvi_edge_projection_h
+#define hpvi_edge_projection_h
 
 #include <hpvi/scene/exact_side.h>
 
@@ -14,7 +14,7 @@ namespace hpvi
 constexpr double same_end = 1e-6;
 
 /** Of two sides, curved or at an angle to each other, the edges that make a pair. */
-struct OppositeEdges
+struct ProjectedEdges
 {
   std::array<std::vector<bool>, 2> in_pair; ///< by edge of either side
   std::optional<unsigned int> slave;        ///< which has to be it; nothing: either may
@@ -40,8 +40,9 @@ struct OppositeEdges
  * side that shall be slave. Where both may be and lie opposite to the same edges from either side, either is. Throws nothing: where
  * there is no pair @p problem says why in words that go on after "the sides", and none is in it.
  */
-OppositeEdges opposite_edges(const std::array<ExactSide, 2> &sides,
-                             std::optional<unsigned int> asked, double size, std::string &problem);
+ProjectedEdges edge_projection(const std::array<ExactSide, 2> &sides,
+                               std::optional<unsigned int> asked, double size,
+                               std::string &problem);
 } // namespace hpvi
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_facing_sides_h
-#define hpvi_facing_sides_h
+#ifndef hpvi_contact_search_h
+#define hpvi_contact_search_h
 
 #include <hpvi/scene/geometry.h>
 
@@ -12,7 +12,7 @@ namespace hpvi
 constexpr double same_place = 1e-9; ///< of the size of bodies: no distance
 
 /** Where two straight sides face each other. */
-struct FacingSides
+struct FacingPart
 {
   dealii::Tensor<1, 2> along; ///< the tangent of the first side
   double begin, end;          ///< x . along of the part that both have [length]
@@ -24,10 +24,10 @@ struct FacingSides
 
 /**
  * The part of two sides of bodies of @p size that lie opposite to each other. Nothing where they do not; @p problem says
- * why then, in words that go on after "the sides", or is empty where one bends or they are at an angle (opposite_edges()).
+ * why then, in words that go on after "the sides", or is empty where one bends or they are at an angle (edge_projection()).
  */
-std::optional<FacingSides> facing_sides(const Side<2> &first, const Side<2> &second, double size,
-                                        std::string &problem);
+std::optional<FacingPart> contact_search(const Side<2> &first, const Side<2> &second, double size,
+                                         std::string &problem);
 } // namespace hpvi
 
 #endif

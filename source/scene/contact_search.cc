@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/scene/facing_sides.h>
+#include <hpvi/scene/contact_search.h>
 
 #include <algorithm>
 #include <array>
@@ -51,13 +51,13 @@ std::optional<Line> line_of(const Side<2> &side, Tensor<1, 2> &along, const doub
 }
 } // namespace
 
-double FacingSides::inside(const Point<2> &x) const
+double FacingPart::inside(const Point<2> &x) const
 {
   return std::min(along * x - begin, end - along * x);
 }
 
-std::optional<FacingSides> facing_sides(const Side<2> &first, const Side<2> &second,
-                                        const double size, std::string &problem)
+std::optional<FacingPart> contact_search(const Side<2> &first, const Side<2> &second,
+                                         const double size, std::string &problem)
 {
   Tensor<1, 2> along;
   const std::optional<Line> one = line_of(first, along, size), two = line_of(second, along, size);
@@ -71,8 +71,8 @@ std::optional<FacingSides> facing_sides(const Side<2> &first, const Side<2> &sec
   }
   if ((one->normal + two->normal).norm() > parallel)
     return std::nullopt;
-  FacingSides result{along, std::max(one->begin, two->begin), std::min(one->end, two->end),
-                     -two->height - one->height};
+  FacingPart result{along, std::max(one->begin, two->begin), std::min(one->end, two->end),
+                    -two->height - one->height};
   if (std::abs(result.distance) <= same_place * size)
     result.distance = 0;
   if (result.end - result.begin <= same_place * size)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
-#include <hpvi/scene/facing_sides.h>
-#include <hpvi/scene/opposite_edges.h>
+#include <hpvi/scene/contact_search.h>
+#include <hpvi/scene/edge_projection.h>
 #include <hpvi/scene/spline.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr double
     smooth = 1 - 1e-10; ///< cosine between edges that meet: a spline in pieces is smooth to less
 
 /** What the normals of one edge meet. */
-struct Sight
+struct Projection
 {
   unsigned int n_met = 0;
   std::set<unsigned int> edges; ///< of the other side
@@ -48,19 +48,19 @@ struct Sight
 /** A side as a slave. */
 struct Candidate
 {
-  std::vector<Sight> sights;
+  std::vector<Projection> projections;
   std::optional<Point<2>> hangs_over; ///< the middle of an edge that does, near to the other side
   std::optional<Point<2>> corner;     ///< between two of its edges: no normal there
 
   bool is_whole(const unsigned int edge) const
   {
-    return sights[edge].is_whole();
+    return projections[edge].is_whole();
   }
 
   bool is_empty() const
   {
-    return std::none_of(sights.begin(), sights.end(),
-                        [](const Sight &sight) { return sight.is_whole(); });
+    return std::none_of(projections.begin(), projections.end(),
+                        [](const Projection &projection) { return projection.is_whole(); });
   }
 
   bool is_fit() const
@@ -69,9 +69,9 @@ struct Candidate
   }
 };
 
-Sight sight_of(const EdgePath &path, const ExactSide &other)
+Projection projection_of(const EdgePath &path, const ExactSide &other)
 {
-  Sight result;
+  Projection result;
   const double own_doubt = doubt_of(path.curve);
   Point<2> before;
   for (unsigned int k = 0; k <= n_samples; ++k)
@@ -106,10 +106,10 @@ Candidate candidate(const ExactSide &own, const ExactSide &other, const double s
   const std::vector<EdgePath> &edges = own.edges();
   for (const EdgePath &path : edges)
   {
-    result.sights.push_back(sight_of(path, other));
-    const Sight &sight = result.sights.back();
-    if (sight.n_met > 1 && !sight.is_whole() &&
-        sight.least <= near * std::min(size, sight.radius()))
+    result.projections.push_back(projection_of(path, other));
+    const Projection &projection = result.projections.back();
+    if (projection.n_met > 1 && !projection.is_whole() &&
+        projection.least <= near * std::min(size, projection.radius()))
       result.hangs_over = path.point(0.5);
   }
   for (unsigned int a = 0; a < edges.size(); ++a)
@@ -124,11 +124,11 @@ Candidate candidate(const ExactSide &own, const ExactSide &other, const double s
 /** Do the normals of the edges that take part meet edges alone that take part on the other side? */
 bool meets_its_like(const Candidate &one, const Candidate &other)
 {
-  return std::all_of(one.sights.begin(), one.sights.end(),
-                     [&](const Sight &sight)
+  return std::all_of(one.projections.begin(), one.projections.end(),
+                     [&](const Projection &projection)
                      {
-                       return !sight.is_whole() ||
-                              std::all_of(sight.edges.begin(), sight.edges.end(),
+                       return !projection.is_whole() ||
+                              std::all_of(projection.edges.begin(), projection.edges.end(),
                                           [&](const unsigned int e) { return other.is_whole(e); });
                      });
 }
@@ -150,18 +150,18 @@ std::string why_not(const Candidate &one, const Candidate &other, const bool is_
 }
 } // namespace
 
-bool OppositeEdges::is_empty() const
+bool ProjectedEdges::is_empty() const
 {
   return in_pair[0].empty();
 }
 
-OppositeEdges opposite_edges(const std::array<ExactSide, 2> &sides,
-                             const std::optional<unsigned int> asked, const double size,
-                             std::string &problem)
+ProjectedEdges edge_projection(const std::array<ExactSide, 2> &sides,
+                               const std::optional<unsigned int> asked, const double size,
+                               std::string &problem)
 {
   const std::array<Candidate, 2> candidates{
       {candidate(sides[0], sides[1], size), candidate(sides[1], sides[0], size)}};
-  OppositeEdges result;
+  ProjectedEdges result;
   const unsigned int slave = asked ? *asked : candidates[0].is_fit() ? 0 : 1;
   const Candidate &chosen = candidates[slave];
   if (!chosen.is_fit())
@@ -180,22 +180,23 @@ OppositeEdges opposite_edges(const std::array<ExactSide, 2> &sides,
     result.in_pair[k].resize(sides[k].edges().size());
   result.least = result.least_for_sure = std::numeric_limits<double>::max();
   result.largest = std::numeric_limits<double>::lowest();
-  for (unsigned int e = 0; e < chosen.sights.size(); ++e)
+  for (unsigned int e = 0; e < chosen.projections.size(); ++e)
     if (chosen.is_whole(e))
     {
       result.in_pair[slave][e] = true;
-      for (const unsigned int other : chosen.sights[e].edges)
+      for (const unsigned int other : chosen.projections[e].edges)
         result.in_pair[1 - slave][other] = true;
-      if (chosen.sights[e].least < result.least)
-        result.least = chosen.sights[e].least, result.at_least = chosen.sights[e].at_least;
-      result.least_for_sure = std::min(result.least_for_sure, chosen.sights[e].least_for_sure);
-      result.doubt = std::max(result.doubt, chosen.sights[e].doubt);
-      result.largest = std::max(result.largest, chosen.sights[e].largest);
+      if (chosen.projections[e].least < result.least)
+        result.least = chosen.projections[e].least,
+        result.at_least = chosen.projections[e].at_least;
+      result.least_for_sure = std::min(result.least_for_sure, chosen.projections[e].least_for_sure);
+      result.doubt = std::max(result.doubt, chosen.projections[e].doubt);
+      result.largest = std::max(result.largest, chosen.projections[e].largest);
     }
-    else if (const Sight &sight = chosen.sights[e]; sight.n_met > 1)
+    else if (const Projection &projection = chosen.projections[e]; projection.n_met > 1)
     {
-      if (result.left_out.number++ == 0 || sight.least < result.left_out.distance)
-        result.left_out.distance = sight.least,
+      if (result.left_out.number++ == 0 || projection.least < result.left_out.distance)
+        result.left_out.distance = projection.least,
         result.left_out.at = sides[slave].edges()[e].point(0.5);
     }
   return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_pairing_h
-#define hpvi_pairing_h
+#ifndef hpvi_mortar_segmentation_h
+#define hpvi_mortar_segmentation_h
 
 #include <hpvi/plane/displacement_space.h>
 #include <hpvi/scene/edge_path.h>
@@ -61,13 +61,13 @@ struct ContactSegment
  * that lies opposite would depend on both degrees.
  */
 template <int dim>
-class Pairing
+class MortarSegmentation
 {
 public:
   using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
   /** @p space must outlive this object. */
-  Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &space);
+  MortarSegmentation(const Scene<dim> &scene, const DisplacementSpace<dim> &space);
 
   bool is_master(dealii::types::boundary_id boundary) const;
 
@@ -82,7 +82,7 @@ private:
     ExactFace drawn;
     double begin = 0, end = 0; ///< along the line on which the bodies touch [length]
   };
-  struct Masters
+  struct ContactInterface
   {
     dealii::types::boundary_id slave, master;
     dealii::Tensor<1, dim> along; ///< that line; null: there is none
@@ -90,11 +90,12 @@ private:
   };
 
   static ExactFace drawn(const Cell &cell, unsigned int face_no);
-  static std::vector<ContactSegment<dim>> on_line(const Masters &pair, const Cell &cell,
+  static std::vector<ContactSegment<dim>> on_line(const ContactInterface &pair, const Cell &cell,
                                                   unsigned int face_no);
-  static std::vector<ContactSegment<dim>> on_curve(const Masters &pair, const ExactFace &slave);
+  static std::vector<ContactSegment<dim>> on_curve(const ContactInterface &pair,
+                                                   const ExactFace &slave);
 
-  std::vector<Masters> pairs;
+  std::vector<ContactInterface> pairs;
 };
 } // namespace hpvi
 

@@ -2,8 +2,8 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/plane/cell_map.h>
-#include <hpvi/plane/pairing.h>
-#include <hpvi/scene/opposite_edges.h>
+#include <hpvi/plane/mortar_segmentation.h>
+#include <hpvi/scene/edge_projection.h>
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ double FacingFaces::opposite(const double s, const double near) const
 
 /** The vertices of a boundary face are points of its curve. */
 template <int dim>
-ExactFace Pairing<dim>::drawn(const Cell &cell, const unsigned int face_no)
+ExactFace MortarSegmentation<dim>::drawn(const Cell &cell, const unsigned int face_no)
 {
   const auto end = [&](const unsigned int k)
   { return cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, k)); };
@@ -54,7 +54,8 @@ ExactFace Pairing<dim>::drawn(const Cell &cell, const unsigned int face_no)
 }
 
 template <int dim>
-Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &space)
+MortarSegmentation<dim>::MortarSegmentation(const Scene<dim> &scene,
+                                            const DisplacementSpace<dim> &space)
 {
   static_assert(dim == 2, "bodies that touch along a line");
   if (!scene.has_pairs())
@@ -91,10 +92,10 @@ Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &spa
   {
     const bool second_is_slave =
         pair.slave ? *pair.slave == 1 : n_multipliers(pair.parts[1]) > n_multipliers(pair.parts[0]);
-    Masters masters{pair.parts[second_is_slave ? 1 : 0],
-                    pair.parts[second_is_slave ? 0 : 1],
-                    direction(pair),
-                    {}};
+    ContactInterface masters{pair.parts[second_is_slave ? 1 : 0],
+                             pair.parts[second_is_slave ? 0 : 1],
+                             direction(pair),
+                             {}};
     masters.faces = std::move(faces[masters.master]);
     for (Face &face : masters.faces)
     {
@@ -108,10 +109,10 @@ Pairing<dim>::Pairing(const Scene<dim> &scene, const DisplacementSpace<dim> &spa
 }
 
 template <int dim>
-bool Pairing<dim>::is_master(const types::boundary_id boundary) const
+bool MortarSegmentation<dim>::is_master(const types::boundary_id boundary) const
 {
   return std::any_of(pairs.begin(), pairs.end(),
-                     [&](const Masters &pair) { return pair.master == boundary; });
+                     [&](const ContactInterface &pair) { return pair.master == boundary; });
 }
 
 /**
@@ -120,11 +121,11 @@ bool Pairing<dim>::is_master(const types::boundary_id boundary) const
  * two drawings of a curve lie beside each other by whatever their digits leave.
  */
 template <int dim>
-std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
-                                                        const unsigned int face_no) const
+std::vector<ContactSegment<dim>> MortarSegmentation<dim>::segments(const Cell &cell,
+                                                                   const unsigned int face_no) const
 {
   const auto pair = std::find_if(pairs.begin(), pairs.end(),
-                                 [&](const Masters &one)
+                                 [&](const ContactInterface &one)
                                  { return one.slave == cell->face(face_no)->boundary_id(); });
   if (pair == pairs.end())
     return {};
@@ -164,8 +165,9 @@ std::vector<ContactSegment<dim>> Pairing<dim>::segments(const Cell &cell,
 }
 
 template <int dim>
-std::vector<ContactSegment<dim>> Pairing<dim>::on_line(const Masters &pair, const Cell &cell,
-                                                       const unsigned int face_no)
+std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_line(const ContactInterface &pair,
+                                                                  const Cell &cell,
+                                                                  const unsigned int face_no)
 {
   std::vector<ContactSegment<dim>> result;
   std::array<double, 2> ends;
@@ -195,7 +197,8 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_line(const Masters &pair, cons
  * edge on the far side of a ring seems to lie between two such places as well: the normal in their middle tells.
  */
 template <int dim>
-std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, const ExactFace &slave)
+std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_curve(const ContactInterface &pair,
+                                                                   const ExactFace &slave)
 {
   std::vector<ContactSegment<dim>> result;
   std::vector<double> distances;
@@ -232,5 +235,5 @@ std::vector<ContactSegment<dim>> Pairing<dim>::on_curve(const Masters &pair, con
   return result;
 }
 
-template class Pairing<2>;
+template class MortarSegmentation<2>;
 } // namespace hpvi
