@@ -86,7 +86,8 @@ public:
       : number(number), face(solution.contact_space.faces()[number]),
         n(traction_degree(face, solution.z, solution.contact_space) + 1),
         rule(traction_rule(face, n - 1, solution.tables)),
-        weight(face.length / (2. * solution.scene.material_of(face.cell).weight() * face.degree)),
+        weight(face.length /
+               (2. * solution.scene.material_of(face.cell).residual_weight() * face.degree)),
         leans(may_have_transition(number, solution.z, solution.contact_space)),
         gauss(solution.tables.gauss(face.n_multipliers + 1)), z(discrete_friction(face, solution)),
         wanted(wanted_friction(face, solution)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/equilibrated_stress.h>
 #include <hpvi/bound/patches.h>
 #include <hpvi/bound/traction_system.h>
@@ -133,12 +133,12 @@ double EquilibratedStress::initial_stress_error(const Solution<2> &solution,
 {
   const auto &iterator = vertex_patches.cells()[cell].iterator;
   const unsigned int degree = solution.displacement_space.degrees()[cell];
-  return common_value(cache.initial_stress_errors, cell_key(iterator, degree),
-                      [&]()
-                      {
-                        return hpvi::initial_stress_error(solution.scene, iterator, degree,
-                                                          *solution.spaces->loads, solution.tables);
-                      });
+  return memoised(cache.initial_stress_errors, cell_key(iterator, degree),
+                  [&]()
+                  {
+                    return hpvi::initial_stress_error(solution.scene, iterator, degree,
+                                                      *solution.spaces->loads, solution.tables);
+                  });
 }
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned int hat) const

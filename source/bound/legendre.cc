@@ -2,7 +2,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_tools.h>
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/legendre.h>
 
 #include <cmath>
@@ -79,7 +79,7 @@ const FullMatrix<double> &LegendreTables::projection(const unsigned int n,
     }
     return result;
   };
-  return common_value(projections, {{n, n_gauss}}, make);
+  return memoised(projections, {{n, n_gauss}}, make);
 }
 
 const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsigned int part) const
@@ -107,7 +107,7 @@ const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsig
     return result;
   };
   const std::array<unsigned int, 2> key{{n, part}};
-  return part == 2 ? common_value(parts, key, turned) : common_value(parts, key, half);
+  return part == 2 ? memoised(parts, key, turned) : memoised(parts, key, half);
 }
 
 const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) const
@@ -126,7 +126,7 @@ const FullMatrix<double> &LegendreTables::from_nodes(const unsigned int degree) 
     projection(n, n).mmult(result, lagrange);
     return result;
   };
-  return common_value(nodal, degree, make);
+  return memoised(nodal, degree, make);
 }
 
 FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> &coefficients,
@@ -135,8 +135,8 @@ FullMatrix<double> LegendreTables::displacement_modes(const std::vector<double> 
 {
   const unsigned int n = degree + 1;
   const std::vector<unsigned int> &lexicographic =
-      common_value(numberings, degree,
-                   [&]() { return FETools::hierarchic_to_lexicographic_numbering<2>(degree); });
+      memoised(numberings, degree,
+               [&]() { return FETools::hierarchic_to_lexicographic_numbering<2>(degree); });
   FullMatrix<double> values(n, n), half(n, n), result(n, n);
   for (unsigned int i = 0; i < n * n; ++i)
     values(lexicographic[i] % n, lexicographic[i] / n) = coefficients[component * n * n + i];

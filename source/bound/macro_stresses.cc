@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/base/text.h>
 #include <hpvi/bound/macro_stresses.h>
 #include <hpvi/plane/element_matrices.h>

@@ -63,7 +63,7 @@ void NodalDisplacement<dim>::find_reluctant(const Wish &wish, const unsigned int
 {
   const Node own = node(wish.dofs.own, j), other = node(wish.dofs.opposite, j);
   const auto stiffness = [&](const auto &cell, const Node &of)
-  { return solution.scene.material_of(cell).weight() + freedom.stiffness_of_springs(of); };
+  { return solution.scene.material_of(cell).residual_weight() + freedom.stiffness_of_springs(of); };
   const bool is_softer =
       stiffness(wish.face->segments[0].cell, other) < stiffness(wish.face->cell, own);
   const bool other_moves = !freedom.is_held(other, wish.direction) &&

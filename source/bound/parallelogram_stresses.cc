@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/force_modes.h>
 #include <hpvi/bound/parallelogram_stresses.h>
 #include <hpvi/plane/initial_stress.h>
@@ -371,13 +371,13 @@ double ParallelogramStresses::missed_force(const unsigned int index) const
     return 0.;
   const unsigned int number =
       1000 * cells[index].element->m + solution.displacement_space.degrees()[index];
-  return common_value(cache.missed_forces, cell_key(patches.cells()[index].iterator, number),
-                      [&]()
-                      {
-                        return hpvi::missed_force(solution, patches.cells()[index].iterator,
-                                                  cells[index].B, cells[index].h,
-                                                  cells[index].element->m, cells[index].force);
-                      });
+  return memoised(cache.missed_forces, cell_key(patches.cells()[index].iterator, number),
+                  [&]()
+                  {
+                    return hpvi::missed_force(solution, patches.cells()[index].iterator,
+                                              cells[index].B, cells[index].h,
+                                              cells[index].element->m, cells[index].force);
+                  });
 }
 
 std::vector<double> ParallelogramStresses::data(const unsigned int index) const

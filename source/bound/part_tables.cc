@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/part_tables.h>
 
 #include <vector>
@@ -22,7 +22,7 @@ const ShapeTable<2> &PartTables::in(const BoundingBox<2> &box, const unsigned in
       points.push_back(box.unit_to_real(q));
     return tabulate<2>(degree, points, whole.weights, false);
   };
-  return common_value(known, {degree, n_gauss, corner[0], corner[1], box.side_length(0)}, make);
+  return memoised(known, {degree, n_gauss, corner[0], corner[1], box.side_length(0)}, make);
 }
 
 void PartTables::limit()

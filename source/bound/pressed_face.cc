@@ -102,7 +102,8 @@ PressedFace pressed_face(const ContactFace<2> &face, const Solution<2> &solution
   PressedFace result;
   result.n = traction_degree(face, solution.z, solution.contact_space) + 1;
   result.length = face.length;
-  result.weight = face.length / (2. * solution.scene.material_of(face.cell).weight() * face.degree);
+  result.weight =
+      face.length / (2. * solution.scene.material_of(face.cell).residual_weight() * face.degree);
   const Tensor<2, 2> J = face.map.jacobian({0.5, 0.5});
   result.is_skew =
       std::abs(J[0][0] * J[0][1] + J[1][0] * J[1][1]) > negligible_angle * J.norm_square();

@@ -2,7 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/algebra/triangular.h>
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/triangle_stress.h>
 
@@ -308,13 +308,12 @@ TriangleTable::TriangleTable(const unsigned int degree, const unsigned int n_gau
 
 const TriangleStress &TriangleStresses::triangle(const unsigned int degree) const
 {
-  return common_value(triangles, degree, [&]() { return TriangleStress(degree); });
+  return memoised(triangles, degree, [&]() { return TriangleStress(degree); });
 }
 
 const TriangleTable &TriangleStresses::table(const unsigned int degree,
                                              const unsigned int n_gauss) const
 {
-  return common_value(tables, {{degree, n_gauss}},
-                      [&]() { return TriangleTable(degree, n_gauss); });
+  return memoised(tables, {{degree, n_gauss}}, [&]() { return TriangleTable(degree, n_gauss); });
 }
 } // namespace hpvi

@@ -6,7 +6,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/primal_backend.h>
-#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/plane/global_cell_indices.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/scene_entries.h>
@@ -186,7 +186,7 @@ void PrimalBackend<dim>::reach_loads()
         return;
       if (levels_left == 0 || missing->n_cells == 0)
         throw NumericalFailure(missing->why);
-      const auto ranks = cell_ranks(static_cast<const Triangulation<dim> &>(*mesh));
+      const auto ranks = global_cell_indices(static_cast<const Triangulation<dim> &>(*mesh));
       std::vector<unsigned int> mine(mesh->n_global_active_cells()), all(mine.size());
       for (const auto &cell : missing->cells)
         mine[ranks[cell->active_cell_index()]] = 1;
@@ -408,7 +408,7 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
   std::unique_ptr<Transfer<dim>> transfer, of_past;
   {
     StageTimer timer(times.refine);
-    const auto ranks = cell_ranks(static_cast<const Triangulation<dim> &>(*mesh));
+    const auto ranks = global_cell_indices(static_cast<const Triangulation<dim> &>(*mesh));
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned() && refinement.bisect[ranks[cell->active_cell_index()]])
         cell->set_refine_flag();

@@ -10,7 +10,7 @@
 #include <hpvi/driver/limits.h>
 #include <hpvi/driver/marking.h>
 #include <hpvi/driver/step_stages.h>
-#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/plane/global_cell_indices.h>
 #include <hpvi/plane/negligible_solution.h>
 #include <hpvi/reader/checks/rejection.h>
 
@@ -85,14 +85,14 @@ void take_bound(const BoundOfStep &bound, StepReport<dim> &step, PastStep<dim> &
   step.relative_bound = past.relative_bound;
 }
 
-/** eta_K by cell_ranks(): the same cells are marked on any number of processes. Collective. */
+/** eta_K by global_cell_indices(): the same cells are marked on any number of processes. Collective. */
 template <int dim>
 std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim> &field)
 {
   const Triangulation<dim> &mesh = field.dof_handler.get_triangulation();
   if (!dynamic_cast<const parallel::TriangulationBase<dim> *>(&mesh))
     return estimate.indicators();
-  const std::vector<types::global_cell_index> ranks = cell_ranks(mesh);
+  const std::vector<types::global_cell_index> ranks = global_cell_indices(mesh);
   std::vector<std::pair<types::global_cell_index, double>> own;
   for (const auto &cell : field.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())

@@ -14,7 +14,7 @@ ContactFrame<dim> ContactFace<dim>::frame(const double s) const
   ContactFrame<dim> result = contact_frame<dim>(map, face_no, Point<dim - 1>(s));
   result.normal = condition->held_direction(result.normal);
   result.tangent = -cross_product_2d(result.normal);
-  if (is_turned)
+  if (is_axisymmetric)
     result.measure *= full_turn(result.x);
   return result;
 }

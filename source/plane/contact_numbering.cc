@@ -32,9 +32,9 @@ std::vector<PointLimit> limits_of(const ContactFace<dim> &face, const QGauss<1> 
   const auto add = [&](const double s, const double weight)
   {
     const Point<dim> x = face.point(s);
-    const double measure = face.map.is_curved() ? face.frame(s).measure / face.length
-                           : face.is_turned     ? full_turn(x)
-                                                : 1.;
+    const double measure = face.map.is_curved()   ? face.frame(s).measure / face.length
+                           : face.is_axisymmetric ? full_turn(x)
+                                                  : 1.;
     result.push_back({s, weight * measure, face.condition->friction.at(x)});
   };
   const FrictionRule &one = face.friction.vanishes() ? face.coefficient : face.friction;

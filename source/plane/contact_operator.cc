@@ -156,7 +156,7 @@ template <int dim>
 double slope(const ContactFace<dim> &face)
 {
   const double begin = face.point(0.)[0], end = face.point(1.)[0];
-  return face.is_turned ? (end - begin) / (end + begin) : 0.;
+  return face.is_axisymmetric ? (end - begin) / (end + begin) : 0.;
 }
 } // namespace
 

@@ -124,7 +124,7 @@ ContactSpace<dim>::ContactSpace(const Scene<dim> &scene,
   sort_along_boundaries(scene.geometry, contact_faces);
   for (ContactFace<dim> &face : contact_faces)
   {
-    face.is_turned = scene.is_axisymmetric();
+    face.is_axisymmetric = scene.is_axisymmetric();
     if (const auto found = past.find(face.condition->id); found != past.end())
       face.past = found->second;
     number_friction(face, scene, tables);

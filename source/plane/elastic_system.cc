@@ -300,7 +300,7 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
       {
         const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
         {
-          return std::abs(determinant(map.jacobian(reference))) * scene.turn(x) *
+          return std::abs(determinant(map.jacobian(reference))) * scene.circumference(x) *
                  load_at<dim>(scene.body_force_in(cell), x);
         };
         integrate_load(ShapesOfRule(rules.body_force(cell, degree), degree, tables).table,
@@ -312,8 +312,9 @@ Vector<double> applied_loads(const Scene<dim> &scene, const DisplacementSpace<di
           const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
           if (!condition.has_traction())
             continue;
-          const auto force = [&](const Point<dim> &reference, const Point<dim> &x) {
-            return map.face_measure(face, reference) * scene.turn(x) *
+          const auto force = [&](const Point<dim> &reference, const Point<dim> &x)
+          {
+            return map.face_measure(face, reference) * scene.circumference(x) *
                    load_at<dim>(condition.traction, x);
           };
           integrate_load(

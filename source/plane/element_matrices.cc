@@ -29,7 +29,7 @@ gradient_products(const Scene<dim> &scene, const CellMap<dim> &map, const ShapeT
     const Tensor<2, dim> J = map.jacobian(table.points[q]);
     const Tensor<2, dim> inverse = invert(J);
     const double weight = std::sqrt(table.weights[q] * std::abs(determinant(J)) *
-                                    scene.turn(map.point(table.points[q])));
+                                    scene.circumference(map.point(table.points[q])));
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int r = 0; r < dim; ++r)

@@ -71,7 +71,7 @@ StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &sp
   {
     const Point<2> x = map.point(table.points[q]);
     weights.push_back(table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) *
-                      scene.turn(x));
+                      scene.circumference(x));
     Hoop hoop{0., 0., 0.};
     if (scene.is_axisymmetric())
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/plane/load_rule.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ void LoadRules<dim>::add(const Cell &cell, const unsigned int face, const Datum 
   const auto take = [&](const Point<dim> &s, const double weight)
   {
     const Point<dim> x = map.point(s);
-    const DatumValue value = weight * scene.turn(x) * given.value(x);
+    const DatumValue value = weight * scene.circumference(x) * given.value(x);
     if (datum == Datum::load)
     {
       Tensor<1, dim> force;
@@ -123,7 +123,7 @@ void LoadRules<dim>::add_traction(LoadSum &sum, const Cell &cell, const unsigned
     const Point<dim> s = point_on_face<dim>(face, rule.quadrature.point(q));
     const Point<dim> x = map.point(s);
     const double weight = rule.quadrature.weight(q) * map.face_measure(face, s);
-    add(sum, weight * scene.turn(x) * load_at<dim>(load, x), x);
+    add(sum, weight * scene.circumference(x) * load_at<dim>(load, x), x);
   }
 }
 
@@ -236,7 +236,7 @@ LoadRule<dim> LoadRules<dim>::in_cell(const Cell &cell, const Datum datum,
     return rule_parts<dim>(pieces(cell, inside, datum).boxes, degree, functions, *tables);
   };
   return rule_on<dim>(
-      common_value(known_parts[static_cast<unsigned int>(datum)], cell_key(cell, degree), make),
+      memoised(known_parts[static_cast<unsigned int>(datum)], cell_key(cell, degree), make),
       *tables);
 }
 

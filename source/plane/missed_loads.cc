@@ -86,7 +86,8 @@ DatumValue sum_of_springs(const Discretisation<2> &discretisation)
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const Point<2> s = point_on_face<2>(f, rule.point(q)), x = map.point(s);
-          result += rule.weight(q) * map.face_measure(f, s) * scene.turn(x) * given.value(x);
+          result +=
+              rule.weight(q) * map.face_measure(f, s) * scene.circumference(x) * given.value(x);
         }
       }
   return result;

@@ -6,7 +6,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/lac/lapack_templates.h>
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/plane/shape_tables.h>
 
 #include <cmath>
@@ -135,7 +135,7 @@ const ShapeTable<dim> &ShapeTables<dim>::in_cell(const unsigned int degree,
     const QGauss<dim> gauss(n_gauss);
     return tabulate<dim>(degree, gauss.get_points(), gauss.get_weights(), second_derivatives);
   };
-  return common_value(tables, {{degree, whole_cell, second_derivatives, n_gauss}}, make);
+  return memoised(tables, {{degree, whole_cell, second_derivatives, n_gauss}}, make);
 }
 
 template <int dim>
@@ -161,18 +161,18 @@ ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
       QProjector<dim>::project_to_subface(hypercube, gauss, face_no, subface_no, points);
     return tabulate<dim>(degree, points, gauss.get_weights(), false);
   };
-  return common_value(tables, {{degree, face_no, subface_no, n_gauss}}, make);
+  return memoised(tables, {{degree, face_no, subface_no, n_gauss}}, make);
 }
 
 template <int dim>
 const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highest) const
 {
   {
-    const ReadsCommonTables reading;
+    const ReadsMemoTables reading;
     if (finite_elements.size() >= highest)
       return finite_elements;
   }
-  const WritesCommonTables writing;
+  const WritesMemoTables writing;
   while (finite_elements.size() < highest)
     finite_elements.push_back(FESystem<dim>(FE_Q<dim>(finite_elements.size() + 1), dim));
   return finite_elements;
@@ -204,7 +204,7 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
   const auto make = [&]()
   {
     elements(degree);
-    const ReadsCommonTables reading; // of the collection, which may grow
+    const ReadsMemoTables reading; // of the collection, which may grow
     const FiniteElement<dim> &fe = finite_elements[degree - 1];
     LocalNumbering numbering;
     numbering.n_boundary = fe.n_dofs_per_cell() - fe.template n_dofs_per_object<dim>();
@@ -217,7 +217,7 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
       number_edges(fe, numbering);
     return numbering;
   };
-  return common_value(numberings, degree, make);
+  return memoised(numberings, degree, make);
 }
 
 namespace
@@ -281,26 +281,26 @@ const EdgeInterpolation &ShapeTables<dim>::edge_interpolation(const unsigned int
     }
     return result;
   };
-  return common_value(interpolations, {{source_degree, trace_degree, target_degree, part}}, make);
+  return memoised(interpolations, {{source_degree, trace_degree, target_degree, part}}, make);
 }
 
 template <int dim>
 const QGauss<1> &ShapeTables<dim>::gauss(const unsigned int n_gauss) const
 {
-  return common_value(gauss_rules, n_gauss, [&]() { return QGauss<1>(n_gauss); });
+  return memoised(gauss_rules, n_gauss, [&]() { return QGauss<1>(n_gauss); });
 }
 
 template <int dim>
 const QGaussLobatto<1> &ShapeTables<dim>::gauss_lobatto(const unsigned int n_points) const
 {
-  return common_value(gauss_lobatto_rules, n_points, [&]() { return QGaussLobatto<1>(n_points); });
+  return memoised(gauss_lobatto_rules, n_points, [&]() { return QGaussLobatto<1>(n_points); });
 }
 
 template <int dim>
 const std::vector<Polynomials::Polynomial<double>> &
 ShapeTables<dim>::gauss_lagrange(const unsigned int n_gauss) const
 {
-  return common_value(
+  return memoised(
       lagrange_bases, n_gauss,
       [&]() { return Polynomials::generate_complete_Lagrange_basis(gauss(n_gauss).get_points()); });
 }
@@ -329,7 +329,7 @@ const EdgeTable &ShapeTables<dim>::edge(const unsigned int degree, const unsigne
     }
     return table;
   };
-  return common_value(edge_tables, {{degree, n_multipliers, n_gauss}}, make);
+  return memoised(edge_tables, {{degree, n_multipliers, n_gauss}}, make);
 }
 
 template <int dim>
@@ -367,7 +367,7 @@ const FullMatrix<double> &ShapeTables<dim>::nodes_from_moments(const unsigned in
       }
     return N;
   };
-  return common_value(moment_nodes, {degree, slope}, make);
+  return memoised(moment_nodes, {degree, slope}, make);
 }
 
 std::vector<double> evaluate(const FullMatrix<double> &table,

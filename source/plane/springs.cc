@@ -24,7 +24,7 @@ FullMatrix<double> matrix_of(const Scene<2> &scene, const DisplacementSpace<2> &
     const Tensor<1, 2> normal = map.normal(face, table.points[q]);
     const Tensor<2, 2> k = boundary.spring.stiffness(map.point(table.points[q]), normal);
     const double ds = table.weights[q] * map.face_measure(face, table.points[q]) *
-                      scene.turn(map.point(table.points[q]));
+                      scene.circumference(map.point(table.points[q]));
     for (unsigned int i = 0; i < 2 * n; ++i)
       for (unsigned int j = 0; j < 2 * n; ++j)
         result(i, j) +=

@@ -205,7 +205,7 @@ void TensorStiffness::tabulate_coefficients(const Scene<2> &scene, const CellMap
       const Tensor<2, 2> J = jacobians(q1, q2);
       double weight = x.weights[q1] * y.weights[q2] / std::abs(determinant(J));
       if (has_turn)
-        weight *= scene.turn(map.point(Point<2>(x.points[q1][0], y.points[q2][0])));
+        weight *= scene.circumference(map.point(Point<2>(x.points[q1][0], y.points[q2][0])));
       // Rows of the inverse times det J: the gradients of xi and eta.
       const double a[2][2] = {{J[1][1], -J[0][1]}, {-J[1][0], J[0][0]}};
       for (unsigned int r = 0, k = 0; r < 2; ++r)
@@ -232,7 +232,7 @@ void TensorStiffness::sum_rotations(const Scene<2> &scene, const CellMap<2> &map
   for (unsigned int q2 = 0; q2 < n_2; ++q2)
     for (unsigned int q1 = 0; q1 < n_1; ++q1)
       C[q1 + n_1 * q2] = x.weights[q1] * y.weights[q2] *
-                         scene.turn(map.point(Point<2>(x.points[q1][0], y.points[q2][0])));
+                         scene.circumference(map.point(Point<2>(x.points[q1][0], y.points[q2][0])));
   constexpr unsigned int sum = 2, difference = 3;
   for (const bool is_swapped : {false, true})
   {

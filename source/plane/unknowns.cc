@@ -12,7 +12,7 @@ using namespace dealii;
 namespace
 {
 /** A node with two displacements that are unknowns, `u = sum_k x_k d_k` from now on. */
-struct TurnedNode
+struct RotatedNode
 {
   std::array<unsigned int, 2> unknowns; ///< of components 0 and 1
   std::array<types::global_dof_index, 2> dofs;
@@ -24,10 +24,10 @@ struct TurnedNode
  * Nodes of slanted contact edges where both components of u are unknowns, by either of these. Tangent and normal in their
  * place make a scene that is turned the same.
  */
-std::map<unsigned int, TurnedNode> turned_nodes(const ContactOperator<2> &contact_operator,
-                                                const Unknowns<2> &unknowns)
+std::map<unsigned int, RotatedNode> rotated_nodes(const ContactOperator<2> &contact_operator,
+                                                  const Unknowns<2> &unknowns)
 {
-  std::map<unsigned int, TurnedNode> result;
+  std::map<unsigned int, RotatedNode> result;
   for (const ContactOperator<2>::Rows &rows : contact_operator.rows())
   {
     const ContactFrame<2> frame = rows.face->frame(0.5);
@@ -43,7 +43,7 @@ std::map<unsigned int, TurnedNode> turned_nodes(const ContactOperator<2> &contac
         continue;
       const std::array<unsigned int, 2> own{
           {unknowns.terms(dofs[0])[0].first, unknowns.terms(dofs[1])[0].first}};
-      const TurnedNode turned{
+      const RotatedNode turned{
           own, dofs, {{first[0] < 0 ? -first : first, second[1] < 0 ? -second : second}}};
       for (const unsigned int unknown : own)
         result.emplace(unknown, turned);
@@ -53,8 +53,8 @@ std::map<unsigned int, TurnedNode> turned_nodes(const ContactOperator<2> &contac
 }
 
 /** A row of T by the unknowns of turned nodes. */
-std::vector<std::pair<unsigned int, double>> turned(const Terms &terms,
-                                                    const std::map<unsigned int, TurnedNode> &nodes)
+std::vector<std::pair<unsigned int, double>>
+turned(const Terms &terms, const std::map<unsigned int, RotatedNode> &nodes)
 {
   std::map<unsigned int, double> sum;
   double largest = 0;
@@ -109,7 +109,7 @@ Unknowns<dim>::Unknowns(const DisplacementSpace<dim> &displacement_space,
   }
   first_entry.push_back(entries.size());
 
-  const std::map<unsigned int, TurnedNode> nodes = turned_nodes(contact_operator, *this);
+  const std::map<unsigned int, RotatedNode> nodes = rotated_nodes(contact_operator, *this);
   if (nodes.empty())
     return;
   std::vector<std::pair<unsigned int, double>> all;

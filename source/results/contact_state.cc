@@ -202,8 +202,8 @@ std::vector<ContactState<dim>> OwnContact<dim>::states() const
     Point<dim - 1> middle;
     for (unsigned int s = 0; s < dim - 1; ++s)
       middle[s] = 0.5;
-    state.area +=
-        face.area() * field.scene.turn(face.map.point(point_on_face<dim>(face.face_no, middle)));
+    state.area += face.area() * field.scene.circumference(
+                                    face.map.point(point_on_face<dim>(face.face_no, middle)));
     add_points(face, state);
     if (dim == 2)
       state.chains.back().last_point = state.points.size();

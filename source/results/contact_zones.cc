@@ -120,7 +120,7 @@ void find_zones_along(const ContactChain<2> &chain, const Scene<2> &scene, Conta
     for (std::size_t i = cuts[k]; i < cuts[k + 1]; ++i)
     {
       ++n_points[static_cast<unsigned int>(points[i].mode())];
-      length += points[i].area / scene.turn(points[i].x);
+      length += points[i].area / scene.circumference(points[i].x);
     }
     const auto mode = static_cast<ContactMode>(std::max_element(n_points.begin(), n_points.end()) -
                                                n_points.begin());

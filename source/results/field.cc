@@ -55,7 +55,8 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
   FaceFrame<dim> result;
   result.x = map.point(reference);
   result.normal = condition->held_direction(map.normal(face_no, reference));
-  result.measure = map.face_measure(face_no, reference) * (is_turned ? full_turn(result.x) : 1.);
+  result.measure =
+      map.face_measure(face_no, reference) * (is_axisymmetric ? full_turn(result.x) : 1.);
   if constexpr (dim == 2)
     result.tangents = {{-cross_product_2d(result.normal)}};
   else

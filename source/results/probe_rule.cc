@@ -91,7 +91,7 @@ ProbeRule<2> disc_rule_of(const Probe<2> &probe, const Scene<2> &scene,
     for (unsigned int q = 0; q < part.points.size(); ++q)
     {
       area += part.areas[q];
-      part.areas[q] *= scene.turn(map.point(part.points[q]));
+      part.areas[q] *= scene.circumference(map.point(part.points[q]));
     }
     rule.push_back({cell, part.points, part.areas});
   }
@@ -153,7 +153,7 @@ ProbeRule<dim> boundary_rule(const std::vector<types::boundary_id> &on, const Sc
       {
         part.points.push_back(point_on_face<dim>(face, gauss.point(q)));
         part.weights.push_back(gauss.weight(q) * map.face_measure(face, part.points.back()) *
-                               scene.turn(map.point(part.points.back())));
+                               scene.circumference(map.point(part.points.back())));
       }
       rule.push_back(part);
     }

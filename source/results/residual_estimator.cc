@@ -190,7 +190,8 @@ void Residuals<dim>::add_volume(const Cell &cell)
                                     vector_at<dim>(u, table.points.size(), q), gradient);
     if (scene.has_body_force())
       residual -= load_at<dim>(scene.body_force_in(cell), x);
-    sum += table.weights[q] * std::abs(determinant(J)) * scene.turn(x) * residual.norm_square();
+    sum += table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
+           residual.norm_square();
   }
   result.volume[index] = sizes[index] / degrees[index] * weight(index) * sum;
 }

@@ -46,7 +46,7 @@ DifferenceSquares squares_of_difference(const Field<dim> &field,
               values->hoop = values->u[0] / x[0];
           sums.add(law, field_values[q], truth_values[q],
                    gauss.weight(q) * share * std::abs(determinant(own.map.jacobian(s))) *
-                       field.scene.turn(x));
+                       field.scene.circumference(x));
         }
       });
   return sums;

@@ -30,7 +30,7 @@ ContactAxes<dim> contact_axes(const Tensor<1, dim> &normal)
     if (rest.norm() < 1e-10)
       result.axis = d;
   }
-  if (!result.is_turned())
+  if (!result.is_rotated())
   {
     result.normal[result.axis] = normal[result.axis] > 0 ? 1 : -1;
     for (unsigned int d = 0, s = 0; d < dim; ++d)

@@ -32,7 +32,8 @@ double largest_initial_stress(const Scene<2> &scene)
   double largest = 0;
   for (unsigned int m = 0; m < scene.materials.size(); ++m)
     for (const Point<2> &x : sample_body(scene.geometry))
-      largest = std::max(largest, scene.materials[m].weight() * scene.initial_strain(m, x).norm());
+      largest = std::max(largest,
+                         scene.materials[m].residual_weight() * scene.initial_strain(m, x).norm());
   return largest <= largest_magnitude ? largest : 0.;
 }
 
@@ -107,7 +108,7 @@ DataScale data_scale(const Scene<dim> &scene)
   }
   double softest = scene.largest_weight();
   for (const Material &material : scene.materials)
-    softest = std::min(softest, material.weight());
+    softest = std::min(softest, material.residual_weight());
   const double strain = scale.stress / scene.largest_weight();
   scale.stress = std::max(scale.stress, softest * scale.displacement / size);
   scale.displacement = std::max(scale.displacement, strain * size);

@@ -211,7 +211,7 @@ double Scene<dim>::largest_weight() const
 {
   double largest = 0;
   for (const Material &material : materials)
-    largest = std::max(largest, material.weight());
+    largest = std::max(largest, material.residual_weight());
   return largest;
 }
 

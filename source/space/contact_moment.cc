@@ -29,7 +29,7 @@ std::vector<unsigned int> MomentFace<dim>::components() const
 {
   std::vector<unsigned int> result;
   for (unsigned int c = 0; c < dim; ++c)
-    if (axes.is_turned() || (c == normal() ? has_pressure() : has_friction()))
+    if (axes.is_rotated() || (c == normal() ? has_pressure() : has_friction()))
       result.push_back(c);
   return result;
 }
@@ -37,20 +37,20 @@ std::vector<unsigned int> MomentFace<dim>::components() const
 template <int dim>
 unsigned int MomentFace<dim>::tangential(const unsigned int s) const
 {
-  return axes.is_turned() || s < axes.axis ? s : s + 1;
+  return axes.is_rotated() || s < axes.axis ? s : s + 1;
 }
 
 template <int dim>
 unsigned int MomentFace<dim>::normal() const
 {
-  return axes.is_turned() ? dim - 1 : axes.axis;
+  return axes.is_rotated() ? dim - 1 : axes.axis;
 }
 
 template <int dim>
 Tensor<1, dim> MomentFace<dim>::direction(const unsigned int component) const
 {
   Tensor<1, dim> result;
-  if (axes.is_turned())
+  if (axes.is_rotated())
     result = component == dim - 1 ? axes.normal : axes.tangents[component];
   else
     result[component] = 1;

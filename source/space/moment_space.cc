@@ -258,8 +258,8 @@ DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) con
     {
       for (unsigned int k = 0; k < n; ++k)
       {
-        rest[k] = face.axes.is_turned() ? 0. : u(dof(dofs, inner_shapes[k], c));
-        for (unsigned int own = 0; face.axes.is_turned() && own < dim; ++own)
+        rest[k] = face.axes.is_rotated() ? 0. : u(dof(dofs, inner_shapes[k], c));
+        for (unsigned int own = 0; face.axes.is_rotated() && own < dim; ++own)
           rest[k] += face.direction(own)[c] * u(dof(dofs, inner_shapes[k], own));
         for (unsigned int j = 0; j < rim_shapes.size(); ++j)
           rest[k] -= moments.W(k, j) * u(dof(dofs, rim_shapes[j], c));

@@ -55,7 +55,7 @@ void MomentTransform<Number>::add(const MomentSpace<3> &space, const Vector &pat
   moments.M_inverse.mmult(C, moments.W);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   face.cell->get_dof_indices(dofs);
-  if (face.axes.is_turned())
+  if (face.axes.is_rotated())
   {
     turns.push_back({static_cast<unsigned int>(inner.size()), {}});
     for (unsigned int own = 0; own < 3; ++own)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
-#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/plane/global_cell_indices.h>
 #include <hpvi/space/stored_values.h>
 #include <hpvi/space/transfer.h>
 
@@ -14,7 +14,7 @@ using namespace dealii;
 
 namespace
 {
-/** Numbers of cells of this process, by cell_ranks(). */
+/** Numbers of cells of this process, by global_cell_indices(). */
 using CellNumbers = std::vector<std::pair<types::global_cell_index, std::vector<double>>>;
 
 /** Of all processes in turn. Utilities::MPI::all_gather() would compress them, which takes longer than all else. */
@@ -66,7 +66,7 @@ template <int dim>
 StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVector &u,
                            const std::vector<ContactVector<dim>> &lambda)
 {
-  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
+  const auto ranks = global_cell_indices(space.dof_handler.get_triangulation());
   CellNumbers own_u, own_z;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -91,7 +91,7 @@ bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
                  std::vector<ContactVector<dim>> &lambda)
 {
   const unsigned int n = space.tables.fe.dofs_per_cell;
-  const auto ranks = cell_ranks(space.dof_handler.get_triangulation());
+  const auto ranks = global_cell_indices(space.dof_handler.get_triangulation());
   u = space.ghosted_vector();
   lambda.assign(space.contact.size(), ContactVector<dim>());
   CellNumbers sizes; // of the multiplier

@@ -48,7 +48,7 @@ unsigned int held_axis(const typename Triangulation<dim>::cell_iterator &cell,
     middle[s] = 0.5;
   const ContactAxes<dim> axes =
       contact_axes(map_of<dim>(cell).normal(face, point_on_face<dim>(face, middle)));
-  AssertThrow(!axes.is_turned(), ExcMessage("No axis is normal to a face with u_n = 0."));
+  AssertThrow(!axes.is_rotated(), ExcMessage("No axis is normal to a face with u_n = 0."));
   return axes.axis;
 }
 

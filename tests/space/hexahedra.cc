@@ -221,18 +221,18 @@ TEST(Hexahedra, OfABoxAreTheBox)
   box.solver.primal_tolerance = 1e-11;
   const std::vector<Step> expected = steps_of<3>(box);
   const Map place = [](const Point<3> &x) { return Point<3>(2 * x[0] - 1, x[1], 2 * x[2] - 1); };
-  for (const bool is_turned : {false, true})
+  for (const bool is_rotated : {false, true})
     for (const LinearMethod linear : {LinearMethod::multigrid, LinearMethod::direct})
     {
       Scene<3> scene =
           scene_of({{{4, 2, 4}},
-                    is_turned ? Map([&](const Point<3> &x) { return turned(place(x)); }) : place,
+                    is_rotated ? Map([&](const Point<3> &x) { return turned(place(x)); }) : place,
                     true},
                    "hexahedra-box");
-      const auto back = [is_turned](const Point<3> &x)
+      const auto back = [is_rotated](const Point<3> &x)
       {
         Tensor<1, 3> result = x;
-        for (unsigned int d = 0; d < 3 && is_turned; ++d)
+        for (unsigned int d = 0; d < 3 && is_rotated; ++d)
         {
           Point<3> e;
           e[d] = 1;
@@ -258,7 +258,7 @@ TEST(Hexahedra, OfABoxAreTheBox)
         to.gap = moved(from.gap);
         to.friction.bound = moved(from.friction.bound);
         const Point<3> u =
-            is_turned ? turned(Point<3>(0.01, -0.05, 0.005)) : Point<3>(0.01, -0.05, 0.005);
+            is_rotated ? turned(Point<3>(0.01, -0.05, 0.005)) : Point<3>(0.01, -0.05, 0.005);
         for (unsigned int c = 0; c < 3 && from.has_displacement(); ++c)
           to.displacement[c] = expression<3>(u[c]);
       }
@@ -381,8 +381,8 @@ TEST(Hexahedra, RestOnAnyQuadrilaterals)
         scene.geometry.graded_towards = {floor.map(Point<3>(0, 0, 0))};
         scene.geometry.grading_levels = 1;
       }
-      const bool is_turned = std::abs(normal[1] + 1) > 1e-9;
-      const Point<3> load = is_turned ? turned(floor.load) : floor.load;
+      const bool is_rotated = std::abs(normal[1] + 1) > 1e-9;
+      const Point<3> load = is_rotated ? turned(floor.load) : floor.load;
       for (unsigned int c = 0; c < 3; ++c)
         scene.boundary("top").traction[c] = expression<3>(load[c]);
       steps_of<3>(scene,

@@ -96,8 +96,8 @@ FullMatrix<double> plain_stiffness(const Scene<2> &scene, const CellMap<2> &map,
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
     const Point<2> x = map.point(table.points[q]);
-    const double weight =
-        table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) * scene.turn(x);
+    const double weight = table.weights[q] * std::abs(determinant(map.jacobian(table.points[q]))) *
+                          scene.circumference(x);
     const auto gradients = gradients_at(map, table, numbering, q);
     std::vector<double> hoop(n);
     for (unsigned int i = 0; is_axisymmetric && i < n; ++i)

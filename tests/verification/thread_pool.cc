@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Threads that share loops, and the tables that they fill together.
 #include <gtest/gtest.h>
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/thread_pool.h>
 
@@ -159,7 +159,7 @@ TEST(CommonTable, MakesWhatIsMissing)
                     [&](const unsigned int k)
                     {
                       const unsigned int key = k % 50;
-                      EXPECT_EQ(common_value(squares, key, [&]() { return double(key) * key; }),
+                      EXPECT_EQ(memoised(squares, key, [&]() { return double(key) * key; }),
                                 key * key);
                     });
   EXPECT_EQ(squares.size(), 50U);

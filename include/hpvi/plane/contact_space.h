@@ -82,7 +82,8 @@ struct ContactFace
       {};                         ///< a rule for the limit of the law, cut where its functions are
   Expression<dim> past = nullptr; ///< of PastSlip
   bool at_nodes = false;          ///< are the normal points Gauss-Lobatto points?
-  bool is_turned = false; ///< around the axis: measures hold 2 pi x, and so do weights of limits
+  bool is_axisymmetric =
+      false; ///< around the axis: measures hold 2 pi x, and so do weights of limits
   /** Of the other body, where there is one: u_n and u_t stand for jumps [u] = u - u' then. */
   std::vector<ContactSegment<dim>> segments = {};
 

@@ -60,9 +60,9 @@ struct FieldFace
   typename dealii::DoFHandler<dim>::active_cell_iterator cell;
   unsigned int face_no;
   const BoundaryCondition<dim> *condition;
-  CellMap<dim> map;       ///< of the cell
-  unsigned int number;    ///< of this in Field::faces()
-  bool is_turned = false; ///< is it one of an axisymmetric body?
+  CellMap<dim> map;             ///< of the cell
+  unsigned int number;          ///< of this in Field::faces()
+  bool is_axisymmetric = false; ///< is it one of an axisymmetric body?
 
   unsigned int degree() const; ///< p_K of the cell
 

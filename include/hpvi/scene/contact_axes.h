@@ -21,7 +21,7 @@ struct ContactAxes
   unsigned int axis =
       none; ///< of coordinates that the normal is along, to 1e-10; none: it is along none
 
-  bool is_turned() const
+  bool is_rotated() const
   {
     return axis == none;
   }

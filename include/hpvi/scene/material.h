@@ -53,7 +53,7 @@ struct Material
   }
 
   /** Stress over shear [stress]: weighs residuals of parts with each other, makes tractions of displacements. */
-  double weight() const
+  double residual_weight() const
   {
     return orthotropy ? orthotropy->shear : mu();
   }

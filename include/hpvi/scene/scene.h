@@ -306,7 +306,7 @@ struct Scene
   }
 
   /** What a measure in the plane becomes at @p x: `2 pi x` of an axisymmetric body [length], else 1. */
-  double turn(const dealii::Point<dim> &x) const
+  double circumference(const dealii::Point<dim> &x) const
   {
     return is_axisymmetric() ? full_turn(x) : 1.;
   }

@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /**
- * Displacement and multiplier of the primal path cell by cell, in the order of cell_ranks().
+ * Displacement and multiplier of the primal path cell by cell, in the order of global_cell_indices().
  */
 struct StoredValues
 {

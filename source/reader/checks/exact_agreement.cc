@@ -30,8 +30,8 @@ public:
       for (const Point<2> &point : any.sample())
       {
         displacement_scale = std::max(displacement_scale, exact.displacement(point).norm());
-        stress_scale =
-            std::max(stress_scale, scene.materials[0].weight() * exact.gradient(point).norm());
+        stress_scale = std::max(stress_scale, scene.materials[0].residual_weight() *
+                                                  exact.gradient(point).norm());
       }
   }
 

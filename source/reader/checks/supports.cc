@@ -153,7 +153,7 @@ void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
     for (const Side<3>::Piece &piece : sides[boundary.id].pieces)
       if (scene.geometry.has_mesh() && boundary.holds_normal() &&
-          contact_axes(normal_of(piece)).is_turned())
+          contact_axes(normal_of(piece)).is_rotated())
         reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
                "holds u_n = 0 on the face at " + to_string(piece[0]) +
                    ", whose normal is along no axis, which space does not offer; turn the body, "

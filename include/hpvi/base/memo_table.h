@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_common_table_h
-#define hpvi_common_table_h
+#ifndef hpvi_memo_table_h
+#define hpvi_memo_table_h
 
 #include <hpvi/base/thread_pool.h>
 
@@ -10,25 +10,25 @@
 namespace hpvi
 {
 /** The calling thread may read tables that threads have in common, as long as this lives: it waits for none but those who write. */
-class ReadsCommonTables
+class ReadsMemoTables
 {
 public:
-  ReadsCommonTables();
-  ~ReadsCommonTables();
+  ReadsMemoTables();
+  ~ReadsMemoTables();
 
-  ReadsCommonTables(const ReadsCommonTables &) = delete;
-  ReadsCommonTables &operator=(const ReadsCommonTables &) = delete;
+  ReadsMemoTables(const ReadsMemoTables &) = delete;
+  ReadsMemoTables &operator=(const ReadsMemoTables &) = delete;
 };
 
 /** The calling thread alone may read or write them, as long as this lives. */
-class WritesCommonTables
+class WritesMemoTables
 {
 public:
-  WritesCommonTables();
-  ~WritesCommonTables();
+  WritesMemoTables();
+  ~WritesMemoTables();
 
-  WritesCommonTables(const WritesCommonTables &) = delete;
-  WritesCommonTables &operator=(const WritesCommonTables &) = delete;
+  WritesMemoTables(const WritesMemoTables &) = delete;
+  WritesMemoTables &operator=(const WritesMemoTables &) = delete;
 };
 
 /**
@@ -36,16 +36,16 @@ public:
  * erased meanwhile. Two of them may make the same, of which one is kept; make() may ask for other values.
  */
 template <class Map, class Make>
-const typename Map::mapped_type &common_value(Map &map, const typename Map::key_type &key,
-                                              const Make &make)
+const typename Map::mapped_type &memoised(Map &map, const typename Map::key_type &key,
+                                          const Make &make)
 {
   {
-    const ReadsCommonTables reading;
+    const ReadsMemoTables reading;
     if (const auto found = map.find(key); found != map.end())
       return found->second;
   }
   typename Map::mapped_type value = make();
-  const WritesCommonTables writing;
+  const WritesMemoTables writing;
   return map.emplace(key, std::move(value)).first->second;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_cell_ranks_h
-#define hpvi_cell_ranks_h
+#ifndef hpvi_global_cell_indices_h
+#define hpvi_global_cell_indices_h
 
 #include <deal.II/grid/tria.h>
 
@@ -14,7 +14,8 @@ namespace hpvi
  * process alone active_cell_index itself. Collective.
  */
 template <int dim>
-std::vector<dealii::types::global_cell_index> cell_ranks(const dealii::Triangulation<dim> &mesh);
+std::vector<dealii::types::global_cell_index>
+global_cell_indices(const dealii::Triangulation<dim> &mesh);
 } // namespace hpvi
 
 #endif

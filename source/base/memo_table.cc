@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/common_table.h>
+#include <hpvi/base/memo_table.h>
 
 #include <array>
 #include <atomic>
@@ -27,23 +27,23 @@ Lock &own_lock()
 }
 } // namespace
 
-ReadsCommonTables::ReadsCommonTables()
+ReadsMemoTables::ReadsMemoTables()
 {
   own_lock().mutex.lock();
 }
 
-ReadsCommonTables::~ReadsCommonTables()
+ReadsMemoTables::~ReadsMemoTables()
 {
   own_lock().mutex.unlock();
 }
 
-WritesCommonTables::WritesCommonTables()
+WritesMemoTables::WritesMemoTables()
 {
   for (Lock &lock : locks)
     lock.mutex.lock();
 }
 
-WritesCommonTables::~WritesCommonTables()
+WritesMemoTables::~WritesMemoTables()
 {
   for (Lock &lock : locks)
     lock.mutex.unlock();

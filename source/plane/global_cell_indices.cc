@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/plane/cell_ranks.h>
+#include <hpvi/plane/global_cell_indices.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria_base.h>
@@ -14,7 +14,7 @@ namespace hpvi
 using namespace dealii;
 
 template <int dim>
-std::vector<types::global_cell_index> cell_ranks(const Triangulation<dim> &mesh)
+std::vector<types::global_cell_index> global_cell_indices(const Triangulation<dim> &mesh)
 {
   std::vector<types::global_cell_index> ranks(mesh.n_active_cells());
   std::iota(ranks.begin(), ranks.end(), types::global_cell_index());
@@ -48,6 +48,6 @@ std::vector<types::global_cell_index> cell_ranks(const Triangulation<dim> &mesh)
   return ranks;
 }
 
-template std::vector<types::global_cell_index> cell_ranks(const Triangulation<2> &);
-template std::vector<types::global_cell_index> cell_ranks(const Triangulation<3> &);
+template std::vector<types::global_cell_index> global_cell_indices(const Triangulation<2> &);
+template std::vector<types::global_cell_index> global_cell_indices(const Triangulation<3> &);
 } // namespace hpvi
