@@ -73,10 +73,10 @@ void write_loads(std::ostream &out, const FinishedLoads &loads)
 
 /** How many, then boundary, value, place and length of each. */
 template <int dim>
-void write_peaks(std::ostream &out, const std::vector<StressSample<dim>> &peaks)
+void write_extrema(std::ostream &out, const std::vector<StressSample<dim>> &extrema)
 {
-  out << ' ' << peaks.size();
-  for (const StressSample<dim> &peak : peaks)
+  out << ' ' << extrema.size();
+  for (const StressSample<dim> &peak : extrema)
   {
     out << ' ' << peak.boundary << ' ' << text(peak.value);
     for (unsigned int d = 0; d < dim; ++d)
@@ -154,7 +154,7 @@ public:
   }
 
   template <int dim>
-  std::vector<StressSample<dim>> peaks()
+  std::vector<StressSample<dim>> extrema()
   {
     std::vector<StressSample<dim>> result;
     for (unsigned int n = number<unsigned int>(); n > 0; --n)
@@ -271,7 +271,7 @@ void RunState<dim>::write(std::ostream &out) const
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
             << text(step.relative_bound) << ' ' << text(step.relative_half_width) << ' '
             << text(step.seconds) << ' ' << step.lacks_condition << ' ' << text(step.own_stress);
-    write_peaks(content, step.peaks);
+    write_extrema(content, step.extrema);
     write_claims(content, step.claims, step.contradiction);
   }
   content << "refinements " << refinements.size() << '\n';
@@ -307,7 +307,7 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
     step.own_stress = reader.number<double>();
-    step.peaks = reader.template peaks<dim>();
+    step.extrema = reader.template extrema<dim>();
     reader.claims(step.claims, step.contradiction);
   }
   reader.expect("refinements");

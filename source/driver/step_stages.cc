@@ -336,7 +336,7 @@ StepReport<dim> StepStages<dim>::report()
   {
     StageTimer timer(backend->times.recover);
     contact = contact_states(field);
-    history.back().peaks = stress_peaks(stress_samples(field), scene);
+    history.back().extrema = stress_extrema(stress_samples(field), scene);
   }
   const PastStep<dim> &past = history.back();
   StepReport<dim> step{static_cast<unsigned int>(history.size()),
@@ -355,7 +355,7 @@ StepReport<dim> StepStages<dim>::report()
   step.relative_estimate = past.relative_estimate;
   step.energies = energies;
   step.contact = std::move(contact);
-  step.peaks = past.peaks;
+  step.extrema = past.extrema;
   add_results(step);
   add_bound(step);
   return step;
@@ -411,19 +411,19 @@ void StepStages<dim>::conclude(StepReport<dim> &step)
 {
   const Adaptivity &limits = step.scene.adaptivity;
   step.largest_displacement = largest_displacement(step.field);
-  std::vector<std::vector<StressSample<dim>>> peaks;
+  std::vector<std::vector<StressSample<dim>>> extrema;
   for (const PastStep<dim> &past : history)
-    peaks.push_back(past.peaks);
+    extrema.push_back(past.extrema);
   const std::vector<StressSample<dim>> samples = stress_samples(step.field);
-  std::vector<StressSample<dim>> growing = growing_peaks(peaks);
+  std::vector<StressSample<dim>> growing = growing_extrema(extrema);
   // The mesh comes from load steps before; on one process, for peaks of others are not known alike on all.
   if (backend->trail().size() >= history.size() && n_processes(backend->communicator) == 1)
-    for (const StressSample<dim> &peak : peaks_of_rings(step.peaks, samples, step.field))
+    for (const StressSample<dim> &peak : extrema_of_rings(step.extrema, samples, step.field))
       if (std::none_of(growing.begin(), growing.end(),
                        [&](const auto &known)
                        { return known.boundary == peak.boundary && known.where == peak.where; }))
         growing.push_back(peak);
-  step.unbounded = unbounded_stresses(growing, samples, step.field);
+  step.unbounded = stress_singularities(growing, samples, step.field);
   const BodyState<dim> body = body_state(step.field);
   Warnings of_all;
   together(backend->communicator,

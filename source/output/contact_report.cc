@@ -107,10 +107,10 @@ Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
 
 /** Those on one contact boundary, or of von Mises' stress. */
 template <int dim>
-std::vector<UnboundedStress<dim>> on(const types::boundary_id boundary,
-                                     const std::vector<UnboundedStress<dim>> &unbounded)
+std::vector<StressSingularity<dim>> on(const types::boundary_id boundary,
+                                       const std::vector<StressSingularity<dim>> &unbounded)
 {
-  std::vector<UnboundedStress<dim>> result;
+  std::vector<StressSingularity<dim>> result;
   std::copy_if(unbounded.begin(), unbounded.end(), std::back_inserter(result),
                [&](const auto &stress) { return stress.peak.boundary == boundary; });
   return result;
@@ -119,7 +119,7 @@ std::vector<UnboundedStress<dim>> on(const types::boundary_id boundary,
 /** As in "pressure is unbounded at (1 0): 3e5 in the last cells, ...". */
 template <int dim>
 std::string in_words(const std::string &name, const Scene<dim> &scene,
-                     const UnboundedStress<dim> &stress)
+                     const StressSingularity<dim> &stress)
 {
   const bool is_pressure = stress.peak.boundary != numbers::invalid_boundary_id;
   return name + " is unbounded at " + point_text<dim>(stress.where) + ": " +
@@ -154,14 +154,14 @@ std::string acting(const BoundaryForce<3> &force, const Equilibrium<3> &equilibr
 template <int dim>
 std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
                      const Equilibrium<dim> &equilibrium,
-                     const std::vector<UnboundedStress<dim>> &unbounded)
+                     const std::vector<StressSingularity<dim>> &unbounded)
 {
   const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
   const double scale = force_scale(equilibrium, state);
   std::string words =
       "\ncontact " + boundary.name + ": " + acting(force, equilibrium, state, scale);
-  for (const UnboundedStress<dim> &stress : unbounded)
+  for (const StressSingularity<dim> &stress : unbounded)
     words += "\n  " + in_words("pressure", scene, stress);
   if (state.highest_pressure > 0 && unbounded.empty())
     words += "\n  pressure up to " + labelled(state.highest_pressure, scene.stress_unit) + " at " +
@@ -200,10 +200,10 @@ std::string json_extreme(const std::string &name, const double value, const Poin
 
 /** As a list; von Mises' stress carries no force. */
 template <int dim>
-std::string json(const std::vector<UnboundedStress<dim>> &unbounded)
+std::string json(const std::vector<StressSingularity<dim>> &unbounded)
 {
   std::string list;
-  for (const UnboundedStress<dim> &stress : unbounded)
+  for (const StressSingularity<dim> &stress : unbounded)
     list += (list.empty() ? "\n        " : ",\n        ") +
             ("{\"at\": " + json_point<dim>(stress.where)) +
             ", \"value\": " + json_number(stress.peak.value) +
@@ -259,7 +259,7 @@ std::string json_zones(const ContactState<dim> &state)
 template <int dim>
 std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
                  const Equilibrium<dim> &equilibrium,
-                 const std::vector<UnboundedStress<dim>> &unbounded)
+                 const std::vector<StressSingularity<dim>> &unbounded)
 {
   const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
   return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
@@ -307,7 +307,7 @@ std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
 template <int dim>
 std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
                              const Equilibrium<dim> &equilibrium,
-                             const std::vector<UnboundedStress<dim>> &unbounded)
+                             const std::vector<StressSingularity<dim>> &unbounded)
 {
   std::string words;
   for (const ContactState<dim> &state : contact)
@@ -325,7 +325,7 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
                                          : "force " + point_text(clean(reaction.force, scale)) +
                                                ", " + moment_text(reaction, equilibrium)) +
                plate_in_words(scene, reaction.boundary, equilibrium) + "\n";
-  for (const UnboundedStress<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
+  for (const StressSingularity<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
     words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
   return words;
 }
@@ -333,7 +333,7 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
 template <int dim>
 std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
                          const Equilibrium<dim> &equilibrium,
-                         const std::vector<UnboundedStress<dim>> &unbounded)
+                         const std::vector<StressSingularity<dim>> &unbounded)
 {
   std::string list;
   for (const ContactState<dim> &state : contact)
@@ -343,11 +343,11 @@ std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState
 }
 
 template <int dim>
-std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
-                           const std::vector<UnboundedStress<dim>> &unbounded)
+std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
+                           const std::vector<StressSingularity<dim>> &unbounded)
 {
   const auto largest =
-      std::find_if(peaks.begin(), peaks.end(),
+      std::find_if(extrema.begin(), extrema.end(),
                    [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
   return "{\n    \"largest\": " + json_number(largest->value) +
          ",\n    \"at\": " + json_point<dim>(largest->where) +
@@ -422,16 +422,18 @@ template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const 
                                                 const ContactState<2> &, double);
 template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,
                                       const Equilibrium<2> &,
-                                      const std::vector<UnboundedStress<2>> &);
+                                      const std::vector<StressSingularity<2>> &);
 template std::string contact_json(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                  const Equilibrium<2> &, const std::vector<UnboundedStress<2>> &);
+                                  const Equilibrium<2> &,
+                                  const std::vector<StressSingularity<2>> &);
 template std::string contact_in_words(const Scene<3> &, const std::vector<ContactState<3>> &,
                                       const Equilibrium<3> &,
-                                      const std::vector<UnboundedStress<3>> &);
+                                      const std::vector<StressSingularity<3>> &);
 template std::string contact_json(const Scene<3> &, const std::vector<ContactState<3>> &,
-                                  const Equilibrium<3> &, const std::vector<UnboundedStress<3>> &);
+                                  const Equilibrium<3> &,
+                                  const std::vector<StressSingularity<3>> &);
 template std::string von_mises_json(const std::vector<StressSample<2>> &,
-                                    const std::vector<UnboundedStress<2>> &);
+                                    const std::vector<StressSingularity<2>> &);
 template std::string von_mises_json(const std::vector<StressSample<3>> &,
-                                    const std::vector<UnboundedStress<3>> &);
+                                    const std::vector<StressSingularity<3>> &);
 } // namespace hpvi

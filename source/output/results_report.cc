@@ -82,7 +82,7 @@ std::string probe_in_words(const ProbeValue<dim> &value, const Scene<dim> &scene
 template <int dim>
 const StressSample<dim> &largest_von_mises(const StepReport<dim> &step)
 {
-  return *std::find_if(step.peaks.begin(), step.peaks.end(),
+  return *std::find_if(step.extrema.begin(), step.extrema.end(),
                        [](const auto &peak)
                        { return peak.boundary == numbers::invalid_boundary_id; });
 }
@@ -96,7 +96,7 @@ std::string extremes_in_words(const StepReport<dim> &step)
                       with_unit(displacement.value, scene.length_unit, shown_digits) +
                       (displacement.value > 0 ? " at " + to_string(displacement.where) : "") + "\n";
   if (std::none_of(step.unbounded.begin(), step.unbounded.end(),
-                   [](const UnboundedStress<dim> &stress)
+                   [](const StressSingularity<dim> &stress)
                    { return stress.peak.boundary == numbers::invalid_boundary_id; }))
   {
     const StressSample<dim> &stress = largest_von_mises(step);

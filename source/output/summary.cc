@@ -142,7 +142,7 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.largest_displacement = largest_displacement_json(step);
   ending.no_intervals = words_or_null(step.no_intervals);
-  ending.von_mises = von_mises_json(step.peaks, step.unbounded);
+  ending.von_mises = von_mises_json(step.extrema, step.unbounded);
 }
 
 template <int dim>

@@ -75,7 +75,7 @@ double round_off_of_estimate(const Field<dim> &field)
     if (boundary.is_unilateral()) // too far away to touch
       boundary.gap = expression<dim>(std::numeric_limits<double>::max());
   }
-  return norms(estimate_error(*field.last_bits(unloaded)), field.communicator()).total;
+  return norms(estimate_error(*field.round_off_probe(unloaded)), field.communicator()).total;
 }
 
 template double round_off_of_estimate(const Field<2> &);

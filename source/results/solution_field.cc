@@ -199,7 +199,8 @@ double SolutionField<dim>::contact_work() const
 }
 
 template <int dim>
-std::unique_ptr<const Field<dim>> SolutionField<dim>::last_bits(const Scene<dim> &unloaded) const
+std::unique_ptr<const Field<dim>>
+SolutionField<dim>::round_off_probe(const Scene<dim> &unloaded) const
 {
   const DisplacementSpace<dim> &space = solution.displacement_space;
   std::mt19937 random;

@@ -217,7 +217,8 @@ double MomentField<dim>::contact_work() const
 }
 
 template <int dim>
-std::unique_ptr<const Field<dim>> MomentField<dim>::last_bits(const Scene<dim> &unloaded) const
+std::unique_ptr<const Field<dim>>
+MomentField<dim>::round_off_probe(const Scene<dim> &unloaded) const
 {
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform(-1., 1.);

@@ -6,7 +6,7 @@
 #include <hpvi/driver/load_history.h>
 #include <hpvi/reader/closed_forms/hertz.h>
 #include <hpvi/results/contact_residuals.h>
-#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/stress_extrema.h>
 #include <hpvi/scene/bodies.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Hooke's law of orthotropic materials, beside tensors of fourth order that are turned component by component.
 #include <gtest/gtest.h>
-#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/stress_extrema.h>
 #include <hpvi/scene/material.h>
 
 #include <cmath>

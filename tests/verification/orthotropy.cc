@@ -234,7 +234,7 @@ std::vector<Outcome> outcomes(const Scene<2> &scene)
       {
         EXPECT_TRUE(step.bound) << step.no_bound;
         double largest = 0;
-        for (const auto &sample : step.peaks)
+        for (const auto &sample : step.extrema)
           largest = std::max(largest, sample.value);
         const Vector<double> &u = step.solution().u;
         result.push_back({step.energies.energy,

@@ -6,7 +6,7 @@
 #include <hpvi/driver/finished_loads.h>
 #include <hpvi/results/probe_value.h>
 #include <hpvi/results/resultant.h>
-#include <hpvi/results/unbounded_stress.h>
+#include <hpvi/results/stress_singularity.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -54,11 +54,11 @@ struct StepReport
   Warnings warnings{};      ///< of the last step: what in the result asks for care
   Equilibrium<dim> equilibrium{};
   LoadStep load{};
-  std::vector<StressSample<dim>> peaks{};        ///< stress_peaks()
-  std::vector<UnboundedStress<dim>> unbounded{}; ///< of the last step alone
-  std::vector<Resultant<dim>> forces{};          ///< the rows of forces.csv
-  std::vector<ProbeValue<dim>> probes{};         ///< of each of Scene::probes but lines
-  std::vector<ProbeLine<dim>> probe_lines{};     ///< of these
+  std::vector<StressSample<dim>> extrema{};        ///< stress_extrema()
+  std::vector<StressSingularity<dim>> unbounded{}; ///< of the last step alone
+  std::vector<Resultant<dim>> forces{};            ///< the rows of forces.csv
+  std::vector<ProbeValue<dim>> probes{};           ///< of each of Scene::probes but lines
+  std::vector<ProbeLine<dim>> probe_lines{};       ///< of these
   std::string no_intervals{}; ///< why forces and probes have no intervals; empty: some have
   /** Guaranteed intervals, of this step or of those before, that do not meet, in words: nothing is guaranteed; empty: all meet. */
   std::string contradiction{};

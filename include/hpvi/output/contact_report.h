@@ -4,7 +4,7 @@
 
 #include <hpvi/results/contact_state.h>
 #include <hpvi/results/equilibrium.h>
-#include <hpvi/results/unbounded_stress.h>
+#include <hpvi/results/stress_singularity.h>
 
 #include <optional>
 #include <string>
@@ -29,18 +29,18 @@ std::optional<dealii::Point<dim>> line_of_action(const BoundaryForce<dim> &bound
 template <int dim>
 std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
                              const Equilibrium<dim> &equilibrium,
-                             const std::vector<UnboundedStress<dim>> &unbounded);
+                             const std::vector<StressSingularity<dim>> &unbounded);
 
 /** The contact boundaries as the object of JSON with their names. */
 template <int dim>
 std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
                          const Equilibrium<dim> &equilibrium,
-                         const std::vector<UnboundedStress<dim>> &unbounded);
+                         const std::vector<StressSingularity<dim>> &unbounded);
 
 /** von Mises' stress as an object of JSON: the largest value, where, and which peaks are unbounded. */
 template <int dim>
-std::string von_mises_json(const std::vector<StressSample<dim>> &peaks,
-                           const std::vector<UnboundedStress<dim>> &unbounded);
+std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
+                           const std::vector<StressSingularity<dim>> &unbounded);
 
 /** Forces and moments of the loads and by boundary, an object of JSON. */
 template <int dim>

@@ -191,7 +191,7 @@ public:
    * A displacement that is random and as large as the last bit of u_N on each cell, without tractions, for
    * another scene @p unloaded.
    */
-  virtual std::unique_ptr<const Field> last_bits(const Scene<dim> &unloaded) const = 0;
+  virtual std::unique_ptr<const Field> round_off_probe(const Scene<dim> &unloaded) const = 0;
 
 protected:
   Field(const Scene<dim> &scene, const ShapeTables<dim> &tables,

@@ -34,7 +34,7 @@ public:
   const ShapeTable<dim> &multiplier_table(const FieldFace<dim> &face) const override;
   std::vector<PressureValue<dim>> pressures(const FieldFace<dim> &face) const override;
   double contact_work() const override;
-  std::unique_ptr<const Field<dim>> last_bits(const Scene<dim> &unloaded) const override;
+  std::unique_ptr<const Field<dim>> round_off_probe(const Scene<dim> &unloaded) const override;
 
 private:
   MomentField(const Scene<dim> &scene, const MomentSpace<dim> &space,

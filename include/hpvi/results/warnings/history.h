@@ -2,7 +2,7 @@
 #ifndef hpvi_history_h
 #define hpvi_history_h
 
-#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/stress_extrema.h>
 #include <hpvi/results/warnings/claim.h>
 
 #include <limits>
@@ -24,8 +24,8 @@ struct PastStep
   double seconds = 0;           ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
   double own_stress = 0;        ///< ErrorBound::own_stress
-  std::vector<StressSample<dim>> peaks = {}; ///< stress_peaks(): which ones grow without bound
-  Claims claims = {};                        ///< what it guarantees
+  std::vector<StressSample<dim>> extrema = {}; ///< stress_extrema(): which ones grow without bound
+  Claims claims = {};                          ///< what it guarantees
   /** Of these and those of steps before, contradiction(); then nothing is guaranteed from this step on. */
   std::string contradiction = {};
 };

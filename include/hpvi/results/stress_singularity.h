@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_unbounded_stress_h
-#define hpvi_unbounded_stress_h
+#ifndef hpvi_stress_singularity_h
+#define hpvi_stress_singularity_h
 
-#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/stress_extrema.h>
 
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace hpvi
 {
 /** A peak that grows with each step like a power of the size of cells, so that its value means nothing. */
 template <int dim>
-struct UnboundedStress
+struct StressSingularity
 {
   StressSample<dim> peak;   ///< of the last step
   dealii::Point<dim> where; ///< the vertex of the mesh next to it
@@ -27,22 +27,22 @@ struct UnboundedStress
  */
 template <int dim>
 std::vector<StressSample<dim>>
-growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps);
+growing_extrema(const std::vector<std::vector<StressSample<dim>>> &steps);
 
 /**
- * Those of @p peaks towards which the stress grows in the same way on the one mesh of @p field: by more than 15 % in each of three steps
+ * Those of @p extrema towards which the stress grows in the same way on the one mesh of @p field: by more than 15 % in each of three steps
  * from ring to ring, with the radii h, 2 h, 4 h, 8 h about the vertex next to it, h the length of its edge. Collective.
  */
 template <int dim>
-std::vector<StressSample<dim>> peaks_of_rings(const std::vector<StressSample<dim>> &peaks,
-                                              const std::vector<StressSample<dim>> &samples,
-                                              const Field<dim> &field);
+std::vector<StressSample<dim>> extrema_of_rings(const std::vector<StressSample<dim>> &extrema,
+                                                const std::vector<StressSample<dim>> &samples,
+                                                const Field<dim> &field);
 
-/** What there is to say of @p peaks, of which stress_samples() of @p field are @p samples. Collective. */
+/** What there is to say of @p extrema, of which stress_samples() of @p field are @p samples. Collective. */
 template <int dim>
-std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
-                                                     const std::vector<StressSample<dim>> &samples,
-                                                     const Field<dim> &field);
+std::vector<StressSingularity<dim>>
+stress_singularities(const std::vector<StressSample<dim>> &extrema,
+                     const std::vector<StressSample<dim>> &samples, const Field<dim> &field);
 } // namespace hpvi
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/results/contact_traces.h>
-#include <hpvi/results/unbounded_stress.h>
+#include <hpvi/results/stress_singularity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,12 +25,12 @@ bool grows_inwards(const std::vector<double> &largest)
   return largest[0] / largest[1] > 0.9 * largest[n_rings - 2] / largest[n_rings - 1];
 }
 
-/** The one of @p peaks, of the step before, that @p peak has grown from by more than 15 %; else null. */
+/** The one of @p extrema, of the step before, that @p peak has grown from by more than 15 %; else null. */
 template <int dim>
-const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &peaks,
+const StressSample<dim> *grown_from(const std::vector<StressSample<dim>> &extrema,
                                     const StressSample<dim> &peak)
 {
-  for (const StressSample<dim> &before : peaks) // the largest first
+  for (const StressSample<dim> &before : extrema) // the largest first
     if (before.boundary == peak.boundary && before.where.distance(peak.where) <= 2 * before.length)
       return peak.value > growth * before.value ? &before : nullptr;
   return nullptr;
@@ -70,7 +70,7 @@ double force_within(const StressSample<dim> &peak, const double radius, const Fi
 
 template <int dim>
 std::vector<StressSample<dim>>
-growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps)
+growing_extrema(const std::vector<std::vector<StressSample<dim>>> &steps)
 {
   const unsigned int n_steps = 3;
   std::vector<StressSample<dim>> result;
@@ -90,12 +90,12 @@ growing_peaks(const std::vector<std::vector<StressSample<dim>>> &steps)
 // A field like r^-a beside a vertex has the same growth from ring to ring around it on one mesh as from mesh to mesh beside the
 // vertex. One that is bounded grows less from ring to ring the nearer they are, as soon as cells are smaller than what rounds it.
 template <int dim>
-std::vector<StressSample<dim>> peaks_of_rings(const std::vector<StressSample<dim>> &peaks,
-                                              const std::vector<StressSample<dim>> &samples,
-                                              const Field<dim> &field)
+std::vector<StressSample<dim>> extrema_of_rings(const std::vector<StressSample<dim>> &extrema,
+                                                const std::vector<StressSample<dim>> &samples,
+                                                const Field<dim> &field)
 {
   std::vector<StressSample<dim>> result;
-  for (const StressSample<dim> &peak : peaks)
+  for (const StressSample<dim> &peak : extrema)
   {
     const Point<dim> centre = next_vertex(peak, field);
     std::vector<double> own(n_rings), largest(n_rings);
@@ -113,23 +113,23 @@ std::vector<StressSample<dim>> peaks_of_rings(const std::vector<StressSample<dim
 }
 
 template <int dim>
-std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSample<dim>> &peaks,
-                                                     const std::vector<StressSample<dim>> &samples,
-                                                     const Field<dim> &field)
+std::vector<StressSingularity<dim>>
+stress_singularities(const std::vector<StressSample<dim>> &extrema,
+                     const std::vector<StressSample<dim>> &samples, const Field<dim> &field)
 {
-  std::vector<UnboundedStress<dim>> result;
-  for (const StressSample<dim> &peak : peaks)
+  std::vector<StressSingularity<dim>> result;
+  for (const StressSample<dim> &peak : extrema)
   {
     const auto is_near = [&](const StressSample<dim> &sample)
     {
-      return std::any_of(peaks.begin(), peaks.end(),
+      return std::any_of(extrema.begin(), extrema.end(),
                          [&](const StressSample<dim> &other)
                          {
                            return other.boundary == sample.boundary &&
                                   other.where.distance(sample.where) <= reach(other, field.scene);
                          });
     };
-    UnboundedStress<dim> unbounded{
+    StressSingularity<dim> unbounded{
         peak, next_vertex(peak, field), 2 * peak.length, 0., reach(peak, field.scene), 0., {}};
     unbounded.force = force_within(peak, unbounded.within, field);
     for (const StressSample<dim> &sample : samples)
@@ -151,19 +151,19 @@ std::vector<UnboundedStress<dim>> unbounded_stresses(const std::vector<StressSam
 }
 
 template std::vector<StressSample<2>>
-growing_peaks(const std::vector<std::vector<StressSample<2>>> &);
-template std::vector<StressSample<2>> peaks_of_rings(const std::vector<StressSample<2>> &,
-                                                     const std::vector<StressSample<2>> &,
-                                                     const Field<2> &);
-template std::vector<StressSample<3>> peaks_of_rings(const std::vector<StressSample<3>> &,
-                                                     const std::vector<StressSample<3>> &,
-                                                     const Field<3> &);
-template std::vector<UnboundedStress<2>> unbounded_stresses(const std::vector<StressSample<2>> &,
-                                                            const std::vector<StressSample<2>> &,
-                                                            const Field<2> &);
+growing_extrema(const std::vector<std::vector<StressSample<2>>> &);
+template std::vector<StressSample<2>> extrema_of_rings(const std::vector<StressSample<2>> &,
+                                                       const std::vector<StressSample<2>> &,
+                                                       const Field<2> &);
+template std::vector<StressSample<3>> extrema_of_rings(const std::vector<StressSample<3>> &,
+                                                       const std::vector<StressSample<3>> &,
+                                                       const Field<3> &);
+template std::vector<StressSingularity<2>>
+stress_singularities(const std::vector<StressSample<2>> &, const std::vector<StressSample<2>> &,
+                     const Field<2> &);
 template std::vector<StressSample<3>>
-growing_peaks(const std::vector<std::vector<StressSample<3>>> &);
-template std::vector<UnboundedStress<3>> unbounded_stresses(const std::vector<StressSample<3>> &,
-                                                            const std::vector<StressSample<3>> &,
-                                                            const Field<3> &);
+growing_extrema(const std::vector<std::vector<StressSample<3>>> &);
+template std::vector<StressSingularity<3>>
+stress_singularities(const std::vector<StressSample<3>> &, const std::vector<StressSample<3>> &,
+                     const Field<3> &);
 } // namespace hpvi

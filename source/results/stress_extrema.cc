@@ -4,7 +4,7 @@
 #include <hpvi/results/contact_traces.h>
 #include <hpvi/results/elastic_strain.h>
 #include <hpvi/results/probe_value.h>
-#include <hpvi/results/stress_peak.h>
+#include <hpvi/results/stress_extrema.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +105,7 @@ std::vector<StressSample<dim>> stress_samples(const Field<dim> &field)
   if (n_processes(field.communicator()) == 1)
     return result;
   const auto all =
-      Utilities::MPI::all_gather(field.communicator(), stress_peaks(result, field.scene));
+      Utilities::MPI::all_gather(field.communicator(), stress_extrema(result, field.scene));
   for (unsigned int rank = 0; rank < all.size(); ++rank)
     if (rank != rank_of(field.communicator()))
       result.insert(result.end(), all[rank].begin(), all[rank].end());
@@ -119,8 +119,8 @@ double reach(const StressSample<dim> &peak, const Scene<dim> &scene)
 }
 
 template <int dim>
-std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>> &samples,
-                                            const Scene<dim> &scene)
+std::vector<StressSample<dim>> stress_extrema(const std::vector<StressSample<dim>> &samples,
+                                              const Scene<dim> &scene)
 {
   std::vector<StressSample<dim>> sorted = samples, result;
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -147,8 +147,8 @@ template std::vector<StressSample<2>> stress_samples(const Field<2> &);
 template std::vector<StressSample<3>> stress_samples(const Field<3> &);
 template double reach(const StressSample<2> &, const Scene<2> &);
 template double reach(const StressSample<3> &, const Scene<3> &);
-template std::vector<StressSample<2>> stress_peaks(const std::vector<StressSample<2>> &,
-                                                   const Scene<2> &);
-template std::vector<StressSample<3>> stress_peaks(const std::vector<StressSample<3>> &,
-                                                   const Scene<3> &);
+template std::vector<StressSample<2>> stress_extrema(const std::vector<StressSample<2>> &,
+                                                     const Scene<2> &);
+template std::vector<StressSample<3>> stress_extrema(const std::vector<StressSample<3>> &,
+                                                     const Scene<3> &);
 } // namespace hpvi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_stress_peak_h
-#define hpvi_stress_peak_h
+#ifndef hpvi_stress_extrema_h
+#define hpvi_stress_extrema_h
 
 #include <hpvi/results/field.h>
 
@@ -33,7 +33,7 @@ double von_mises(const Material &material, const dealii::SymmetricTensor<2, dim>
 /**
  * The largest pressure on each contact edge, where it presses, and von Mises' stress in each cell, at about
  * half as many Gauss points as u_N has nodes in a direction. On each process its own ones and the
- * stress_peaks() of the others. Collective.
+ * stress_extrema() of the others. Collective.
  */
 template <int dim>
 std::vector<StressSample<dim>> stress_samples(const Field<dim> &field);
@@ -47,8 +47,8 @@ double reach(const StressSample<dim> &peak, const Scene<dim> &scene);
  * the largest first.
  */
 template <int dim>
-std::vector<StressSample<dim>> stress_peaks(const std::vector<StressSample<dim>> &samples,
-                                            const Scene<dim> &scene);
+std::vector<StressSample<dim>> stress_extrema(const std::vector<StressSample<dim>> &samples,
+                                              const Scene<dim> &scene);
 } // namespace hpvi
 
 #endif

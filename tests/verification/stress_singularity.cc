@@ -30,23 +30,23 @@ Steps halved(const std::vector<double> &values, const types::boundary_id boundar
 
 TEST(GrowingPeaks, TakeThreeStepsOfFifteenPercent)
 {
-  EXPECT_EQ(growing_peaks(halved({1., 1.16, 1.35, 1.57})).size(), 1U);
-  EXPECT_TRUE(growing_peaks(halved({1.16, 1.35, 1.57})).empty());
-  EXPECT_TRUE(growing_peaks(halved({1.02, 1.16, 1.35, 1.57})).empty());
-  EXPECT_TRUE(growing_peaks(halved({1., 1.14, 1.35, 1.57})).empty());
-  EXPECT_TRUE(growing_peaks(halved({1., 1.16, 1.35, 1.5})).empty());
-  EXPECT_EQ(growing_peaks(halved({9., 9., 1., 1.2, 1.44, 1.73}, body)).at(0).value, 1.73);
+  EXPECT_EQ(growing_extrema(halved({1., 1.16, 1.35, 1.57})).size(), 1U);
+  EXPECT_TRUE(growing_extrema(halved({1.16, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_extrema(halved({1.02, 1.16, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_extrema(halved({1., 1.14, 1.35, 1.57})).empty());
+  EXPECT_TRUE(growing_extrema(halved({1., 1.16, 1.35, 1.5})).empty());
+  EXPECT_EQ(growing_extrema(halved({9., 9., 1., 1.2, 1.44, 1.73}, body)).at(0).value, 1.73);
 }
 
 TEST(GrowingPeaks, StayWhereTheyAre)
 {
   const std::vector<double> root = {1., 1.4, 2., 2.8};
-  EXPECT_EQ(growing_peaks(halved(root, 2, 0.1)).size(), 1U);
-  EXPECT_EQ(growing_peaks(halved(root, 2, 3.9)).size(), 1U); // 1.95 edges
-  EXPECT_TRUE(growing_peaks(halved(root, 2, 4.1)).empty());
+  EXPECT_EQ(growing_extrema(halved(root, 2, 0.1)).size(), 1U);
+  EXPECT_EQ(growing_extrema(halved(root, 2, 3.9)).size(), 1U); // 1.95 edges
+  EXPECT_TRUE(growing_extrema(halved(root, 2, 4.1)).empty());
   Steps elsewhere = halved(root);
   elsewhere[1][0].boundary = 1;
-  EXPECT_TRUE(growing_peaks(elsewhere).empty());
+  EXPECT_TRUE(growing_extrema(elsewhere).empty());
 }
 
 /** Two corners in turn the larger one: both grow. */
@@ -62,7 +62,7 @@ TEST(GrowingPeaks, MayBeTwoAtATime)
       std::swap(both[0], both[1]);
     steps.push_back(both);
   }
-  EXPECT_EQ(growing_peaks(steps).size(), 2U);
+  EXPECT_EQ(growing_extrema(steps).size(), 2U);
 }
 
 /** The largest, and what is out of its reach. */
@@ -75,7 +75,7 @@ TEST(StressPeaks, AreApart)
       {2, 8., Point<2>(1.049, 0), 1e-3}, {2, 7., Point<2>(1.051, 0), 1e-3},
       {2, 6., Point<2>(2, 0), 1e-3},     {body, 1., Point<2>(1, 0), 1.}};
   std::vector<double> values;
-  for (const Sample &peak : stress_peaks(samples, scene))
+  for (const Sample &peak : stress_extrema(samples, scene))
     values.push_back(peak.value);
   EXPECT_EQ(values, (std::vector<double>{9., 7., 6., 1.}));
 }
@@ -94,7 +94,7 @@ TEST(VonMises, OfABlockIsKnown)
                                 {"Boundary bottom/Displacement", "free; 0"},
                                 {"Boundary top/Traction", "0; -2"},
                                 {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { largest = step.peaks.at(0).value; });
+        .run([&](const StepReport<2> &step) { largest = step.extrema.at(0).value; });
     // sigma_yy = -2; under plane strain sigma_zz = -0.6
     const double expected = plane == "stress" ? 2. : std::sqrt(4. + 0.36 - 1.2);
     EXPECT_NEAR(largest, expected, 1e-9);
@@ -109,46 +109,46 @@ std::vector<std::vector<Sample>> growing(const Scene<2> &scene)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        steps.push_back(step.peaks);
-        result.push_back(growing_peaks(steps));
+        steps.push_back(step.extrema);
+        result.push_back(growing_extrema(steps));
       });
   return result;
 }
 
-bool holds_pressure(const std::vector<Sample> &peaks)
+bool holds_pressure(const std::vector<Sample> &extrema)
 {
-  return std::any_of(peaks.begin(), peaks.end(),
+  return std::any_of(extrema.begin(), extrema.end(),
                      [](const Sample &peak) { return peak.boundary != body; });
 }
 
-TEST(UnboundedStress, IsNeverSaidOfBoundedPressures)
+TEST(StressSingularity, IsNeverSaidOfBoundedPressures)
 {
   for (const std::string scene : {"hertz", "ssnv128"})
-    for (const auto &peaks : growing(shipped_scene(scene, {{"Adaptivity/Maximum steps", "9"}})))
-      EXPECT_FALSE(holds_pressure(peaks)) << scene;
-  for (const auto &peaks : growing(shipped_scene("hertz", {{"Adaptivity/Maximum steps", "9"}})))
-    EXPECT_TRUE(peaks.empty());
+    for (const auto &extrema : growing(shipped_scene(scene, {{"Adaptivity/Maximum steps", "9"}})))
+      EXPECT_FALSE(holds_pressure(extrema)) << scene;
+  for (const auto &extrema : growing(shipped_scene("hertz", {{"Adaptivity/Maximum steps", "9"}})))
+    EXPECT_TRUE(extrema.empty());
 }
 
 /** The edge of the punch: the last edges carry little, and what is away from it has converged. */
-TEST(UnboundedStress, IsSaidOfPunches)
+TEST(StressSingularity, IsSaidOfPunches)
 {
   for (const std::string scene : {"punch", "punch-friction"})
     for (const std::string steps : {"9", "12"})
     {
-      std::vector<UnboundedStress<2>> pressures;
+      std::vector<StressSingularity<2>> pressures;
       double force = 0;
       AdaptiveSolver<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", steps}}))
           .run(
               [&](const StepReport<2> &step)
               {
                 force = -step.contact.at(0).normal_resultant;
-                for (const UnboundedStress<2> &stress : step.unbounded)
+                for (const StressSingularity<2> &stress : step.unbounded)
                   if (stress.peak.boundary != body)
                     pressures.push_back(stress);
               });
       ASSERT_EQ(pressures.size(), 1U) << scene << " after " << steps;
-      const UnboundedStress<2> &edge = pressures[0];
+      const StressSingularity<2> &edge = pressures[0];
       EXPECT_EQ(edge.where, (Point<2>(1, 0)));
       EXPECT_GT(edge.peak.value, 20.);
       EXPECT_GT(edge.force, 0.);
@@ -192,7 +192,7 @@ const Overrides block_on_block = {{"Body foot/Lower corner", "-1, 0"},
  * Places where a run ends with unbounded pressures, and the largest pressure away from them: in each load step of a history with one mesh
  * or with several as in the static run under the load of its end. Loads are proportional, and friction or none makes no other corner.
  */
-TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
+TEST(StressSingularity, IsSeenInHistoriesAsWithoutThem)
 {
   struct Row
   {
@@ -230,7 +230,7 @@ TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
     const auto unbounded = [](const StepReport<2> &step)
     {
       std::vector<Place> places;
-      for (const UnboundedStress<2> &stress : step.unbounded)
+      for (const StressSingularity<2> &stress : step.unbounded)
         if (stress.peak.boundary != body)
           places.emplace_back(stress.where, stress.largest);
       std::sort(places.begin(), places.end(),
@@ -262,7 +262,7 @@ TEST(UnboundedStress, IsSeenInHistoriesAsWithoutThem)
 }
 
 /** von Mises' stress of Example 5.2 at its clamped corner; and as text. */
-TEST(UnboundedStress, OfVonMisesIsSaidAtAClampedCorner)
+TEST(StressSingularity, OfVonMisesIsSaidAtAClampedCorner)
 {
   std::string words, json;
   bool found = false;
@@ -270,13 +270,13 @@ TEST(UnboundedStress, OfVonMisesIsSaidAtAClampedCorner)
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {
-        for (const UnboundedStress<2> &stress : step.unbounded)
+        for (const StressSingularity<2> &stress : step.unbounded)
           found = found ||
                   (stress.peak.boundary == body && stress.force == 0. && stress.where[0] == 4.);
         if (step.stopped_by.empty())
           return;
         words = contact_in_words(scene, step.contact, step.equilibrium, step.unbounded);
-        json = von_mises_json(step.peaks, step.unbounded);
+        json = von_mises_json(step.extrema, step.unbounded);
       });
   EXPECT_TRUE(found);
   EXPECT_NE(words.find("\nvon Mises' stress is unbounded at (4 "), std::string::npos) << words;
